@@ -13,6 +13,7 @@
 #include "api/sized.hpp"
 #include "api/surface_mesh.hpp"
 #include "base/samples.hpp"
+#include "base/white_level.hpp"
 #include "codec/mesh/screen/screen_weights.hpp"
 #include "codec/mesh/void_mesh.hpp"
 
@@ -46,17 +47,20 @@ Status takeTexture(const tks_image& given, tks_image& out) {
             "A texture has sides of at most " + std::to_string(kMostTexels) + " texels."};
   if (out.channels < 1 || out.channels > 4 || (out.sample != TKS_U8 && out.sample != TKS_U16))
     return {TKS_USAGE, "A texture has 1 to 4 channels of 8 or 16 bits a sample."};
+  if (out.white_level > largestTexel(out.sample))
+    return {TKS_USAGE, "The white level of a texture is none of its values."};
   return {};
 }
 
-/// How bright each texel is, in 8 bits.
+/// How bright each texel is, in 8 bits. The image has a white level.
 GroundImage brightnessOf(const tks_image& image) {
   GroundImage brightness;
   withSampleType(image.sample, [&](auto type) {
     using Sample = decltype(type);
     const auto* samples = static_cast<const Sample*>(image.data);
-    const int shift = sizeof(Sample) == 1 ? 0 : 8;
-    const auto sample = [&](size_t i) { return static_cast<uint32_t>(samples[i]) >> shift; };
+    const auto sample = [&](size_t i) {
+      return shownIn8Bits(static_cast<uint32_t>(samples[i]), image.white_level);
+    };
     brightness = GroundImage::of(image.width, image.height, image.channels, sample);
   });
   return brightness;
@@ -86,11 +90,18 @@ class ScreenMeshCall {
     tks_image texture{};
     if (screen.texture != nullptr) {
       if (Status status = takeTexture(*screen.texture, texture); !status.ok()) return status;
+      if (texture.white_level == 0) texture.white_level = whiteLevelBeside(texture.sample);
     }
     return make(*lattice, *cameras, texture, out);
   }
 
  private:
+  /// That of the stream's texture, if its samples are of this type.
+  uint32_t whiteLevelBeside(tks_sample sample) const {
+    const auto& texture = decoder_.parsed.header.texture;
+    return texture && texture->sample == sample ? texture->white() : largestTexel(sample);
+  }
+
   /// texture: without data if there is none.
   Status make(const Lattice& lattice, const std::vector<tks_screen_camera>& cameras,
               const tks_image& texture, tks_mesh& out) {

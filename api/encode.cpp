@@ -12,6 +12,7 @@
 #include "api/message.hpp"
 #include "api/proof.hpp"
 #include "api/sized.hpp"
+#include "base/white_level.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/georeference.hpp"
 #include "bitstream/stream/texture_header.hpp"
@@ -76,6 +77,9 @@ Status checkImage(const tks_image& i) {
     return misuse("A texture of " + std::to_string(i.width) + " x " + std::to_string(i.height) +
                   " texels: each side takes 1 to " + std::to_string(kMaxTextureSide) + ".");
   }
+  const uint32_t largest = largestTexel(i.sample);
+  if (i.white_level > largest || (i.sample == TKS_U8 && i.white_level % largest != 0))
+    return misuse("The white level of a texture is 255 of 8 bits, and 1 to 65535 of 16.");
   if (Status place = checkPlace("texture", i); !place.ok()) return place;
   return checkTexts("texture", {i.crs, i.geo_keys});
 }
@@ -123,6 +127,11 @@ Status takeHeights(const tks_heights& given, tks_heights& out) {
   return status.ok() ? checkHeights(out) : status;
 }
 
+Status takeImage(const tks_image& given, tks_image& out) {
+  const Status status = takeSized("the texture", given, offsetof(tks_image, geotransform), out);
+  return status.ok() ? checkImage(out) : status;
+}
+
 Status takeArguments(const tks_heights* heights, const tks_image* image,
                      const tks_encode_options* options, Arguments& out) {
   if (options == nullptr) return misuse("The encoding options are missing.");
@@ -133,10 +142,9 @@ Status takeArguments(const tks_heights* heights, const tks_image* image,
   if (status.ok()) status = checkOptions(out.options, heights != nullptr);
   if (status.ok()) status = checkWindows(out.options, image != nullptr);
   if (status.ok() && heights != nullptr) status = takeHeights(*heights, out.heights);
-  if (status.ok() && image != nullptr) {
-    status = takeSized("the texture", *image, offsetof(tks_image, geotransform), out.image);
-    if (status.ok()) status = checkImage(out.image);
-  }
+  if (status.ok() && image != nullptr) status = takeImage(*image, out.image);
+  if (status.ok() && image != nullptr && out.image.white_level == 0)
+    out.image.white_level = findWhiteLevel(out.image);
   return status;
 }
 
@@ -171,6 +179,18 @@ tks_status tks_encode(const tks_heights* heights, const tks_image* image,
   const tetrakis::Status status =
       tetrakis::guarded([&] { return tetrakis::encodeAndProve(heights, image, options, out); });
   return tetrakis::report(status, message, message_size);
+}
+
+uint32_t tks_find_white_level(const tks_image* image) {
+  if (image == nullptr) return 0;
+  tks_image known;
+  uint32_t found = 0;
+  const tetrakis::Status status = tetrakis::guarded([&] {
+    tetrakis::Status taken = tetrakis::takeImage(*image, known);
+    if (taken.ok()) found = tetrakis::findWhiteLevel(known);
+    return taken;
+  });
+  return status.ok() ? found : 0;
 }
 
 tks_status tks_find_outliers(const tks_heights* heights, tks_outliers* out) {

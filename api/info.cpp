@@ -48,7 +48,7 @@ void fillQuality(const tks_decoder& decoder, tks_info& info) {
   if (const auto quality = qualities[0]; quality && header.geometry)
     info.heights_rmse = heightsRmse(header, rmseOf(*quality));
   if (const auto quality = qualities[1]; quality && header.texture) {
-    const double peak = header.texture->sample == TKS_U8 ? 255 : 65535;
+    const double peak = header.texture->white();
     const double rmse = rmseOf(*quality);
     info.texture_psnr =
         rmse == 0 ? std::numeric_limits<double>::infinity() : 20 * std::log10(peak / rmse);
@@ -167,6 +167,7 @@ void fillTexture(const tks_decoder& decoder, tks_info& info) {
   info.texture_regions = sideOf(texture.regions);
   info.texture_channels = texture.channels;
   info.texture_opaque = !texture.hasAlpha();
+  info.texture_white_level = texture.white();
   info.texture_cutout = texture.alpha_bytes > 0 ? 1 + texture.hidden : 0;
   info.texture_drawn = codingOf(texture);
   info.texture_sample = static_cast<tks_sample>(texture.sample);

@@ -16,10 +16,13 @@ struct Texels {
   uint32_t width = 0, height = 0, channels = 0;
   int bits = 8;
   std::vector<uint16_t> samples;
-  bool opaque = false;  ///< no channel is alpha
+  bool opaque = false;       ///< no channel is alpha
+  uint16_t white_level = 0;  ///< what shows as white (base/white_level.hpp); 0: most()
 
   bool hasAlpha() const { return channels % 2 == 0 && !opaque; }
   Extent extent() const { return {width, height}; }
+  /// What errors are measured against.
+  uint16_t white() const { return white_level > 0 ? white_level : most(); }
   /// The largest value that a sample may have.
   uint16_t most() const { return static_cast<uint16_t>((1u << bits) - 1); }
 };

@@ -14,9 +14,10 @@ Texels decodeStoredTexture(const TextureHeader& header, std::span<const uint8_t>
                 channels,
                 bits,
                 {},
-                header.opaque};
+                header.opaque,
+                header.white_level};
   const BytePlanes words(codeword, size_t{header.width} * header.height * channels, bits / 8);
-  const auto unknown = static_cast<uint16_t>(1u << (bits - 1));
+  const auto unknown = static_cast<uint16_t>((texels.white() + 1) / 2);
   texels.samples.reserve(size_t{texels.width} * texels.height * channels);
   for (uint32_t y = 0; y < header.height; y += step) {
     for (uint32_t x = 0; x < header.width; x += step) {

@@ -21,6 +21,7 @@ EncodedTexture encodeStoredTexture(const Texels& texels) {
   header.height = texels.height;
   header.channels = static_cast<uint8_t>(texels.channels);
   header.opaque = texels.opaque;
+  header.white_level = texels.white_level;
   header.sample = texels.bits == 8 ? TKS_U8 : TKS_U16;
   header.planes = kDrawnPlanes;
   header.stored = true;

@@ -59,8 +59,8 @@ void finishAlpha(std::span<const uint8_t> seen, Texels& texels) {
 }
 
 Texels emptyTexels(const TextureHeader& header, Extent extent) {
-  return {extent.width, extent.height, header.channels, header.sample == TKS_U8 ? 8 : 16,
-          {},           header.opaque};
+  return {extent.width, extent.height, header.channels,   header.sample == TKS_U8 ? 8 : 16,
+          {},           header.opaque, header.white_level};
 }
 
 /// Drawn and stored textures, which know levels but no windows.

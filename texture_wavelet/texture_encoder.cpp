@@ -98,6 +98,7 @@ TextureHeader textureHeaderOf(const WaveletCoding& coding, const ColourPlanes& c
   header.height = source.texels.height;
   header.channels = static_cast<uint8_t>(source.texels.channels);
   header.opaque = source.texels.opaque;
+  header.white_level = source.texels.white_level;
   header.sample = source.texels.bits == 8 ? TKS_U8 : TKS_U16;
   header.wavelet = colours.wavelet;
   describeColour(colours.colour, header);
@@ -217,7 +218,7 @@ void prepend(std::span<const uint8_t> opening, double worth, EncodedTrack& track
 /// The track with the mask of a cut-out first, then the overlay: without them alphas are all wrong,
 /// and colours off by half the range.
 EncodedTrack withOpening(const Opening& opening, const Texels& texels, EncodedTrack track) {
-  const double most = texels.most();
+  const double most = texels.white();
   const auto samples = static_cast<double>(texels.samples.size());
   prepend(opening.overlay, most * most / 4 * samples, track);
   prepend(opening.alpha, most * most * samples / texels.channels, track);

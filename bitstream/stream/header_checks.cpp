@@ -124,6 +124,8 @@ Status checkTexture(const StreamHeader& header) {
   if (t.sample != TKS_U8 && t.sample != TKS_U16) {
     return {TKS_CORRUPT, "Corrupt stream: the texture's sample type is neither u8 nor u16."};
   }
+  if (t.white_level > 0 && t.sample != TKS_U16)
+    return {TKS_CORRUPT, "Corrupt stream: a texture of 8 bits has a white level."};
   if (t.direct() && (t.regions.side_log2 > 0 || t.weights.levels > 0 || !t.priorities.none() ||
                      t.tables.present)) {
     return {TKS_CORRUPT,

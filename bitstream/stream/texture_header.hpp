@@ -86,8 +86,9 @@ struct TextureHeader {
   /// Cut-out: alpha is 0 or the largest value, and no colour plane. A mask of so many bytes
   /// says which, ahead of the coefficients. 0: alpha, if there is one, is the last colour plane.
   uint64_t alpha_bytes = 0;
-  uint8_t hidden = 0;   ///< of a cut-out: colours where alpha is 0 are not coded
-  bool opaque = false;  ///< no channel is alpha: the last of 2 or 4 is a further colour
+  uint8_t hidden = 0;        ///< of a cut-out: colours where alpha is 0 are not coded
+  bool opaque = false;       ///< no channel is alpha: the last of 2 or 4 is a further colour
+  uint16_t white_level = 0;  ///< of 16 bits: what shows as white (base/white_level.hpp); 0: 65535
   /// Bytes of the overlay, drawn over what the coefficients make, which stop at its border.
   uint64_t overlay_bytes = 0;
   /// The reach of bridges over texels that are hidden or drawn over (wavelet/bridges.hpp); 0: none.
@@ -96,6 +97,8 @@ struct TextureHeader {
 
   Extent extent() const { return {width, height}; }
   Extent shown() const { return repeats.none() ? extent() : repeats.shown; }
+  /// What pictures show as white.
+  uint32_t white() const { return white_level > 0 ? white_level : (1u << sampleBits()) - 1; }
   int sampleBits() const { return sample == TKS_U8 ? 8 : 16; }
   uint32_t colourPlanes() const { return channels - (alpha_bytes > 0 ? 1u : 0u); }
   bool hasAlpha() const { return channels % 2 == 0 && !opaque; }
@@ -108,10 +111,11 @@ struct TextureHeader {
     v.varint("texture_width", lines.whole.width, 1, kMaxTextureSide);
     v.varint("texture_height", lines.whole.height, 1, kMaxTextureSide);
     const Alpha alpha = visitChannels(v);
-    auto type = static_cast<uint8_t>(sample + (tables.present ? kWithTables : 0) +
-                                     (lines.repeated() ? kWithRepeats : 0) +
-                                     (bridge > 0 ? kWithBridges : 0));
-    v.u8("texture_sample", type, 0, kWithBridges + kWithRepeats + kWithTables + TKS_U16);
+    auto type = static_cast<uint8_t>(
+        sample + (tables.present ? kWithTables : 0) + (lines.repeated() ? kWithRepeats : 0) +
+        (bridge > 0 ? kWithBridges : 0) + (white_level > 0 ? kWithWhite : 0));
+    v.u8("texture_sample", type, 0,
+         kWithWhite + kWithBridges + kWithRepeats + kWithTables + TKS_U16);
     sample = type % kWithTables;
     tables.present = (type & kWithTables) != 0;
     const bool bridges = (type & kWithBridges) != 0;
@@ -119,6 +123,7 @@ struct TextureHeader {
     const Extent coded = lines.visitMap(v, (type & kWithRepeats) != 0);
     width = coded.width;
     height = coded.height;
+    if (type & kWithWhite) v.varint("white_level", white_level, 1, kMostWhite);
     const uint8_t overlaid = kDrawnPlanes + 1;
     auto coding = static_cast<uint8_t>(
         (stored ? kStoredTexture : planes + (overlay_bytes > 0 ? overlaid : 0)) +
@@ -150,9 +155,11 @@ struct TextureHeader {
   /// The texture was coded without a transform: drawn or stored.
   bool direct() const { return planes == kDrawnPlanes; }
 
-  static constexpr uint8_t kWithTables = 4;       ///< bit beside the type of the samples
-  static constexpr uint8_t kWithRepeats = 8;      ///< another one
-  static constexpr uint8_t kWithBridges = 16;     ///< a third one
+  static constexpr uint8_t kWithTables = 4;    ///< bit beside the type of the samples
+  static constexpr uint8_t kWithRepeats = 8;   ///< another one
+  static constexpr uint8_t kWithBridges = 16;  ///< a third one
+  static constexpr uint8_t kWithWhite = 32;    ///< a fourth one
+  static constexpr uint64_t kMostWhite = 0xfffe;
   static constexpr uint8_t kWithPriorities = 64;  ///< bit beside the number of bit-planes
   static constexpr int64_t kMaxPriority = 128;
   static constexpr uint8_t kOrders = 6;      ///< of channels

@@ -136,6 +136,7 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
     picture = enlarged(picture, vector_case.texel_copies);
     image = picture.image();
     image.opaque = vector_case.opaque;
+    image.white_level = vector_case.white_level;
   }
   if (vector_case.placed) placeBoth(vector_case.heights.has_value(), heights, image);
   tks_encode_options options = vector_case.options;

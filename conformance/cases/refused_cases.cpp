@@ -222,6 +222,10 @@ std::vector<VectorCase> refusedHeaders() {
   });
   refuse("registration", "a registration that there is not",
          [](StreamHeader& h) { h.georeference.heights.registration = 3; });
+  refuse("white_level", "a texture of 8 bits with a white level", [](StreamHeader& h) {
+    h = textureHeader(9, 9, 1, TKS_U8, 8);
+    h.texture->white_level = 200;
+  });
   refuse("drawn_tables", "a drawn texture with tables of values", [](StreamHeader& h) {
     h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
     h.texture->tables.present = true;

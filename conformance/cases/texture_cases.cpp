@@ -70,6 +70,32 @@ VectorCase copied(VectorCase vector_case, uint32_t across, uint32_t down) {
   return vector_case;
 }
 
+/// Of 16 bits, of which the pictures show a part.
+VectorCase shownFrom(VectorCase vector_case, uint32_t white_level) {
+  vector_case.white_level = white_level;
+  return vector_case;
+}
+
+std::vector<VectorCase> whiteLevelCases() {
+  const auto image = [](Pattern pattern, uint32_t channels) {
+    return Recipe{pattern, 31, 27, channels, TKS_U16, 7};
+  };
+  return {
+      shownFrom(textureCase("white_rgb16_budget_31x27", "a white level, cut by a byte budget",
+                            image(Pattern::kRidges, 3), budget(900)),
+                4095),
+      shownFrom(
+          copied(textureCase("white_copied_grey16_31x27", "a white level beside repeated lines",
+                             image(Pattern::kRidges, 1), lossless()),
+                 2, 1),
+          3000),
+      shownFrom(textureCase("white_stored_rgb16_31x27",
+                            "stored samples, of which the unknown are half of the white level",
+                            image(Pattern::kExtreme, 3), lossless()),
+                1000),
+  };
+}
+
 std::vector<VectorCase> copiedTexelsCases() {
   const auto image = [](Pattern pattern, uint32_t channels, tks_sample sample) {
     return Recipe{pattern, 33, 26, channels, sample, 7};
@@ -165,7 +191,7 @@ std::vector<VectorCase> textureCases() {
       weighted(textureCase("weights_rgba_70x40", "bands of each component have priorities",
                            image(Pattern::kRidges, 70, 40, 4, TKS_U8), budget(1500))),
   };
-  for (auto some : {fewTexelsCases(), copiedTexelsCases(), furtherColourCases()})
+  for (auto some : {fewTexelsCases(), copiedTexelsCases(), furtherColourCases(), whiteLevelCases()})
     for (VectorCase& each : some) cases.push_back(std::move(each));
   return cases;
 }

@@ -37,6 +37,7 @@ struct VectorCase {
   uint32_t levels = 0;  ///< > 0: u8 texels become samples of `levels_of` with so many values
   tks_sample levels_of = TKS_U8;
   bool opaque = false;                ///< the texture has no alpha
+  uint32_t white_level = 0;           ///< of the texture; 0: found
   uint32_t texel_copies[2] = {1, 1};  ///< the image is enlarged so many times, across and down
   double nodata = NAN;                ///< the value of voids; a number is declared
   bool apart = false;                 ///< valid samples that equal nodata are changed

@@ -175,11 +175,14 @@ TextureHeader readTexture(Reader& in) {
   t.opaque = kind > 6;
   t.channels = t.opaque ? 2 * (kind - 6) : cutout ? 2 * (kind - 4) : kind;
   t.colourPlanes = t.channels - cutout;
-  const int type = in.u8(0, 30);
+  const int type = in.u8(0, 62);
   const bool tables = type & 4, bridges = type & 16;
   t.sample = type % 4;
   if (t.sample != kU8 && t.sample != kU16) in.fail(Outcome::kCorrupt);
   if (type & 8) readLines(in, t);
+  t.white = t.sample == kU8 ? 255 : 65535;
+  if (type & 32) t.white = static_cast<int>(in.varint(1, 65534));
+  if (type & 32 && t.sample != kU16) in.fail(Outcome::kCorrupt);
   const int all = in.u8(0, 126), coding = all % 64;
   t.planes = coding % 32;
   t.stored = coding == 63;

@@ -90,6 +90,7 @@ struct TextureHeader {
   bool hidden = false;
   bool opaque = false;  ///< the last of two or four channels is no alpha
   int bridge = 0;       ///< 0: none
+  int white = 0;        ///< the value that pictures show as white
   WaveletHeader wavelet;
   PriorityHeader priorities;
   RegionHeader regions;

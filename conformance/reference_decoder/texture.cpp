@@ -115,13 +115,12 @@ std::vector<uint8_t> decodeStored(const TextureHeader& header, std::span<const u
   for (size_t i = 0; i < count; ++i) {
     const size_t texel = i / header.channels;
     if (texel % header.width % step != 0 || texel / header.width % step != 0) continue;
-    const int high = i < bytes.size() ? bytes[i] : 0x80;
-    const int missing = i < bytes.size() ? 0x80 : 0;
-    if (width == 2) {
-      const int low = i + count < bytes.size() ? bytes[i + count] : missing;
-      out.push_back(static_cast<uint8_t>(low));
-    }
-    out.push_back(static_cast<uint8_t>(high));
+    int value = (header.white + 1) / 2;
+    if (i < bytes.size() && width == 1) value = bytes[i];
+    if (i < bytes.size() && width == 2)
+      value = bytes[i] << 8 | (i + count < bytes.size() ? bytes[i + count] : 0x80);
+    if (width == 2) out.push_back(static_cast<uint8_t>(value & 255));
+    out.push_back(static_cast<uint8_t>(value >> (width == 2 ? 8 : 0)));
   }
   return out;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A dataset of GDAL as the texture of a stream.
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <numeric>
 #include <vector>
@@ -64,6 +65,8 @@ std::unique_ptr<CopiedTexture> copyTexels(GDALDataset& dataset) {
   image.channels = static_cast<uint32_t>(dataset.GetRasterCount() + addsAlpha(dataset));
   image.sample = dataset.GetRasterBand(1)->GetRasterDataType() == GDT_Byte ? TKS_U8 : TKS_U16;
   image.opaque = !addsAlpha(dataset) && !hasAlpha(dataset);
+  if (const char* const white = dataset.GetMetadataItem("WHITE_LEVEL", "TKS"))
+    image.white_level = static_cast<uint32_t>(std::strtoul(white, nullptr, 10));
   if (!readTexels(dataset, *copy)) return nullptr;
   if (const OGRSpatialReference* const system = dataset.GetSpatialRef())
     copy->crs = crsTexts(*system);

@@ -70,6 +70,18 @@ std::optional<double> boundOf(const std::string& name, const Parts& parts, doubl
   return left * parts.scale();
 }
 
+/// With the level that was asked for. Nothing after a reported error.
+std::optional<Parts> withWhiteLevel(Parts parts, const std::string& name,
+                                    const CopySettings& settings) {
+  if (settings.white_level == 0) return parts;
+  if (!parts.texture) {
+    reportFailure(TKS_USAGE, name, "WHITE_LEVEL is of a texture, and there is none.");
+    return std::nullopt;
+  }
+  parts.texture->image.white_level = settings.white_level;
+  return parts;
+}
+
 /// A picture alone. Nothing after a reported error.
 std::optional<Parts> readPicture(const std::string& name, GDALDataset& source,
                                  const CopySettings& settings) {
@@ -82,7 +94,8 @@ std::optional<Parts> readPicture(const std::string& name, GDALDataset& source,
   }
   Parts parts;
   parts.texture = copyPicture(name, source);
-  return parts.texture ? std::optional(std::move(parts)) : std::nullopt;
+  if (!parts.texture) return std::nullopt;
+  return withWhiteLevel(std::move(parts), name, settings);
 }
 
 /// Nothing after a reported error.
@@ -92,9 +105,9 @@ std::optional<Parts> readParts(const std::string& name, GDALDataset& source, boo
   Parts parts;
   parts.heights = copyHeights(name, source, strict, progress);
   if (!parts.heights) return std::nullopt;
-  if (settings.texture.empty()) return parts;
-  parts.texture = copyTexture(name, settings.texture, source);
-  return parts.texture ? std::optional(std::move(parts)) : std::nullopt;
+  if (!settings.texture.empty()) parts.texture = copyTexture(name, settings.texture, source);
+  if (!settings.texture.empty() && !parts.texture) return std::nullopt;
+  return withWhiteLevel(std::move(parts), name, settings);
 }
 
 bool encode(const std::string& name, const Parts& parts, CopySettings settings, Watch watch,

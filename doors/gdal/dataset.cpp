@@ -140,6 +140,8 @@ void Dataset::takeFacts() {
   if (registration == TKS_REGISTRATION_POINT) texts_.registration = GDALMD_AOP_POINT;
   if (!texts_.registration.empty())
     GDALDataset::SetMetadataItem(GDALMD_AREA_OR_POINT, texts_.registration.c_str());
+  if (!isHeights() && info.texture_white_level < UINT16_MAX && info.texture_sample == TKS_U16)
+    GDALDataset::SetMetadataItem("WHITE_LEVEL", CPLSPrintf("%u", info.texture_white_level), "TKS");
   if (!isHeights()) return;
   if (*info.vertical_datum != '\0')
     GDALDataset::SetMetadataItem("VERTICAL_DATUM", info.vertical_datum, "TKS");

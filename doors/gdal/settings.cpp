@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "doors/gdal/settings.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -29,6 +30,8 @@ const char* const kCreationOptions =
     "<Option name='PSNR' type='float' description='Quality of heights and texture, in dB'/>"
     "<Option name='TEXTURE' type='string' description='Dataset with an image over the same ground, "
     "of 1 to 4 bands of Byte or UInt16'/>"
+    "<Option name='WHITE_LEVEL' type='int' description='Value of a texture of UInt16 that shows as "
+    "white; found if not given'/>"
     "<Option name='BLOCKSIZE' type='string' description='Side of the regions that can be read by "
     "themselves: a power of two from 16 to 1048576, or NONE; chosen if not given'/>"
     "<Option name='INDEX' type='string-select' default='NO' description='Write the byte ranges of "
@@ -186,6 +189,8 @@ std::optional<CopySettings> copySettings(const std::string& name, CSLConstList o
     given.refuse("INDEX=WINDOWS lays out regions, and BLOCKSIZE=NONE says that there are none.");
   encode.threads = given.threads();
   if (const char* const texture = given.text("TEXTURE")) settings.texture = texture;
+  const uint64_t white = given.count("WHITE_LEVEL", "value of UInt16 above 0");
+  settings.white_level = static_cast<uint32_t>(std::min<uint64_t>(white, UINT32_MAX));
   return given.good() ? std::optional(settings) : std::nullopt;
 }
 

@@ -18,8 +18,9 @@ std::optional<OpenSettings> openSettings(const std::string& name, CSLConstList o
 
 struct CopySettings {
   tks_encode_options encode;
-  double max_z_error = 0;  ///< in samples; 0: none
-  std::string texture;     ///< a dataset; "": none
+  double max_z_error = 0;    ///< in samples; 0: none
+  std::string texture;       ///< a dataset; "": none
+  uint32_t white_level = 0;  ///< of a texture; 0: as its dataset says, or found
 };
 
 /// Nothing after a reported error.

@@ -26,6 +26,8 @@ CodedTexture codedBy(std::shared_ptr<const TextureSource> source, EncodedTexture
 std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image) {
   Texels texels{image.width, image.height,     image.channels, image.sample == TKS_U8 ? 8 : 16,
                 {},          image.opaque != 0};
+  if (image.white_level < texels.most())
+    texels.white_level = static_cast<uint16_t>(image.white_level);
   const size_t count = size_t{image.width} * image.height * image.channels;
   withSampleType(image.sample, [&](auto type) {
     const auto* from = static_cast<const decltype(type)*>(image.data);
@@ -89,7 +91,7 @@ double squaresOf(const CodedTexture& texture, const Codewords& prefix, uint32_t 
 bool reachesPsnr(const EncodeInputs& inputs, const CodedTexture& texture, const Codewords& prefix) {
   const double squares = squaresOf(texture, prefix, inputs.options.threads);
   return squares / texture.counted() * inputs.heaviestTexel() <=
-         worstMeanSquare(texture.source->texels.most(), inputs.options.psnr);
+         worstMeanSquare(texture.source->texels.white(), inputs.options.psnr);
 }
 
 }  // namespace tetrakis::inline textures

@@ -20,7 +20,7 @@ TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) 
           .windows = regions.windows,
           .visual = options.weights == TKS_WEIGHTS_VISUAL,
           .room = inputs.budgeted() ? options.bytes : UINT64_MAX,
-          .mean_square = to_psnr ? worstMeanSquare(texels.most(), options.psnr) / heaviest : 0,
+          .mean_square = to_psnr ? worstMeanSquare(texels.white(), options.psnr) / heaviest : 0,
           .priorities = some_first ? &priorities->texture : nullptr};
 }
 

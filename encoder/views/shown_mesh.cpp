@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "base/white_level.hpp"
 #include "codec/mesh/budget_mesh.hpp"
 #include "codec/mesh/screen/screen_weights.hpp"
 #include "codec/mesh/screen_mesh.hpp"
@@ -56,9 +57,9 @@ ShownMesh::ShownMesh(const EncodeInputs& inputs, const QuantisedHeights& heights
   if (inputs.options.camera_count == 0) {
     level_ = budgetMeshLevel(*lattice, inputs.options.triangles);
   } else {
-    const int shift = texels.bits - 8;
+    const uint32_t white = texels.white();
     image_ = GroundImage::of(texels.width, texels.height, texels.channels,
-                             [&](size_t i) { return uint32_t{texels.samples[i]} >> shift; });
+                             [&](size_t i) { return shownIn8Bits(texels.samples[i], white); });
   }
   lattice_.emplace(std::move(*lattice));
 }

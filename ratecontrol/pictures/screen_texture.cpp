@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/white_level.hpp"
+
 namespace tetrakis::inline pictures {
 
 ScreenTexture::ScreenTexture(const Texels& texels, Extent whole, int first)
@@ -11,14 +13,14 @@ ScreenTexture::ScreenTexture(const Texels& texels, Extent whole, int first)
   const size_t channels = texels.channels;
   const bool has_alpha = texels.hasAlpha();
   const size_t second = channels < 3 ? 0 : 1, third = channels < 3 ? 0 : 2;
-  const int shift = texels.bits - 8;
+  const uint32_t white = texels.white(), most = texels.most();
   Level level{texels.width, texels.height, {}, 1, 1, 0};
   level.texels.resize(texels.extent().samples());
   const uint16_t* texel = texels.samples.data();
   for (Lanes& lanes : level.texels) {
-    const uint32_t alpha = has_alpha ? texel[channels - 1] >> shift : 255;
+    const uint32_t alpha = has_alpha ? shownIn8Bits(texel[channels - 1], most) : 255;
     const auto colour = [&](size_t c) -> Lanes {
-      const uint32_t value = texel[c] >> shift;
+      const uint32_t value = shownIn8Bits(texel[c], white);
       return alpha == 255 ? value : (value * alpha + 127) / 255;
     };
     lanes = colour(0) | colour(second) << 16 | colour(third) << 32;

@@ -3,11 +3,13 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <array>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "tests/support/scratch_folder.hpp"
 #include "tools/files/files.hpp"
@@ -172,6 +174,21 @@ TEST_F(MeshFiles, ObjNamesItsTexture) {
   EXPECT_STREQ(name.C_Str(), "hill.png");
 }
 
+TEST_F(MeshFiles, TexturesAreShownUpToTheirWhiteLevel) {
+  ImageFile texture{4, 1, 1, TKS_U16, {}};
+  const std::array<uint16_t, 4> samples{0, 500, 1000, 4000};
+  const auto bytes = std::as_bytes(std::span(samples));
+  texture.data.assign(bytes.begin(), bytes.end());
+  texture.white_level = 1000;
+  MeshFile mesh = hill(2);
+  mesh.texture = &texture;
+  ASSERT_TRUE(writeMesh(path("a.obj"), mesh).ok());
+  const auto read = readImage(path("a.png"));
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  const std::vector<std::byte> shown{std::byte{0}, std::byte{128}, std::byte{255}, std::byte{255}};
+  EXPECT_TRUE(read->data == shown);
+}
+
 /// The JSON chunk of a binary glTF, after a look at the frame around it.
 nlohmann::json documentOf(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -202,7 +219,7 @@ TEST_F(MeshFiles, GlbTexturesAreJpegOrPng) {
         mesh.texture = &texture;
         ASSERT_TRUE(writeMesh(path("a.glb"), mesh).ok());
         const auto document = documentOf(path("a.glb"));
-        const bool jpeg = !texture.hasAlpha() && sample == TKS_U8;
+        const bool jpeg = !texture.hasAlpha();
         EXPECT_EQ(document["images"][0]["mimeType"], jpeg ? "image/jpeg" : "image/png");
         EXPECT_EQ(document["materials"][0].contains("alphaMode"), texture.hasAlpha());
       }

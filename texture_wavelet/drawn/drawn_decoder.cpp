@@ -15,8 +15,8 @@ namespace {
 using ColourDecoding = DrawingDecoding<DrawnColour>;
 
 Texels formatOf(const TextureHeader& header) {
-  return {header.width, header.height, header.channels, header.sample == TKS_U8 ? 8 : 16,
-          {},           header.opaque};
+  return {header.width, header.height, header.channels,   header.sample == TKS_U8 ? 8 : 16,
+          {},           header.opaque, header.white_level};
 }
 
 }  // namespace

@@ -92,6 +92,7 @@ std::optional<EncodedTexture> encodeDrawn(const Texels& texels, uint64_t most) {
   encoded.header.height = texels.height;
   encoded.header.channels = static_cast<uint8_t>(texels.channels);
   encoded.header.opaque = texels.opaque;
+  encoded.header.white_level = texels.white_level;
   encoded.header.sample = texels.bits == 8 ? TKS_U8 : TKS_U16;
   encoded.header.planes = kDrawnPlanes;
   encoded.tracks.push_back(io.finishTrack(kDrawnPlanes));

@@ -86,6 +86,7 @@ Result<Reference> readReference(const CompareArguments& arguments, const tks_inf
     if (!image.ok()) return image.status();
     tellNote(note, quiet);
     reference.image = std::move(*image);
+    reference.image->white_level = info.texture_white_level;
   }
   return reference;
 }

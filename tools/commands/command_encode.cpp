@@ -92,6 +92,13 @@ Notes guesses(const EncodeArguments& arguments, const HeightFile& heights, const
   return notes;
 }
 
+/// What counts as white, if it is not the largest value; "" otherwise.
+std::string whiteNote(const std::string& texture, const ImageFile& image) {
+  if (image.white() == largestTexel(image.sample)) return "";
+  return quoted(texture) + " uses a part of its 16 bits: " + std::to_string(image.white()) +
+         " counts as white: give --white-level";
+}
+
 /// What to say of a texture that has a place of its own; "" if it covers the heights.
 std::string placeNote(const std::string& texture, const HeightFile& heights,
                       const ImageFile& image) {
@@ -130,6 +137,11 @@ Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
     Result<ImageFile> image = readImage(arguments.texture, &remark);
     if (!image.ok()) return image.status();
     tellNote(remark, quiet);
+    if (arguments.white_level > 0) {
+      image->white_level = arguments.white_level;
+    } else {
+      tellNote(whiteNote(arguments.texture, *image), quiet);
+    }
     if (inputs.heights) tellNote(placeNote(arguments.texture, *inputs.heights, *image), quiet);
     inputs.image = std::move(*image);
   }

@@ -80,6 +80,7 @@ Json textureJson(const tks_info& info) {
           {"channels", info.texture_channels},
           {"alpha", info.texture_opaque == 0},
           {"sample", sampleName(info.texture_sample)},
+          {"white_level", info.texture_white_level},
           {"coding", kCodings.at(static_cast<size_t>(info.texture_drawn))},
           {"cutout", info.texture_cutout != 0},
           {"crs", textOrNull(info.texture_crs)},

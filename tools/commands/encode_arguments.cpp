@@ -73,6 +73,10 @@ void addDescription(CLI::App& verb, EncodeArguments& arguments) {
   verb.add_option("--unit", arguments.unit, "Unit of the heights: m, ft, …")->type_name("UNIT");
   verb.add_option("--vertical-datum", arguments.vertical_datum, "For example EGM2008")
       ->type_name("NAME");
+  verb.add_option("--white-level", arguments.white_level,
+                  "What shows as white in a texture of 16 bits; else found")
+      ->check(silent(CLI::Range(1, 65535)))
+      ->type_name("VALUE");
   verb.add_option("--crs", arguments.crs, "Reference system: WKT or EPSG:code")->type_name("TEXT");
 }
 
@@ -130,6 +134,8 @@ Status checkArguments(const EncodeArguments& arguments) {
   if (arguments.height == "-" && arguments.texture == "-")
     return Status(TKS_USAGE, "heights and texture cannot both come from standard input");
   if (Status status = checkMaxError(arguments.max_error); !status.ok()) return status;
+  if (arguments.white_level > 0 && arguments.texture.empty())
+    return Status(TKS_USAGE, "--white-level is about a texture: give --texture");
   return arguments.height.empty() ? checkHeightOptions(arguments) : Status();
 }
 

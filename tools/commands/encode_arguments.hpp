@@ -20,6 +20,7 @@ struct EncodeArguments {
   std::string regions = "auto", weights = "psnr", engine = "modelled";
   double step = 0;
   std::optional<double> scale, offset, nodata;
+  uint32_t white_level = 0;  ///< 0: found
   std::string spacing;
   std::optional<std::string> unit, vertical_datum, crs;
   CameraChoice cameras;

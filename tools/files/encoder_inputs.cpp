@@ -53,6 +53,7 @@ tks_image asImage(const ImageFile& file) {
   image.sample = file.sample;
   image.data = file.data.data();
   image.opaque = file.opaque;
+  image.white_level = file.white_level;
   setPlace(file.place, image);
   return image;
 }

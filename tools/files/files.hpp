@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/status.hpp"
+#include "base/white_level.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::tools {
@@ -61,15 +62,18 @@ using Notes = std::vector<Note>;
 
 /// 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA; sample is TKS_U8 or TKS_U16; interleaved, host byte order.
 /// opaque: no channel is alpha, the last of 2 or 4 is a further colour, such as near infrared.
+/// white_level: what shows as white (tks_image); 0: the largest value of the type.
 struct ImageFile {
   uint32_t width = 0, height = 0, channels = 0;
   tks_sample sample = TKS_U8;
   std::vector<std::byte> data{};
   Georeference place{};
   bool opaque = false;
+  uint32_t white_level = 0;
 
   bool hasAlpha() const { return channels % 2 == 0 && !opaque; }
   bool hasFurtherColour() const { return channels % 2 == 0 && opaque; }
+  uint32_t white() const { return white_level > 0 ? white_level : largestTexel(sample); }
 };
 
 /// The image as pictures show it: grey or RGB of one with a further colour.

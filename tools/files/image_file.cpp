@@ -78,29 +78,6 @@ bool isWidened(const ImageFile& image) {
   return true;
 }
 
-/// The largest colour, if most of the range of 16 bits lies above it; 0: there is no such.
-uint16_t dimPeak(const ImageFile& image) {
-  constexpr uint16_t kDim = UINT16_MAX / 4;
-  if (image.sample != TKS_U16) return 0;
-  const bool has_alpha = image.channels % 2 == 0 && !image.opaque;
-  uint16_t most = 0;
-  for (size_t i = 0; i < image.data.size() / sizeof most; ++i) {
-    if (has_alpha && i % image.channels == image.channels - 1) continue;
-    uint16_t sample = 0;
-    std::memcpy(&sample, image.data.data() + i * sizeof sample, sizeof sample);
-    most = std::max(most, sample);
-    if (most > kDim) return 0;
-  }
-  return most;
-}
-
-std::string darkNote(uint16_t peak) {
-  const std::string most = std::to_string(peak);
-  return "no colour is above " + most +
-         " of 65535, so it counts as a dark picture: gdal_translate -ot UInt16 -scale 0 " + most +
-         " 0 65535 makes it a bright one";
-}
-
 /// What has become of the mask.
 enum class Masked { kNo, kAsAlpha, kBesideAlpha };
 
@@ -117,7 +94,6 @@ std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked) 
   if (raster.profile) add("colour profile not applied and not kept");
   const int bits = raster.stored_bits;
   if (isWidened(image)) add("its 16 bits say no more than 8, which would take far fewer bytes");
-  if (const uint16_t peak = dimPeak(image); peak > 0) add(darkNote(peak).c_str());
   if (raster.shape.sample == PictureSample::kU16 && bits > 8 && bits < 16)
     add((std::to_string(bits) + " bits stretched to 16").c_str());
   if (raster.unnamed_alpha)
@@ -211,6 +187,8 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
   if (raster->alpha == Raster::Alpha::kAssociated) divideByAlpha(image);
   const auto masked = applyMask(*raster, path, image);
   if (!masked.ok()) return masked.status();
+  const tks_image known = asImage(image);
+  image.white_level = tks_find_white_level(&known);
   if (note) *note = noteOn(*raster, image, *masked);
   if (raster->orientation != 1) return turnedUpright(image, raster->orientation);
   Notes notes;

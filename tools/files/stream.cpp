@@ -105,6 +105,7 @@ Result<ImageFile> decodeImage(Decoder& decoder, const std::optional<tks_window>&
   file.sample = info.texture_sample;
   file.data = std::move(*texels);
   file.opaque = info.texture_opaque != 0;
+  file.white_level = info.texture_white_level;
   file.place.registration = info.texture_registration;
   file.place.crs = info.texture_crs;
   file.place.geo_keys = info.texture_geo_keys;

@@ -5,26 +5,29 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/white_level.hpp"
+
 namespace tetrakis::tools {
 namespace {
 
-uint8_t sampleAt(const ImageFile& image, size_t index) {
+uint8_t sampleAt(const ImageFile& image, size_t index, uint32_t white) {
   if (image.sample == TKS_U8) return static_cast<uint8_t>(image.data[index]);
   uint16_t value;
   std::memcpy(&value, image.data.data() + 2 * index, sizeof value);
-  return static_cast<uint8_t>((value + 128u) / 257u);
+  return shownIn8Bits(value, white);
 }
 
 TextureLevel premultiplied(const ImageFile& image) {
   const bool has_alpha = image.hasAlpha();
   const bool is_grey = image.channels < 3;
+  const uint32_t white = image.white(), most = largestTexel(image.sample);
   const size_t texels = size_t{image.width} * image.height;
   TextureLevel level{image.width, image.height, std::vector<uint8_t>(4 * texels)};
   for (size_t i = 0; i < texels; ++i) {
     const size_t first = i * image.channels;
-    const uint32_t alpha = has_alpha ? sampleAt(image, first + image.channels - 1) : 255;
+    const uint32_t alpha = has_alpha ? sampleAt(image, first + image.channels - 1, most) : 255;
     for (size_t c = 0; c < 3; ++c) {
-      const uint32_t colour = sampleAt(image, first + (is_grey ? 0 : c));
+      const uint32_t colour = sampleAt(image, first + (is_grey ? 0 : c), white);
       level.rgba[4 * i + c] = static_cast<uint8_t>((colour * alpha + 127) / 255);
     }
     level.rgba[4 * i + 3] = static_cast<uint8_t>(alpha);

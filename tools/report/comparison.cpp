@@ -63,7 +63,7 @@ double imagePsnr(const ImageFile& reference, const ImageFile& test, bool hidden)
     sum += (a.values[i] - b.values[i]) * (a.values[i] - b.values[i]);
     ++count;
   }
-  return psnr(reference.sample == TKS_U8 ? 255 : 65535, sum / static_cast<double>(count));
+  return psnr(reference.white(), sum / static_cast<double>(count));
 }
 
 std::string shape(uint32_t width, uint32_t height) {

@@ -82,6 +82,7 @@ tks_image imageOf(Numbers& numbers, const char* const* texts, const void* data) 
   numbers.take(image.geotransform);
   numbers.take(image.registration);
   numbers.take(image.opaque);
+  numbers.take(image.white_level);
   image.crs = texts[5];
   image.geo_keys = texts[6];
   return image;
@@ -97,6 +98,7 @@ const char* web_encode_names() {
          "hasGeotransform g0 g1 g2 g3 g4 g5 registration "
          "textureWidth textureHeight textureChannels textureSample "
          "textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration textureOpaque "
+         "textureWhiteLevel "
          "bytes psnr maxError lossless triangles regions index weights";
 }
 

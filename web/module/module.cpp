@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "base/white_level.hpp"
 #include "tetrakis/tetrakis.h"
 
 extern "C" {
@@ -74,6 +75,7 @@ tks_status web_open(const uint8_t* data, size_t size, double max_memory, tks_dec
   NUMBER(t5, texture_geotransform[5])                      \
   NUMBER(textureRegistration, texture_registration)        \
   NUMBER(textureOpaque, texture_opaque)                    \
+  NUMBER(textureWhiteLevel, texture_white_level)           \
   NUMBER(voidsKnown, voids_known)
 
 /// The names, in the order in which web_numbers() writes the numbers.
@@ -102,22 +104,22 @@ const char* web_text(const tks_decoder* decoder, int which) {
   return which >= 0 && which < 4 ? texts[which] : "";
 }
 
-/// Texels of 1 to 4 channels as RGBA of 8 bits each. Texels of 16 bits lose their lower ones;
-/// opaque ones lose a further colour.
+/// Texels of 1 to 4 channels as RGBA of 8 bits each, with what is white at white_level. Opaque ones
+/// lose a further colour.
 void web_rgba(const void* texels, uint8_t* out, size_t count, uint32_t channels, tks_sample sample,
-              int opaque) {
+              int opaque, uint32_t white_level) {
   const auto* const bytes = static_cast<const uint8_t*>(texels);
   const auto* const words = static_cast<const uint16_t*>(texels);
-  const auto value = [&](size_t i) {
-    return sample == TKS_U16 ? static_cast<uint8_t>(words[i] >> 8) : bytes[i];
+  const auto value = [&](size_t i, uint32_t white) {
+    return sample == TKS_U16 ? tetrakis::shownIn8Bits(words[i], white) : bytes[i];
   };
   const bool colour = channels > 2, alpha = !opaque && channels % 2 == 0;
   for (size_t i = 0; i < count; ++i) {
     const size_t first = i * channels;
-    out[4 * i] = value(first);
-    out[4 * i + 1] = value(first + (colour ? 1 : 0));
-    out[4 * i + 2] = value(first + (colour ? 2 : 0));
-    out[4 * i + 3] = alpha ? value(first + channels - 1) : 255;
+    out[4 * i] = value(first, white_level);
+    out[4 * i + 1] = value(first + (colour ? 1 : 0), white_level);
+    out[4 * i + 2] = value(first + (colour ? 2 : 0), white_level);
+    out[4 * i + 3] = alpha ? value(first + channels - 1, UINT16_MAX) : 255;
   }
 }
 

@@ -40,6 +40,8 @@ export interface TextureInput {
   channels?: number;
   /** No channel is alpha: the last of 2 or 4 is a further colour, such as near infrared. */
   opaque?: boolean;
+  /** The value that pictures show as white, of 16 bits. Default: found. */
+  whiteLevel?: number;
   crs?: string;
   geotransform?: ArrayLike<number>;
   registration?: Registration;

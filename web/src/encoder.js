@@ -69,6 +69,12 @@ function heightsFields(heights) {
   };
 }
 
+/** 0: found by the encoder. */
+function whiteLevelOf({whiteLevel = 0}) {
+  if (Number.isInteger(whiteLevel) && whiteLevel >= 0 && whiteLevel <= 65535) return whiteLevel;
+  throw new TksError('usage', 'whiteLevel is a whole number from 0 to 65535.');
+}
+
 function textureFields(texture) {
   const {data, width, height} = texture;
   const sample = sampleOf(data, 'the texture');
@@ -77,6 +83,7 @@ function textureFields(texture) {
   return {
     textureWidth: width, textureHeight: height, textureChannels: channels, textureSample: sample,
     textureOpaque: Number(texture.opaque ?? false),
+    textureWhiteLevel: whiteLevelOf(texture),
     textureRegistration: oneOf(REGISTRATIONS, texture.registration, 'registration'),
     ...placed(texture.geotransform, 'textureHasGeotransform', 't'),
   };

@@ -96,6 +96,8 @@ export interface TerrainInfo {
   textureChannels: number;
   /** No channel is alpha: the last of 2 or 4 is a further colour, such as near infrared. */
   textureOpaque: boolean;
+  /** The value that pictures show as white. */
+  textureWhiteLevel: number;
   /** What the prefix states of its quality, in `unit` and dB; less than 0: nothing yet. */
   heightsRmse: number;
   texturePsnr: number;

@@ -151,7 +151,7 @@ export class Opened {
       this.check(instance.calls.tks_decode_texture(this.decoder, texels, bytes));
       return instance.with(4 * count, (out) => {
         instance.calls.web_rgba(texels, out, count, info.textureChannels, info.textureSample,
-          Number(info.textureOpaque));
+          Number(info.textureOpaque), info.textureWhiteLevel);
         return instance.copy(Uint8ClampedArray, out, 4 * count);
       });
     });

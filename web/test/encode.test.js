@@ -90,6 +90,22 @@ test('a further colour is no alpha', async () => {
   }
 });
 
+test('textures of 16 bits are shown from black to their white level', async () => {
+  const data = Uint16Array.from({length: 30}, (_, i) => (i * 500) % 4000);
+  for (const whiteLevel of [undefined, 2000, 65535]) {
+    const terrain = await open(await encode({texture: {data, width: 6, height: 5, whiteLevel}}));
+    const white = terrain.info.textureWhiteLevel;
+    if (whiteLevel) assert.equal(white, whiteLevel);
+    else assert.ok(white > 2000 && white < 4000, `found ${white}`);
+    const {texture} = await terrain.decode();
+    const shown = [...texture.data].filter((_, i) => i % 4 === 0);
+    assert.deepEqual(shown, [...data].map((v) => Math.min(255, Math.round((v * 255) / white))));
+  }
+  for (const whiteLevel of [-1, 0.5, NaN, 65536]) {
+    await assert.rejects(encode({texture: {data, width: 6, height: 5, whiteLevel}}), /whiteLevel/);
+  }
+});
+
 test('what makes no sense is refused by code and sentence', async () => {
   const {heights, texture} = terrainOf(16);
   const refused = (input, pattern) => assert.rejects(encode(input), (error) => {

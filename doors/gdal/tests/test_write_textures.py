@@ -146,3 +146,22 @@ def test_texture_with_a_mask(tmp_path):
     assert back.RasterCount == 4
     np.testing.assert_array_equal(back.GetRasterBand(4).ReadAsArray(), mask)
     np.testing.assert_array_equal(back.ReadAsArray()[:3][:, mask > 0], layers[:, mask > 0])
+
+
+def test_reflectances_have_a_white_level(tmp_path):
+    """Found, given, or that of the stream which is copied; pixels stay."""
+    layers = np.stack([200 + terrain(45, 60, "u2", seed) % 2800 for seed in range(3)]).astype("u2")
+    source = memory(layers, colours=RGB)
+    found = int(copy(source, tmp_path / "a.tks").GetMetadataItem("WHITE_LEVEL", "TKS"))
+    assert 1500 < found <= 3000
+    given = copy(source, tmp_path / "b.tks", "WHITE_LEVEL=1234")
+    assert given.GetMetadataItem("WHITE_LEVEL", "TKS") == "1234"
+    again = copy(given, tmp_path / "c.tks")
+    assert again.GetMetadataItem("WHITE_LEVEL", "TKS") == "1234"
+    np.testing.assert_array_equal(again.ReadAsArray(), layers)
+    whole = copy(source, tmp_path / "d.tks", "WHITE_LEVEL=65535")
+    assert whole.GetMetadataItem("WHITE_LEVEL", "TKS") is None
+    for option, words in (("70000", "white level"), ("white", "WHITE_LEVEL")):
+        refused(lambda: copy(source, tmp_path / "e.tks", "WHITE_LEVEL=" + option), words)
+    heights = terrain(20, 25, "i2")
+    refused(lambda: copy(heights, tmp_path / "e.tks", "WHITE_LEVEL=9"), "there is none")

@@ -42,6 +42,17 @@ def test_a_further_colour_is_no_alpha(channels, alpha):
         assert opened.info.texture_alpha == (alpha and channels % 2 == 0)
 
 
+def test_reflectances_have_a_white_level():
+    texture = np.random.default_rng(3).integers(200, 3000, (20, 33, 3)).astype("u2")
+    for given in (0, 1234, 65535):
+        with tetrakis.open(tetrakis.encode(texture=texture, texture_white_level=given)) as stream:
+            white = stream.info.texture_white_level
+            assert white == given if given else 2000 < white < 3000
+            np.testing.assert_array_equal(stream.texture(), texture)
+    with tetrakis.open(tetrakis.encode(heights=np.zeros((3, 3)))) as stream:
+        assert stream.info.texture_white_level is None
+
+
 @pytest.mark.parametrize("dtype", SAMPLES)
 def test_wild_bits_come_back(dtype):
     bits = np.random.default_rng(7).integers(0, 256, (9, 13, 4), np.uint8)
@@ -249,6 +260,8 @@ REFUSED = [
     (dict(heights=np.zeros((4, 4), "f4"), progress=5), "progress must be a function"),
     (dict(heights=[[1, 2], [3]]), "Heights must be an array"),
     (dict(texture=np.zeros((4, 4, 2), "u1"), texture_alpha=np.ones(2)), "texture_alpha must be"),
+    (dict(texture=np.zeros((4, 4), "u1"), texture_white_level=9), "white level"),
+    (dict(texture=np.zeros((4, 4), "u2"), texture_white_level=-1), "texture_white_level"),
 ]
 
 

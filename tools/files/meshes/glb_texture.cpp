@@ -52,7 +52,9 @@ ImageFile reducedTo8Bits(const ImageFile& image) {
   for (size_t i = 0; i < reduced.data.size(); ++i) {
     uint16_t value;
     std::copy_n(&image.data[2 * i], 2, reinterpret_cast<std::byte*>(&value));
-    reduced.data[i] = static_cast<std::byte>((value * 255U + 32767U) / 65535U);
+    const bool is_alpha = image.hasAlpha() && i % image.channels + 1 == image.channels;
+    const uint32_t white = is_alpha ? largestTexel(image.sample) : image.white();
+    reduced.data[i] = static_cast<std::byte>(shownIn8Bits(value, white));
   }
   return reduced;
 }
@@ -73,7 +75,7 @@ Result<EncodedTexture> encodeTexture(const ImageFile& image, MeshTexture format)
                       "--mesh-texture png or webp");
       return ofType("image/jpeg", encodeJpeg(texels, kTextureQuality));
     case MeshTexture::kChosen:
-      if (auto jpeg = encodeJpeg(image, kTextureQuality); jpeg.ok())
+      if (auto jpeg = encodeJpeg(texels, kTextureQuality); jpeg.ok())
         return ofType("image/jpeg", std::move(jpeg));
       break;
     case MeshTexture::kPng:

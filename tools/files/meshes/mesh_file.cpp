@@ -118,7 +118,8 @@ Status writeObj(const std::string& path, const MeshFile& mesh) {
   const std::filesystem::path name(path);
   const std::string library = std::filesystem::path(name).replace_extension(".mtl").string();
   const std::string texture = std::filesystem::path(name).replace_extension(".png").string();
-  const auto png = encodePng(*mesh.texture);
+  const bool shows_all = mesh.texture->white() == largestTexel(mesh.texture->sample);
+  const auto png = encodePng(shows_all ? *mesh.texture : reducedTo8Bits(*mesh.texture));
   if (!png.ok()) return png.status();
   Status status = writeBytes(texture, *png);
   if (status.ok()) {

@@ -53,6 +53,7 @@ bool isOpaque(const ImageFile& image) {
 ImageFile withAlpha(const ImageFile& colours, const std::vector<uint8_t>& mask) {
   ImageFile image{colours.width, colours.height, colours.channels + 1, colours.sample, {},
                   colours.place};
+  image.white_level = colours.white_level;
   const size_t sample = tks_sample_bytes(image.sample), pixel = colours.channels * sample;
   image.data.reserve(mask.size() * (pixel + sample));
   auto from = colours.data.begin();
@@ -72,6 +73,7 @@ void divideByAlpha(ImageFile& image) {
 ImageFile withoutFurtherColour(const ImageFile& image) {
   if (!image.hasFurtherColour()) return image;
   ImageFile picture{image.width, image.height, image.channels - 1, image.sample, {}, image.place};
+  picture.white_level = image.white_level;
   const size_t sample = tks_sample_bytes(image.sample), pixel = image.channels * sample;
   picture.data.reserve(image.data.size() / image.channels * picture.channels);
   for (auto from = image.data.begin(); from != image.data.end(); from += pixel)

@@ -134,6 +134,7 @@ def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
         crs=values.crs(place["crs"], "texture_crs"),
         geo_keys=values.text(place["geo_keys"], "texture_geo_keys"),
         opaque=not values.flag(place["alpha"], "texture_alpha"),
+        white_level=values.unsigned(place["white_level"], "texture_white_level"),
     ), data
 
 
@@ -209,6 +210,7 @@ def encode(
     texture_registration: Optional[str] = None,
     texture_geo_keys: Optional[str] = None,
     texture_alpha: bool = True,
+    texture_white_level: int = 0,
     triangles: Optional[int] = None,
     weights: str = "psnr",
     regions: Optional[int] = None,
@@ -230,7 +232,9 @@ def encode(
             -2147483648 and floats from 1e10 on.
         texture: (rows, columns) grey, or (rows, columns, channels) of 1 to 4 channels (grey, grey
             and alpha, RGB, RGBA), of uint8 or uint16. Without `texture_alpha` the last of 2 or 4
-            channels is a further colour, such as near infrared.
+            channels is a further colour, such as near infrared. `texture_white_level`: the uint16
+            that pictures show as white, and that errors count as parts of; found where it is 0
+            (reflectances and cameras of 12 bits use a part of 16). No sample is changed.
         Neither may be written to while this function runs: it releases the GIL.
 
     Targets: one of them; without any, lossless
@@ -299,6 +303,7 @@ def encode(
         registration=texture_registration,
         geo_keys=texture_geo_keys,
         alpha=texture_alpha,
+        white_level=texture_white_level,
     )
     # The arrays' second names keep copies alive until the call is over.
     height_field, _samples = (None, None) if heights is None else _heights_struct(heights, place)

@@ -78,6 +78,8 @@ class Info:
     texture_dtype: Optional[np.dtype[Any]]
     texture_alpha: bool
     """The last channel of the texture is alpha."""
+    texture_white_level: Optional[int]
+    """What pictures show as white."""
     texture_coarsest_level: int
     texture_cutout: int
     texture_drawn: int
@@ -97,7 +99,7 @@ _PLAIN = (
 _BOOLEAN = "lossless exact_steps has_voids voids_known".split()
 _TEXT = "unit vertical_datum crs description geo_keys texture_crs texture_geo_keys".split()
 _FROM_ZERO = "max_error heights_rmse texture_psnr".split()
-_ABOVE_ZERO = "triangles regions texture_regions".split()
+_ABOVE_ZERO = "triangles regions texture_regions texture_white_level".split()
 
 
 def _texture_shape(raw: c.StreamInfo) -> Tuple[int, ...]:

@@ -79,6 +79,7 @@ class Image(ctypes.Structure):
         ("crs", c_char_p),
         ("geo_keys", c_char_p),
         ("opaque", c_int),
+        ("white_level", c_uint32),
     ]
 
 
@@ -215,6 +216,7 @@ class StreamInfo(ctypes.Structure):
         ("index", c_int),
         ("texture_opaque", c_int),
         ("voids_known", c_int),
+        ("texture_white_level", c_uint32),
     ]
 
 
