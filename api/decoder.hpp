@@ -78,6 +78,13 @@ Status noHeights();
 /// component, the level is 0 or there is no window, and the window lies inside.
 Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window* window);
 
+/// Whether the stream is there to its end.
+bool isComplete(const tks_decoder& decoder);
+
+/// Of a stream with heights: whether their samples keep what it says of them, lossless or a largest
+/// error. The surface is then these; between whole steps it would be off by up to half of one more.
+bool keepsPromise(const tks_decoder& decoder);
+
 /// Height in the unit = heights value * scale + offset.
 struct SurfaceScale {
   double scale, offset;

@@ -8,6 +8,7 @@
 
 #include "api/decoder.hpp"
 #include "api/sized.hpp"
+#include "bitstream/stream/checksum.hpp"
 
 namespace tetrakis::inline api {
 
@@ -26,6 +27,9 @@ Status verify(const tks_decoder& decoder) {
   }
   if (!header.index.empty() && !describes(header.index, decoder.packets.payload.heads))
     return wrongIndex();
+  const std::span<const uint8_t> payload = decoder.data.subspan(decoder.parsed.bytes);
+  if (header.payload_crc && *header.payload_crc != crc32(payload))
+    return {TKS_CORRUPT, "The stream is damaged: what follows its header has another checksum."};
   return {};
 }
 
@@ -129,9 +133,8 @@ bool voidsAreKnown(const tks_decoder& decoder) {
   const auto& tracks = decoder.packets.payload.codewords[0];
   const auto first = tracks.find(0);
   const uint64_t known = first == tracks.end() ? 0 : first->second.size();
-  const StreamHeader& header = decoder.parsed.header;
-  const bool complete = decoder.data.size() >= decoder.parsed.bytes + header.payload_bytes;
-  return known + (complete ? kReadAhead : 0) >= header.layers.maskEnd();
+  const uint64_t ahead = isComplete(decoder) ? kReadAhead : 0;
+  return known + ahead >= decoder.parsed.header.layers.maskEnd();
 }
 
 void fillHeights(const tks_decoder& decoder, tks_info& info) {

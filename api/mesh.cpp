@@ -6,6 +6,7 @@
 #include "api/memory.hpp"
 #include "api/message.hpp"
 #include "api/surface_mesh.hpp"
+#include "api/written.hpp"
 #include "codec/mesh/budget_mesh.hpp"
 #include "codec/mesh/void_mesh.hpp"
 
@@ -72,6 +73,17 @@ Result<SurfaceMesh> budgetMeshOf(tks_decoder& decoder, Lattice lattice, uint32_t
                      std::move(heights)};
 }
 
+/// Of vertices that are samples.
+std::vector<float> surfaceAtVertices(const tks_decoder& decoder, const DecodedHeights& decoded,
+                                     const LatticeMesh& mesh) {
+  std::vector<float> surface(decoded.geometry.heights.size());
+  writeSurface(decoder, decoded, surface.data());
+  std::vector<float> heights;
+  heights.reserve(mesh.vertices.size());
+  for (const VertexId vertex : mesh.vertices) heights.push_back(surface[vertex]);
+  return heights;
+}
+
 template <class T>
 T* allocate(size_t count) {
   void* memory = std::malloc(count * sizeof(T));
@@ -96,16 +108,16 @@ Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32
   const bool has_voids = header.layers.validity_bytes > 0;
   if (kind == TKS_MESH_BUDGET && max_triangles > 0 && !has_voids)
     return budgetMeshOf(decoder, std::move(*lattice), max_triangles);
-  const Result<const DecodedGeometry*> geometry = decodedGeometry(decoder);
-  if (!geometry.ok()) return geometry.status();
-  Result<Chosen> chosen = chosenVertices(decoder, *lattice, **geometry, kind, max_triangles);
+  const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
+  if (!decoded.ok()) return decoded.status();
+  const DecodedGeometry& geometry = (*decoded)->geometry;
+  Result<Chosen> chosen = chosenVertices(decoder, *lattice, geometry, kind, max_triangles);
   if (!chosen.ok()) return chosen.status();
   LatticeMesh mesh = meshOf(*lattice, chosen->vertices);
-  const auto steps_of = [&](size_t v) -> double {
-    return chosen->fitted.empty() ? (*geometry)->heights[mesh.vertices[v]] : chosen->fitted[v];
-  };
   std::vector<float> heights =
-      heightsInUnit(mesh, (*geometry)->valid, surfaceScale(header, **geometry), steps_of);
+      chosen->fitted.empty() ? surfaceAtVertices(decoder, **decoded, mesh)
+                             : heightsInUnit(mesh, geometry.valid, surfaceScale(header, geometry),
+                                             [&](size_t v) { return chosen->fitted[v]; });
   return SurfaceMesh{std::move(*lattice), std::move(chosen->vertices), std::move(mesh),
                      std::move(heights)};
 }

@@ -20,7 +20,7 @@ uint64_t verticesOf(const Lattice& lattice) {
 
 uint64_t meshBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   // Of a vertex and of a triangle.
-  constexpr uint64_t kEverySample = 92;
+  constexpr uint64_t kEverySample = 96;
   constexpr uint64_t kFitted = 26, kFewTriangles = 520, kManyTriangles = 180;
   const StreamHeader& header = decoder.parsed.header;
   const Result<Lattice> lattice =

@@ -15,6 +15,7 @@
 
 #include "api/outlook.hpp"
 #include "api/screen_camera.hpp"
+#include "bitstream/stream/checksum.hpp"
 #include "bitstream/stream/indexed_packets.hpp"
 
 namespace tetrakis::inline api {
@@ -155,13 +156,16 @@ Status reorder(tks_decoder& decoder, const std::vector<WeightedSighting>& sighti
   keepCutLast(packets, *order);
   StreamHeader reordered = header;
   reordered.index = reorderedIndex(header.index, *order);
-  std::vector<uint8_t> stream = writeHeader(reordered);
+  std::vector<uint8_t> payload;
   const TrackCounts counts = trackCounts(header);
   for (size_t i = 0; i < order->size(); ++i) {
     const PacketHead& head = reordered.index[i].packet;
     const bool named = counts[static_cast<size_t>(head.component())].named;
-    appendPacket(packets[(*order)[i]].bytes, head, named, stream);
+    appendPacket(packets[(*order)[i]].bytes, head, named, payload);
   }
+  if (reordered.payload_crc) reordered.payload_crc = crc32(payload);
+  std::vector<uint8_t> stream = writeHeader(reordered);
+  stream.insert(stream.end(), payload.begin(), payload.end());
   if (!holdTheSame(decoder.data, stream)) return wrongIndex();
   out.data = static_cast<uint8_t*>(std::malloc(stream.size()));
   if (out.data == nullptr) throw std::bad_alloc();

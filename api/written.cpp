@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -12,6 +14,15 @@
 
 namespace tetrakis::inline api {
 
+bool isComplete(const tks_decoder& decoder) {
+  return decoder.data.size() >= decoder.parsed.bytes + decoder.parsed.header.payload_bytes;
+}
+
+bool keepsPromise(const tks_decoder& decoder) {
+  return isComplete(decoder) && decoder.heights_level == 0 &&
+         decoder.parsed.header.geometry->max_error >= 0;
+}
+
 SurfaceScale surfaceScale(const StreamHeader& header, const DecodedGeometry& geometry) {
   const GeometryHeader& g = *header.geometry;
   const double step = std::ldexp(g.step, -geometry.fraction_bits);
@@ -19,6 +30,20 @@ SurfaceScale surfaceScale(const StreamHeader& header, const DecodedGeometry& geo
 }
 
 namespace {
+
+/// In the place of `count` samples, at the front of `out`: no sample is wider than a float, so that
+/// from the last one on none is written over before it is read.
+template <class T>
+void samplesToSurface(const DecodedGeometry& geometry, const Metadata& metadata, float* out) {
+  auto* const bytes = reinterpret_cast<std::byte*>(out);
+  for (size_t i = geometry.heights.size(); i-- > 0;) {
+    T sample;
+    std::memcpy(&sample, bytes + i * sizeof sample, sizeof sample);
+    const bool valid = geometry.valid.empty() || geometry.valid[i];
+    out[i] = valid ? static_cast<float>(sample * metadata.scale + metadata.offset)
+                   : std::numeric_limits<float>::quiet_NaN();
+  }
+}
 
 float surfaceAt(const DecodedGeometry& geometry, const SurfaceScale& scale, size_t sample) {
   const bool valid = geometry.valid.empty() || geometry.valid[sample];
@@ -49,7 +74,15 @@ void writeHeights(const tks_decoder& decoder, const DecodedHeights& decoded, voi
 }
 
 void writeSurface(const tks_decoder& decoder, const DecodedHeights& decoded, float* out) {
-  const SurfaceScale scale = surfaceScale(decoder.parsed.header, decoded.geometry);
+  const StreamHeader& header = decoder.parsed.header;
+  if (keepsPromise(decoder)) {
+    writeHeights(decoder, decoded, out);
+    withSampleType(static_cast<tks_sample>(header.geometry->sample), [&](auto type) {
+      samplesToSurface<decltype(type)>(decoded.geometry, header.metadata, out);
+    });
+    return;
+  }
+  const SurfaceScale scale = surfaceScale(header, decoded.geometry);
   for (size_t i = 0; i < decoded.geometry.heights.size(); ++i)
     out[i] = surfaceAt(decoded.geometry, scale, i);
 }
@@ -65,9 +98,10 @@ void writeUnsentHeights(const tks_decoder& decoder, void* out, size_t count) {
 }
 
 void writeUnsentSurface(const tks_decoder& decoder, float* out, size_t count) {
-  const DecodedGeometry alike = unsentHeights(decoder.parsed.header).geometry;
-  const SurfaceScale scale = surfaceScale(decoder.parsed.header, alike);
-  std::fill_n(out, count, surfaceAt(alike, scale, 0));
+  const DecodedHeights alike = unsentHeights(decoder.parsed.header);
+  std::vector<float> surface(alike.geometry.heights.size());
+  writeSurface(decoder, alike, surface.data());
+  std::fill_n(out, count, surface.front());
 }
 
 void writeTexels(const Texels& texels, tks_sample sample, void* out) {

@@ -25,6 +25,9 @@ class FieldWriter {
   void varint(const char*, T& value, uint64_t, uint64_t) {
     put(static_cast<uint64_t>(value));
   }
+  void u32(const char*, uint32_t value) {
+    for (int i = 0; i < 4; ++i) bytes.push_back(static_cast<uint8_t>(value >> (8 * i)));
+  }
   void zigzag(const char*, int64_t& value, int64_t) {
     put((static_cast<uint64_t>(value) << 1) ^ static_cast<uint64_t>(value >> 63));
   }
@@ -61,6 +64,11 @@ class FieldReader {
   template <class T>
   void varint(const char* name, T& value, uint64_t low, uint64_t high) {
     accept(name, take(), low, high, value);
+  }
+  void u32(const char*, uint32_t& value) {
+    uint32_t read = 0;
+    for (int i = 0; i < 4; ++i) read |= uint32_t{next()} << (8 * i);
+    if (ok()) value = read;
   }
   void zigzag(const char* name, int64_t& value, int64_t largest) {
     const uint64_t raw = take();

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cassert>
 
+#include "bitstream/stream/checksum.hpp"
 #include "bitstream/stream/correction_tracks.hpp"
 #include "bitstream/stream/fields.hpp"
 #include "bitstream/stream/header_checks.hpp"
@@ -27,15 +28,7 @@ enum Parts : uint8_t {
 
 constexpr size_t kFixedBytes = kMagic.size() + 3;  // magic, version, profile, level
 constexpr size_t kChecksumBytes = 4;
-
-uint32_t crc32(std::span<const uint8_t> bytes) {
-  uint32_t crc = 0xffffffff;
-  for (uint8_t byte : bytes) {
-    crc ^= byte;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0);
-  }
-  return ~crc;
-}
+constexpr uint8_t kWithChecksum = 2;  ///< beside whether the stream is lossless
 
 bool hasRegions(const StreamHeader& header) {
   return (header.geometry && !header.geometry->regions.isDefault()) ||
@@ -90,7 +83,11 @@ void visitBody(V& v, StreamHeader& header) {
       (header.georeference.isDefault() ? 0 : kGeoreference));
   v.u8("parts", parts, 1, kAllParts);
   v.varint("payload_bytes", header.payload_bytes, 0, UINT64_MAX >> 1);
-  v.u8("lossless", header.lossless, 0, 1);
+  auto promises = static_cast<uint8_t>(header.lossless + (header.payload_crc ? kWithChecksum : 0));
+  v.u8("lossless", promises, 0, kWithChecksum + 1);
+  header.lossless = promises % kWithChecksum;
+  if (promises >= kWithChecksum && !header.payload_crc) header.payload_crc = 0;
+  if (header.payload_crc) v.u32("payload_crc", *header.payload_crc);
   v.varint("triangles", header.triangles, 0, UINT32_MAX);
   if (!v.ok()) return;
   if (parts & kGeometry) {

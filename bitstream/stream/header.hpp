@@ -49,7 +49,10 @@ struct StreamHeader {
   uint8_t level = 0;
   uint64_t payload_bytes = 0;  ///< what the encoder wrote behind the header
   uint8_t lossless = 0;        ///< the complete stream restores every sample
-  uint32_t triangles = 0;      ///< budget the stream was made for; 0: none
+  /// crc32() of the payload, by which a complete stream that promises something is known to be
+  /// whole.
+  std::optional<uint32_t> payload_crc;
+  uint32_t triangles = 0;  ///< budget the stream was made for; 0: none
   std::optional<GeometryHeader> geometry;
   GeometryLayers layers;
   std::optional<TextureHeader> texture;

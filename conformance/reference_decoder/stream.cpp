@@ -275,8 +275,8 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   Reader in(body);
   const int parts = in.u8(1, 255);
   const uint64_t payloadBytes = in.varint(0, INT64_MAX);
-  in.u8(0, 1);               // lossless
-  in.varint(0, UINT32_MAX);  // triangles
+  if (in.u8(0, 3) >= 2) in.littleEndian(4);  // payload_crc, which a decoder need not look at
+  in.varint(0, UINT32_MAX);                  // triangles
   if ((parts & 3) == 0) in.fail(Outcome::kCorrupt);
   if (parts & 1) stream.geometry = readGeometry(in);
   if (parts & 2) stream.texture = readTexture(in);

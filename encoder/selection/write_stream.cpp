@@ -6,6 +6,7 @@
 #include <cassert>
 #include <string>
 
+#include "bitstream/stream/checksum.hpp"
 #include "bitstream/stream/header.hpp"
 #include "encoder/selection/stated_place.hpp"
 #include "ratecontrol/needs/target.hpp"
@@ -44,6 +45,7 @@ StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
   StreamHeader header;
   header.payload_bytes = payload_bytes;
   header.lossless = lossless;
+  if (lossless || options.max_error > 0) header.payload_crc = 0;  // until there is a payload
   header.triangles = options.triangles;
   if (selection.heights) {
     header.geometry = selection.heights->header;
@@ -108,7 +110,11 @@ Result<std::vector<uint8_t>> writeStream(const EncodeInputs& inputs, const Selec
   std::array<Codewords, kComponents> codewords;
   if (selection.heights) codewords[0] = codewordsOf(selection.heights->tracks);
   if (selection.texture) codewords[1] = codewordsOf(selection.texture->tracks);
-  std::vector<uint8_t> stream = writeHeader(makeHeader(inputs, selection, payload_bytes, lossless));
+  const std::vector<uint8_t> payload = multiplex(selection.packets, codewords, payload_bytes);
+  assert(payload.size() == payload_bytes);
+  StreamHeader header = makeHeader(inputs, selection, payload_bytes, lossless);
+  if (header.payload_crc) header.payload_crc = crc32(payload);
+  std::vector<uint8_t> stream = writeHeader(header);
   if (stream.size() > kMaxHeaderBytes) {
     return Status(TKS_USAGE, "The front index of " + std::to_string(selection.packets.size()) +
                                  " packets is too long: it makes a header of " +
@@ -116,8 +122,6 @@ Result<std::vector<uint8_t>> writeStream(const EncodeInputs& inputs, const Selec
                                  std::to_string(kMaxHeaderBytes) +
                                  " are the most. Take larger regions, or no index.");
   }
-  const std::vector<uint8_t> payload = multiplex(selection.packets, codewords, payload_bytes);
-  assert(payload.size() == payload_bytes);
   stream.insert(stream.end(), payload.begin(), payload.end());
   assert(!inputs.budgeted() || stream.size() <= budget);
   return stream;

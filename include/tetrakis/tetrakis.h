@@ -390,7 +390,8 @@ tks_status tks_decode_heights(tks_decoder* decoder, void* out, size_t bytes);
 
 /* Writes width * height heights in info.unit, one float each. Where a prefix says more than whole
  * steps of the sample type can show, the heights lie between the steps: what a renderer should
- * draw. Voids are NaN. */
+ * draw. Of a complete stream that is lossless or states a largest error they are those of the
+ * samples (at level 0), which keep that. Voids are NaN. */
 tks_status tks_decode_surface(tks_decoder* decoder, float* out, size_t count);
 
 /* Writes width * height bytes: 1 where a sample is valid, 0 where it is void. A prefix that ends
@@ -456,7 +457,8 @@ tks_status tks_needed_ranges(tks_decoder* decoder, tks_part part, const tks_wind
  * never depends on it. */
 tks_status tks_set_threads(tks_decoder* decoder, uint32_t threads);
 
-/* Checks the whole stream's syntax; TKS_TRUNCATED if it is a prefix. */
+/* Checks the whole stream's syntax, and the checksum that lossless streams and those within a
+ * largest error have; TKS_TRUNCATED if it is a prefix. */
 tks_status tks_verify(tks_decoder* decoder);
 
 typedef enum tks_mesh_kind {

@@ -258,6 +258,38 @@ TEST(ErrorBound, HoldsForAllTypesPatternsAndBounds) {
 }
 
 /// A bound that no 2^26 steps reach: bit for bit instead.
+/// What is drawn is the samples, rounded to a float in the unit: all of it, windows, and meshes
+/// whose vertices are samples.
+TEST(ErrorBound, HoldsForSurfacesAndMeshesOfEverySample) {
+  for (const tks_sample sample : {TKS_U8, TKS_I8, TKS_I16, TKS_U16, TKS_I32, TKS_U32, TKS_F32}) {
+    const Raster raster = make({Pattern::kRidges, 37, 29, 1, sample});
+    tks_heights heights = raster.heights();
+    heights.scale = 0.1;
+    heights.offset = -20;
+    for (const tks_encode_options& options : {lossless(), within(0.1), within(0.5), within(40)}) {
+      const Bytes bytes = encodeHeights(heights, options);
+      Stream stream(bytes);
+      const std::vector<std::byte> samples = stream.heights();
+      const auto shown = [&](size_t i) {
+        return static_cast<float>(sampleAt(samples, sample, i) * 0.1 - 20);
+      };
+      std::vector<float> surface(size_t{37} * 29), part(size_t{11} * 7);
+      ASSERT_EQ(tks_decode_surface(stream.get(), surface.data(), surface.size()), TKS_OK);
+      for (size_t i = 0; i < surface.size(); ++i) ASSERT_EQ(surface[i], shown(i)) << i;
+      const tks_window window{20, 15, 11, 7};
+      ASSERT_EQ(tks_decode_surface_window(stream.get(), &window, part.data(), part.size()), TKS_OK);
+      EXPECT_EQ(part.back(), surface[size_t{21} * 37 + 30]);
+      for (const tks_mesh_kind kind : {TKS_MESH_BUDGET, TKS_MESH_CODED}) {
+        tks_mesh mesh{};
+        ASSERT_EQ(tks_decode_mesh(stream.get(), kind, 0, &mesh), TKS_OK);
+        for (uint32_t v = 0; v < mesh.vertex_count; ++v)
+          ASSERT_EQ(mesh.height[v], shown(mesh.grid_index[v])) << v;
+        tks_free_mesh(&mesh);
+      }
+    }
+  }
+}
+
 TEST(ErrorBound, FinerThanAnyStepIsLossless) {
   const Raster raster = rasterOf<float>({1e-30f, 1e30f, 3.3f, -7e12f}, 2, TKS_F32);
   const Bytes bytes = encode(&raster, nullptr, within(1e-20));

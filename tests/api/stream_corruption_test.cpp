@@ -135,5 +135,26 @@ TEST(StreamCorruption, NoiseIsNoStream) {
   }
 }
 
+/// Streams that promise something: any damage is found, and what they hold decodes all the same.
+TEST(Verify, FindsEveryDamagedByteBehindTheHeader) {
+  const Raster ridges = make({Pattern::kRidges, 40, 30, 1, TKS_I16, 5});
+  const Raster photograph = make({Pattern::kRidges, 20, 30, 3, TKS_U8, 5});
+  tks_encode_options windows = inRegions(lossless());
+  windows.index = TKS_INDEX_WINDOWS;
+  for (const tks_encode_options& options : {lossless(), within(3), windows}) {
+    const Bytes bytes = encode(&ridges, &photograph, options);
+    const Stream whole(bytes);
+    EXPECT_EQ(tks_verify(whole.get()), TKS_OK) << tks_message(whole.get());
+    for (size_t i = whole.info().header_bytes; i < bytes.size(); ++i) {
+      Bytes damaged = bytes;
+      damaged[i] ^= static_cast<uint8_t>(1u << i % 8);
+      const Stream stream(damaged);
+      if (stream.status() == TKS_CORRUPT) continue;
+      EXPECT_EQ(tks_verify(stream.get()), TKS_CORRUPT) << i;
+      EXPECT_STRNE(tks_message(stream.get()), "");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tetrakis::test

@@ -59,6 +59,23 @@ TEST_F(CliFiles, LevelsAreSmallerFilesOfTheSameGround) {
   EXPECT_EQ(cli("decode a.tks --level 1 --mesh x.glb").code, 1);
 }
 
+/// By a stream that promises something; what is there of it decodes all the same.
+TEST_F(CliFiles, DamageIsFound) {
+  makeInputs();
+  ASSERT_EQ(cli("encode height.tif --lossless -o a.tks").code, 0);
+  std::string stream = content("a.tks");
+  stream[stream.size() * 2 / 3] ^= 16;
+  write("b.tks", stream);
+  for (const std::string verb : {"verify b.tks", "decode b.tks --height b.tif", "info b.tks",
+                                 "compare b.tks --height height.tif"}) {
+    const Outcome run = cli(verb);
+    EXPECT_EQ(run.code, 3) << verb;
+    EXPECT_NE(run.err.find("damaged"), std::string::npos) << run.err;
+  }
+  const std::string less = std::to_string(stream.size() - 1);
+  EXPECT_EQ(cli("decode b.tks --height b.tif --bytes " + less).code, 0);
+}
+
 TEST_F(CliFiles, TruncateWritesTheExactPrefix) {
   makeStream();
   const std::string stream = content("a.tks");

@@ -45,6 +45,8 @@ Result<OpenStream> openStream(const StreamSource& source) {
   if (source.bytes && *source.bytes < bytes->size()) bytes->resize(*source.bytes);
   Result<Decoder> decoder = openDecoder(octets(*bytes));
   if (!decoder) return decoder.status();
+  const bool whole = bytes->size() == decoder->info().stream_bytes;
+  if (const auto sound = whole ? decoder->verify() : Status(); !sound.ok()) return sound;
   return OpenStream{std::move(*bytes), std::move(*decoder)};
 }
 

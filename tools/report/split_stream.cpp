@@ -61,6 +61,7 @@ std::vector<uint8_t> SplitStream::cut(const Split& split) const {
   const std::vector<uint8_t> payload = multiplex(packets, codewords, UINT64_MAX >> 1);
   StreamHeader header = header_;
   header.payload_bytes = payload.size();
+  header.payload_crc.reset();
   std::vector<uint8_t> stream = writeHeader(header);
   stream.insert(stream.end(), payload.begin(), payload.end());
   return stream;

@@ -36,6 +36,18 @@ def test_tks_functions(heights, texture):
             tetrakis.tks_check(no_bytes)
 
 
+def test_damage_is_found(heights, texture):
+    for array in (heights, texture):
+        stream = bytearray(tetrakis.tks_encode(array))
+        stream[len(stream) * 2 // 3] ^= 16
+        with pytest.raises(tetrakis.TksCorruptError, match="damaged"):
+            tetrakis.tks_decode(stream)
+        with tetrakis.open(bytes(stream)) as opened:
+            with pytest.raises(tetrakis.TksCorruptError, match="damaged"):
+                opened.verify()
+        assert tetrakis.tks_decode(stream[:-1]).shape == array.shape
+
+
 def test_tks_encode_into_a_buffer(heights):
     stream = tetrakis.tks_encode(heights)
     room = bytearray(len(stream) + 10)

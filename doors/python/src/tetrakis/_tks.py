@@ -93,13 +93,16 @@ def tks_decode(
     out: Union[NDArray[Any], int, None] = None,
 ) -> NDArray[Any]:
     """The heights, (rows, columns); of a stream without heights the texture. Arguments are those of
-    :meth:`tetrakis.Stream.heights`; out may also be how many bytes the array may take at most."""
+    :meth:`tetrakis.Stream.heights`; out may also be how many bytes the array may take at most.
+    Raises :class:`TksCorruptError` for a complete stream with a checksum that it does not have."""
     if isinstance(out, numbers.Integral):
         most = values.unsigned(out, "out", 63)
         array = tks_decode(data, level=level, window=window, masked=masked, numthreads=numthreads)
         _check_room(array.nbytes, most)
         return array
     with open(data, threads=1 if numthreads is None else numthreads) as stream:
+        if len(octets(data)) == stream.info.stream_bytes:
+            stream.verify()
         if stream.info.shape is not None:
             return stream.heights(level, window, masked=masked, out=out)
         return stream.texture(level, window, out=out)

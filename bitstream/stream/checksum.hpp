@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// The checksum of headers, and of the payloads of streams that promise something.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace tetrakis::inline stream {
+
+/// CRC-32 as in PNG and zip: polynomial EDB88320 reflected, initial and final xor FFFFFFFF.
+uint32_t crc32(std::span<const uint8_t> bytes);
+
+}  // namespace tetrakis::inline stream
