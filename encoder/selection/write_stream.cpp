@@ -9,7 +9,7 @@
 #include "bitstream/stream/checksum.hpp"
 #include "bitstream/stream/header.hpp"
 #include "encoder/selection/stated_place.hpp"
-#include "ratecontrol/needs/target.hpp"
+#include "ratecontrol/needs/packet_budget.hpp"
 
 namespace tetrakis::inline selection {
 

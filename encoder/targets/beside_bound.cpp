@@ -13,7 +13,7 @@
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/ways/heights_for_target.hpp"
 #include "encoder/targets/heights_need.hpp"
-#include "ratecontrol/needs/target.hpp"
+#include "ratecontrol/needs/needed_bytes.hpp"
 
 namespace tetrakis::inline targets {
 

@@ -14,7 +14,8 @@
 #include "encoder/targets/other_exact_heights.hpp"
 #include "encoder/views/errors_of_prefixes.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
-#include "ratecontrol/needs/target.hpp"
+#include "ratecontrol/needs/needed_bytes.hpp"
+#include "ratecontrol/needs/packet_budget.hpp"
 
 namespace tetrakis::inline targets {
 

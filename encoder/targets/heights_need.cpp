@@ -5,7 +5,7 @@
 
 #include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/heights/height_errors.hpp"
-#include "ratecontrol/needs/target.hpp"
+#include "ratecontrol/needs/needed_bytes.hpp"
 
 namespace tetrakis::inline targets {
 

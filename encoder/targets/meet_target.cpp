@@ -15,7 +15,8 @@
 #include "encoder/targets/exact_budget.hpp"
 #include "encoder/targets/heights_need.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
-#include "ratecontrol/needs/target.hpp"
+#include "ratecontrol/needs/needed_bytes.hpp"
+#include "ratecontrol/needs/packet_budget.hpp"
 
 namespace tetrakis::inline targets {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "ratecontrol/curves/component_curve.hpp"
-#include "ratecontrol/needs/target.hpp"
+#include "ratecontrol/needs/needed_bytes.hpp"
 
 namespace tetrakis::inline needs {
 

@@ -6,7 +6,7 @@
 #include "ratecontrol/curves/audit.hpp"
 #include "ratecontrol/curves/component_curve.hpp"
 #include "ratecontrol/curves/hull.hpp"
-#include "ratecontrol/needs/target.hpp"
+#include "ratecontrol/needs/needed_bytes.hpp"
 #include "tests/support/rate_curves.hpp"
 
 namespace tetrakis {

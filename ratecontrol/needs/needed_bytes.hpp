@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file finds out how many bytes of every component a target needs, and keeps the packets that
-// hold them. It decodes nothing: the callers say what a number of bytes is worth.
+// How many bytes of each component a target needs is found here, and the packets that hold them are
+// kept. Nothing is decoded: the callers say what a number of bytes is worth.
 #pragma once
 
 #include <array>
@@ -33,23 +33,7 @@ std::vector<Packet> keepNeeded(
     std::span<const Packet> packets, const Needs& needs,
     const std::function<uint8_t(Component component, uint64_t bytes)>& quality_after);
 
-/// Keeps the packets that begin within a budget of bytes, their heads counted.
-std::vector<Packet> keepWithinBudget(std::span<const Packet> packets, uint64_t budget);
-
-/// Orders packets so that those that hold the first payload bytes of a component, or all, end
-/// within a budget of bytes, if it has room for them: what of the other component would push the
-/// last of them out comes behind it.
-std::vector<Packet> endWithin(std::span<const Packet> packets, Component component, uint64_t needed,
-                              uint64_t budget);
-
 /// Bytes of the codewords that all packets hold.
 uint64_t payloadOf(std::span<const Packet> packets);
-
-/// Heads and payload of all packets.
-uint64_t bytesOfPackets(std::span<const Packet> packets);
-
-/// The RMSE of each component that the last packet within the budget states; without one the
-/// largest that can be stated.
-std::array<double, kComponents> statedWithin(std::span<const Packet> packets, uint64_t budget);
 
 }  // namespace tetrakis::inline needs

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What meets a target: searches over packets, needs, budgets.
-#include "ratecontrol/needs/target.hpp"
+#include "ratecontrol/needs/needed_bytes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <iterator>
 #include <random>
+
+#include "ratecontrol/needs/packet_budget.hpp"
 
 namespace tetrakis {
 namespace {

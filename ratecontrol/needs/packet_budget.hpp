@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What of an order of packets fits in a budget of bytes, to which the heads of packets count.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bitstream/stream/packet.hpp"
+
+namespace tetrakis::inline needs {
+
+/// Returns the bytes of all packets with their heads.
+uint64_t bytesOfPackets(std::span<const Packet> packets);
+
+/// Keeps the packets that begin within the budget.
+std::vector<Packet> keepWithinBudget(std::span<const Packet> packets, uint64_t budget);
+
+/// Orders packets so that those that hold the first `needed` payload bytes of a component, or all
+/// of its packets, end within the budget, if it has room for them: what of the other component
+/// would push the last of them out comes behind it.
+std::vector<Packet> endWithin(std::span<const Packet> packets, Component component, uint64_t needed,
+                              uint64_t budget);
+
+/// The RMSE of each component that the last packet within the budget states; without one the
+/// largest that can be stated.
+std::array<double, kComponents> statedWithin(std::span<const Packet> packets, uint64_t budget);
+
+}  // namespace tetrakis::inline needs
