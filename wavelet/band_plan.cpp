@@ -69,7 +69,7 @@ std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int fir
     band.orientation = subband.orientation;
     band.log_norm = norms_.log16(subband) + priority;
     if (whole_ && (subband.level > 1 || subband.orientation == Orientation::kLL))
-      band.least_key = priority;
+      band.key_floor = priority;
     band.models = models + modelsOf(subband);
     const size_t parent = i - kBandsPerLevel;  // LL is nobody's
     const bool has_parent = i >= kBandsPerLevel &&

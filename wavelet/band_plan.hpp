@@ -48,10 +48,10 @@ class PlaneLayout {
 
   /// Returns one entry for each part of a region, without its absent coefficients. The indices of
   /// parents and siblings count from `first`, the place that the first entry will have in the plan
-  /// of the track. priority: added to every log_norm. Of whole numbers it is the least key of all
-  /// but the finest details: at the end, where the inverse rounds, nothing else is missing; one
-  /// coarse coefficient that is off by 1 changes the rounding of hundreds of samples. models: the
-  /// class of contexts of the first band.
+  /// of the track. priority: added to every log_norm. Of whole numbers it is the floor of the keys
+  /// of all but the finest details: at the end, where the inverse rounds, nothing else is missing;
+  /// one coarse coefficient that is off by 1 changes the rounding of hundreds of samples. models:
+  /// the class of contexts of the first band.
   std::vector<BandPlan> plan(std::span<const BandPart> parts, int first = 0, int priority = 0,
                              uint32_t models = 0) const;
 

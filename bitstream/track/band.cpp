@@ -65,9 +65,9 @@ uint64_t Band::bytesOf(const BandShape& band_shape, bool masked) {
   return band_shape.cells() * cell + band_shape.wordCells() * word + blocks;
 }
 
-void Band::clearVisited(size_t of) {
+void Band::clearVisited(size_t tier) {
   if (tiers != nullptr) {
-    const uint32_t* members = tiers->members.data() + of * shape.wordCells();
+    const uint32_t* members = tiers->members.data() + tier * shape.wordCells();
     for (size_t i = 0; i < shape.wordCells(); ++i) visited[i] &= ~members[i];
   } else if (absent.size() == 0) {
     std::fill(visited.begin(), visited.end(), 0);
@@ -76,9 +76,9 @@ void Band::clearVisited(size_t of) {
   }
 }
 
-void Band::markVisited(size_t of) {
+void Band::markVisited(size_t tier) {
   if (tiers == nullptr) return;  // then nothing is significant beside them, and nobody looks
-  const uint32_t* members = tiers->members.data() + of * shape.wordCells();
+  const uint32_t* members = tiers->members.data() + tier * shape.wordCells();
   for (size_t i = 0; i < shape.wordCells(); ++i) visited[i] |= members[i];
 }
 

@@ -60,13 +60,14 @@ struct Neighbours {
   }
 };
 
-/// Priorities that a coefficient may have (wavelet/priority_map.hpp).
+/// How many priorities a coefficient may have (wavelet/priority_map.hpp). A band has a tier for
+/// each: tier t holds the coefficients of priority t, which have passes of their own.
 inline constexpr size_t kPriorities = 8;
 
-/// The coefficients of one priority in a band: they have passes of their own.
-struct Tier {
+/// What the passes over a tier have found so far.
+struct TierState {
   int plane = 31;                  ///< bit-plane of the last pass; nothing is known below
-  bool nonzero = false;            ///< it holds a significant coefficient
+  bool nonzero = false;            ///< the tier holds a significant coefficient
   uint32_t significant_count = 0;  ///< coefficients that are significant
 };
 
@@ -110,19 +111,19 @@ struct Band {
   }
 
   /// The columns of a word that are in a tier.
-  uint32_t members(size_t of, uint32_t row, uint32_t index) const {
+  uint32_t members(size_t tier, uint32_t row, uint32_t index) const {
     return tiers == nullptr ? existing(row, index)
-                            : tiers->members[of * shape.wordCells() + shape.word(row, index)];
+                            : tiers->members[tier * shape.wordCells() + shape.word(row, index)];
   }
 
   /// Nothing is known of the next bit-plane of a tier yet.
-  void clearVisited(size_t of = 0);
+  void clearVisited(size_t tier = 0);
   /// All is known of a bit-plane of a tier: nothing is significant there.
-  void markVisited(size_t of);
+  void markVisited(size_t tier);
 
   bool nonzero() const {
     bool any = false;
-    for (const Tier& one : tier) any |= one.nonzero;
+    for (const TierState& tier : tier_states) any |= tier.nonzero;
     return any;
   }
 
@@ -161,7 +162,7 @@ struct Band {
 
   BandShape shape;
   Orientation orientation = Orientation::kLL;
-  std::array<Tier, kPriorities> tier;
+  std::array<TierState, kPriorities> tier_states;
   std::shared_ptr<const BandTiers> tiers;  ///< null: all coefficients are in tier 0
   ZeroedArray<uint32_t> magnitude;         ///< known bits, unknown ones zero
   ZeroedArray<uint8_t> scaled;  ///< magnitude >> plane, held below 2^7; of the last pass's tier

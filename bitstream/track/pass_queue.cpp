@@ -48,7 +48,7 @@ PassQueue::PassQueue(const std::vector<BandPlan>& plan, int planes)
       if (members == 0) continue;
       const Pass first = {static_cast<uint16_t>(band), tier, static_cast<uint8_t>(planes - 1),
                           PassKind::kLikely};
-      progressOf(first) = {plan[band].log_norm + 16 * tier, plan[band].least_key + 16 * tier,
+      progressOf(first) = {plan[band].log_norm + 16 * tier, plan[band].key_floor + 16 * tier,
                            plan[band].needed, members, 0};
       needed_ += plan[band].needed;
       push(first, 0);
@@ -63,7 +63,7 @@ void PassQueue::push(Pass pass, uint32_t significant) {
   const uint32_t rarity = progress.coefficients / std::max(significant, 1u);
   const auto density = std::min(static_cast<size_t>(std::bit_width(rarity)), kDensities - 1);
   pass.key = std::max(16 * pass.plane + progress.log_norm - delayOf(pass.kind, density),
-                      progress.least_key);
+                      progress.key_floor);
   ++progress.open;
   pending_.push_back(pass);
   std::push_heap(pending_.begin(), pending_.end(), isLater);
@@ -76,7 +76,7 @@ void PassQueue::pop(const Band& band) {
   pending_.pop_back();
   Progress& progress = progressOf(done);
   if (--progress.open > 0) return;
-  const uint32_t significant = band.tier[done.tier].significant_count;
+  const uint32_t significant = band.tier_states[done.tier].significant_count;
   Pass next = done;
   if (done.kind == PassKind::kLikely) {
     next.kind = PassKind::kRest;

@@ -19,14 +19,15 @@ class PassQueue {
   bool empty() const { return pending_.empty(); }
   /// The next pass.
   const Pass& front() const { return pending_.front(); }
-  /// It has been coded, and this is what is known of its band now.
+  /// Takes the next pass off the queue, once it has been coded. band: what is known by then of its
+  /// band.
   void pop(const Band& band);
   /// Bands that are needed (BandPlan::needed) have passes left.
   bool needed() const { return needed_ > 0; }
 
  private:
   struct Progress {
-    int log_norm = 0, least_key = 0;  ///< and the priority
+    int log_norm = 0, key_floor = 0;  ///< those of the band, raised by the tier's priority
     bool needed = false;
     uint32_t coefficients = 0;  ///< that exist
     uint8_t open = 0;           ///< passes of the plane that are not coded yet

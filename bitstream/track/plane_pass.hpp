@@ -57,7 +57,7 @@ class PlanePass {
   void run(PassKind kind, int plane) {
     plane_ = plane;
     if (kind == PassKind::kLikely) beginPlane();
-    if (!band_.tier[tier_].nonzero) {
+    if (!band_.tier_states[tier_].nonzero) {
       if (kind != PassKind::kRest || !tierBecomesNonzero()) return;
     }
     if (band_.tiers != nullptr) scaleAround();
@@ -73,9 +73,9 @@ class PlanePass {
 
  private:
   void beginPlane() {
-    band_.tier[tier_].plane = plane_;
+    band_.tier_states[tier_].plane = plane_;
     if (band_.tiers != nullptr) return band_.clearVisited(tier_);
-    if (!band_.tier[tier_].nonzero) return;
+    if (!band_.tier_states[tier_].nonzero) return;
     band_.clearVisited();
     for (uint32_t row = 0; row < band_.shape.rows; ++row) {
       for (uint32_t x = 0; x < band_.shape.words(); ++x) {
@@ -90,7 +90,7 @@ class PlanePass {
   bool tierBecomesNonzero() {
     const bool bit = io_.bandBit(models_.band, plane_);
     if (io_.stopped()) return false;
-    band_.tier[tier_].nonzero = bit;
+    band_.tier_states[tier_].nonzero = bit;
     if (!bit) band_.markVisited(tier_);
     return bit;
   }
@@ -278,7 +278,7 @@ class PlanePass {
     band_.scaled[cell] = 1;
     band_.sign[cell] = static_cast<int8_t>(1 - 2 * negative);
     band_.significant[r.word] |= uint32_t{1} << i;
-    ++band_.tier[tier_].significant_count;
+    ++band_.tier_states[tier_].significant_count;
     r.near |= uint32_t{2} << i;
     r.reach.two |= uint32_t{6} << i;
     r.reach.three |= uint32_t{14} << i;

@@ -31,7 +31,8 @@ Reconstruction::Reconstruction(const Band& band, int fraction_bits)
       neighbours_(band.shape, band.orientation),
       weights_(weightsOf(band.orientation)) {
   const size_t tiers = band.tiers == nullptr ? 1 : kPriorities;
-  for (size_t tier = 0; tier < tiers; ++tier) tables_.push_back(tablesOf(band.tier[tier].plane));
+  for (size_t tier = 0; tier < tiers; ++tier)
+    tables_.push_back(tablesOf(band.tier_states[tier].plane));
 }
 
 Reconstruction::TierTables Reconstruction::tablesOf(int plane_of_tier) const {
@@ -74,7 +75,7 @@ void Reconstruction::tierRow(size_t tier, uint32_t row, uint32_t word, int32_t* 
   for (uint32_t todo = known & band_.members(tier, row, word); todo != 0; todo &= todo - 1) {
     const auto i = static_cast<uint32_t>(std::countr_zero(todo));
     const size_t cell = first + i, above = ~(band_.visited[index] >> i) & 1;
-    const int plane = band_.tier[tier].plane + static_cast<int>(above);
+    const int plane = band_.tier_states[tier].plane + static_cast<int>(above);
     const PlaneTables& tables = tables_[tier][above];
     if (((band_.significant[index] >> i) & 1) == 0) {
       out[i] = besideTiers(cell, plane, tables);

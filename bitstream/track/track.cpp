@@ -26,7 +26,7 @@ TrackState::TrackState(const std::vector<BandPlan>& plan, int planes) {
   bands.reserve(plan.size());
   for (const BandPlan& band : plan) {
     Band& made = bands.emplace_back(band.shape, band.orientation, band.absent, band.tiers);
-    for (Tier& tier : made.tier) tier.plane = planes;
+    for (TierState& tier : made.tier_states) tier.plane = planes;
     classes = std::max(classes, band.models + 1);
   }
   models.resize(classes);

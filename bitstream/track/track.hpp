@@ -21,7 +21,7 @@ struct BandPlan {
   BandShape shape;
   Orientation orientation = Orientation::kLL;
   int log_norm = 0;        ///< 16 * log2 of the L2 norm of the band's synthesis functions, rounded
-  int least_key = kNoKey;  ///< of its passes
+  int key_floor = kNoKey;  ///< no pass of the band has a lower key
   uint32_t models = 0;     ///< index of the BandModels that the band uses
   int parent = kNone;      ///< the band of the same orientation one level coarser
   int companion = kNone;   ///< the same band of the colour plane before
@@ -42,7 +42,8 @@ struct Pass {
   uint8_t tier;
   uint8_t plane;
   PassKind kind;
-  /// 16 log2 of norm * 2^plane, less a delay, or BandPlan::least_key; and the tier's priority.
+  /// 16 log2 of norm * 2^plane, less a delay, but at least BandPlan::key_floor; 16 more for each
+  /// priority of the tier.
   int key = 0;
 };
 

@@ -34,8 +34,8 @@ std::vector<BandPlan> randomPlan(Random& random) {
 /// A band of which so many coefficients, from the first on, are significant.
 Band bandWith(const BandShape& shape, uint32_t significant) {
   Band band(shape, Orientation::kHL);
-  band.tier[0].nonzero = significant > 0;
-  band.tier[0].significant_count = significant;
+  band.tier_states[0].nonzero = significant > 0;
+  band.tier_states[0].significant_count = significant;
   return band;
 }
 

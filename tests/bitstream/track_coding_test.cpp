@@ -78,7 +78,7 @@ void expectTruth(const TrackState& state, size_t index, const BandSource& source
       const size_t cell = shape.cell(row, column), word = shape.word(row, column / 32);
       const int32_t truth = source.values[cell];
       const bool visited = (band.visited[word] >> column % 32) & 1;
-      const int plane = band.tier[0].plane + (visited ? 0 : 1);
+      const int plane = band.tier_states[0].plane + (visited ? 0 : 1);
       const int64_t low = band.magnitude[cell], high = low + (int64_t{1} << plane);
       const int64_t magnitude = std::abs(int64_t{truth});
       ASSERT_TRUE(magnitude >= low && magnitude < high) << truth << " below plane " << plane;
@@ -130,12 +130,12 @@ uint32_t signsOf(const Band& band) {
 bool sameKnowledge(const TrackState& a, const TrackState& b) {
   bool same = a.complete == b.complete && a.bands.size() == b.bands.size();
   for (size_t i = 0; same && i < a.bands.size(); ++i) {
-    same = a.bands[i].tier[0].plane == b.bands[i].tier[0].plane &&
+    same = a.bands[i].tier_states[0].plane == b.bands[i].tier_states[0].plane &&
            equal(a.bands[i].sign, b.bands[i].sign) &&
            equal(a.bands[i].magnitude, b.bands[i].magnitude) &&
            equal(a.bands[i].visited, b.bands[i].visited) &&
-           a.bands[i].tier[0].significant_count == signsOf(a.bands[i]) &&
-           b.bands[i].tier[0].significant_count == signsOf(b.bands[i]);
+           a.bands[i].tier_states[0].significant_count == signsOf(a.bands[i]) &&
+           b.bands[i].tier_states[0].significant_count == signsOf(b.bands[i]);
   }
   return same;
 }

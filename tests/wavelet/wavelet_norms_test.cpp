@@ -190,8 +190,8 @@ TEST(PlaneLayout, GatheredCoefficientsArePutBack) {
       const Subband& subband = layout.subbands()[part.subband];
       const std::vector<int32_t> values = layout.gather(plane, part);
       Band band(part.shape(), subband.orientation);
-      band.tier[0].plane = 0;
-      band.tier[0].nonzero = true;
+      band.tier_states[0].plane = 0;
+      band.tier_states[0].nonzero = true;
       for (uint32_t row = 0; row < subband.height; ++row) {
         for (uint32_t column = 0; column < subband.width; ++column) {
           const size_t cell = band.shape.cell(row, column);
