@@ -79,15 +79,15 @@ std::vector<T> cut(std::span<const T> values, Extent plane, const View& view) {
 
 /// The values of a window: copied, unless it shows the whole plane, which outlives this.
 template <class T>
-class CutOut {
+class WindowValues {
  public:
-  CutOut(std::span<const T> values, Extent plane, const Window& window) : values_(values) {
+  WindowValues(std::span<const T> values, Extent plane, const Window& window) : values_(values) {
     if (values.empty() || window.extent() == plane) return;
     copy_ = cut(values, plane, {0, window});
     values_ = copy_;
   }
-  CutOut(const CutOut&) = delete;
-  CutOut& operator=(const CutOut&) = delete;
+  WindowValues(const WindowValues&) = delete;
+  WindowValues& operator=(const WindowValues&) = delete;
 
   std::span<const T> values() const { return values_; }
 

@@ -192,9 +192,9 @@ SampleCorrections correctionsBehind(const QuantisedHeights& heights, const Heigh
   const std::vector<uint8_t> hints = sampleHints(decodedSteps(shown, header), 0, header);
   const std::vector<int32_t> corrections = sampleCorrections(*heights.samples, shown);
   PartCodewords codewords = encodeParts(header, threads, [&](const Window& part) {
-    const CutOut<int32_t> of_part(corrections, header.extent(), part);
-    const CutOut<uint8_t> hints_there(hints, header.extent(), part);
-    const CutOut<uint8_t> valid(shown.valid, header.extent(), part);
+    const WindowValues<int32_t> of_part(corrections, header.extent(), part);
+    const WindowValues<uint8_t> hints_there(hints, header.extent(), part);
+    const WindowValues<uint8_t> valid(shown.valid, header.extent(), part);
     return encodeCorrections(of_part.values(),
                              {hints_there.values(), part.extent(), valid.values()});
   });

@@ -23,8 +23,8 @@ namespace {
 
 /// A part of the plane: its steps, and what is decoded of them.
 struct DecodedPart {
-  CutOut<int32_t> steps, heights;
-  CutOut<uint8_t> valid;
+  WindowValues<int32_t> steps, heights;
+  WindowValues<uint8_t> valid;
   Extent extent;
   int fraction_bits;
 
@@ -94,8 +94,8 @@ Corrected correct(const HeightSteps& steps, uint32_t width, const DecodedWindow&
   std::vector<Corrected> of_parts(decoded.parts.size());
   parallelFor(threads, decoded.parts.size(), [&](size_t i) {
     const Window& part = decoded.parts[i];
-    const CutOut<uint8_t> significant(decoded.heights.significant, decoded.window.extent(),
-                                      DecodedPart::inside(decoded, part));
+    const WindowValues<uint8_t> significant(decoded.heights.significant, decoded.window.extent(),
+                                            DecodedPart::inside(decoded, part));
     of_parts[i] =
         correctPart(DecodedPart(steps, plane, decoded, part), significant.values(), largest);
   });

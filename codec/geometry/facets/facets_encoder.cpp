@@ -12,8 +12,8 @@ std::vector<uint8_t> encodeFacets(const tks_heights& samples, PlaneView<const in
                                   const Window& part, const GeometryHeader& header, int unit) {
   assert(samples.sample == TKS_F32);
   assert(samples.width == steps.width && samples.height == steps.height);
-  const CutOut<int32_t> heights(steps.values(), steps.extent(), part);
-  const CutOut<uint8_t> valid(steps.valid.bytes(), steps.extent(), part);
+  const WindowValues<int32_t> heights(steps.values(), steps.extent(), part);
+  const WindowValues<uint8_t> valid(steps.valid.bytes(), steps.extent(), part);
   const auto* first =
       static_cast<const float*>(samples.data) + size_t{part.y} * samples.width + part.x;
   DecisionEncoding writer;

@@ -63,12 +63,13 @@ std::vector<uint8_t> encodeRelative(const tks_heights& samples, PlaneView<const 
   assert(samples.width == steps.width && samples.height == steps.height);
   assert(std::isfinite(relative.step) && relative.step > 0);
   const Extent plane = steps.extent();
-  const CutOut<int32_t> heights(steps.values(), plane, part);
-  const CutOut<uint8_t> valid(steps.valid.bytes(), plane, part);
+  const WindowValues<int32_t> heights(steps.values(), plane, part);
+  const WindowValues<uint8_t> valid(steps.valid.bytes(), plane, part);
   CorrectionWriter writer;
   withSampleType(samples.sample, [&](auto type) {
     using T = decltype(type);
-    const CutOut<T> exact({static_cast<const T*>(samples.data), plane.samples()}, plane, part);
+    const WindowValues<T> exact({static_cast<const T*>(samples.data), plane.samples()}, plane,
+                                part);
     writeRows<T>(exact.values(), {heights.values(), part.extent(), valid.values()}, header,
                  relative, writer);
   });
