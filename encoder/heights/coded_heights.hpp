@@ -52,22 +52,6 @@ struct CodedHeights {
   }
 };
 
-/// The layers around coefficients, and how these are coded.
-struct HeightLayers {
-  GeometryLayers stated;    ///< what the header says of them
-  MaskRoom mask_room = {};  ///< of a late mask
-  WaveletHeader wavelet;
-  PriorityHeader priorities;
-  FlatLayer flat = {};
-};
-
-/// The layers that the heights come with, which outlive the result, and flat areas.
-HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,
-                          const PriorityMap* priorities);
-
-/// The header of heights whose coefficients, in so many bit-planes, have these layers around them.
-GeometryHeader headerOf(const QuantisedHeights& heights, const HeightLayers& layers, int planes);
-
 /// The filters that suit the heights.
 WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose);
 
@@ -75,13 +59,6 @@ WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpo
 std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                                            const WaveletHeader& wavelet,
                                            CoefficientOptions options);
-
-/// Validity and flat areas before the coefficients of the first track, a table within them, where
-/// its bytes take off as much error as theirs, and a late mask; the corrections that the heights
-/// come with behind them. region_log2: what the coefficients were coded with.
-CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
-                        const HeightLayers& layers, std::vector<EncodedTrack> coefficients,
-                        int region_log2);
 
 /// What coefficients are coded for.
 struct HeightTarget {
@@ -105,12 +82,5 @@ CodedHeights tryHeights(std::shared_ptr<const QuantisedHeights> quantised,
 /// The attempt with the byte from which on decoders round, which takes time to find. coded: an
 /// attempt.
 CodedHeights withRounding(CodedHeights coded);
-
-/// Codes the heights as a drawing, in the place of coefficients; nothing if they have too many
-/// values for one.
-std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> quantised);
-
-/// The samples written as they are. threads: nothing depends on them.
-CodedHeights storeHeights(std::shared_ptr<const QuantisedHeights> quantised, uint32_t threads);
 
 }  // namespace tetrakis::inline heights

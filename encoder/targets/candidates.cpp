@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "codec/geometry/stored_heights_encoder.hpp"
+#include "encoder/heights/direct_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/targets/component_curves.hpp"

@@ -12,6 +12,7 @@
 #include "codec/geometry/heights_decoder.hpp"
 #include "encoder/heights/followed_heights.hpp"
 #include "encoder/heights/height_options.hpp"
+#include "encoder/heights/joined_layers.hpp"
 #include "encoder/heights/ways/cut_heights.hpp"
 #include "wavelet/choice/typical_plane.hpp"
 

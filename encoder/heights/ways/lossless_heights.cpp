@@ -7,6 +7,7 @@
 
 #include "codec/geometry/coding_choice/exact_cut.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_estimate.hpp"
+#include "encoder/heights/direct_heights.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/ways/corrected_heights.hpp"
 #include "encoder/heights/ways/facet_heights.hpp"

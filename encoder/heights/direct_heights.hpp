@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Heights without coefficients. A drawing of few values, or the samples as they are, takes the
+// place of the coefficients in the track.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "encoder/heights/coded_heights.hpp"
+
+namespace tetrakis::inline heights {
+
+/// Codes the heights as a drawing, in the place of coefficients; nothing if they have too many
+/// values for one.
+std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> quantised);
+
+/// The samples written as they are. threads: nothing depends on them.
+CodedHeights storeHeights(std::shared_ptr<const QuantisedHeights> quantised, uint32_t threads);
+
+}  // namespace tetrakis::inline heights
