@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tetrakis encode: heights, a texture or both into one embedded stream.
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -12,13 +10,10 @@
 
 #include "base/length_unit.hpp"
 #include "tools/commands/encode_memory.hpp"
+#include "tools/commands/encode_notes.hpp"
 #include "tools/files/file_bytes.hpp"
-#include "tools/files/place/crs_units.hpp"
 #include "tools/files/place/given_crs.hpp"
-#include "tools/files/place/texture_place.hpp"
-#include "tools/files/text.hpp"
 #include "tools/files/units.hpp"
-#include "tools/files/void_samples.hpp"
 #include "tools/output/output.hpp"
 #include "tools/output/output_names.hpp"
 #include "tools/output/progress.hpp"
@@ -27,18 +22,6 @@
 
 namespace tetrakis::tools {
 namespace {
-
-std::string voidNote(const HeightFile& heights) {
-  const Surface surface = heightsOf(heights);
-  const auto count = std::count_if(surface.values.begin(), surface.values.end(),
-                                   [](double height) { return std::isnan(height); });
-  if (count == 0) return "";
-  std::string note = counted(static_cast<uint64_t>(count), "sample is", "samples are") + " void";
-  if (const uint64_t nans = nansBesideNodata(heights))
-    note += ", of which " + counted(nans, "is", "are") + " NaN and will be " +
-            shortest(*heights.nodata) + " as the others";
-  return note;
-}
 
 Status describe(const EncodeArguments& arguments, HeightFile& heights) {
   heights.scale = arguments.scale.value_or(heights.scale);
@@ -63,56 +46,6 @@ void tellNotes(const Notes& notes, const EncodeArguments& arguments, bool quiet)
         (option == "--scale" && arguments.scale) || (option == "--offset" && arguments.offset);
     if (!answered) tellNote(quoted(arguments.height) + ": " + text, quiet);
   }
-}
-
-/// Whether meshes or pictures of the ground count.
-bool isSeen(const EncodeArguments& arguments) {
-  return !arguments.texture.empty() || !arguments.report.empty() || arguments.triangles > 0 ||
-         arguments.engine == "rendered" || !arguments.cameras.isDefault();
-}
-
-/// What is guessed of heights because something relies on it, unless a note has asked for it.
-Notes guesses(const EncodeArguments& arguments, const HeightFile& heights, const Notes& told) {
-  const auto asked = [&told](const char* option) {
-    return std::any_of(told.begin(), told.end(),
-                       [option](const Note& note) { return note.option == option; });
-  };
-  const bool converted = !arguments.max_error.empty() &&
-                         std::isalpha(static_cast<unsigned char>(arguments.max_error.back()));
-  const bool seen = isSeen(arguments);
-  Notes notes;
-  if (arguments.crs && !arguments.crs->empty() && !isKnownCrs(*arguments.crs))
-    notes.push_back({"PROJ does not know the CRS '" + *arguments.crs + "', which is kept", ""});
-  if (heights.unit.empty() && (seen || converted) && !asked("--unit"))
-    notes.push_back({"the unit of the heights is not known and counts as metres: give --unit", ""});
-  if (heights.spacing_x <= 0 && heights.spacing_y <= 0 && seen && !asked("--spacing"))
-    notes.push_back({"the spacing of the samples is not known and counts as " +
-                         shortest(kUnknownSpacing) + " m: give --spacing",
-                     ""});
-  return notes;
-}
-
-/// What counts as white, if it is not the largest value; "" otherwise.
-std::string whiteNote(const std::string& texture, const ImageFile& image) {
-  if (image.white() == largestTexel(image.sample)) return "";
-  return quoted(texture) + " uses a part of its 16 bits: " + std::to_string(image.white()) +
-         " counts as white: give --white-level";
-}
-
-/// What to say of a texture that has a place of its own; "" if it covers the heights.
-std::string placeNote(const std::string& texture, const HeightFile& heights,
-                      const ImageFile& image) {
-  PlacedRaster texels(image.width, image.height, image.place);
-  if (texels.crs.empty()) texels.crs = heights.crs;
-  const TexturePlace place(PlacedRaster(heights.width, heights.height, heights), texels);
-  if (!place.texelsOver({0, 0, heights.width, heights.height}))
-    return quoted(texture) + " lies beside the ground of the heights, which get its border";
-  if (!place.isOwn()) return "";
-  const char* const who =
-      texels.crs == heights.crs ? "the encoder's cameras see" : "cameras and web pages see";
-  return quoted(texture) +
-         " covers other ground than the heights: meshes have it where it lies, but " + who +
-         " it stretched over them; gdalwarp can cut it to their ground";
 }
 
 Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
@@ -154,8 +87,8 @@ Result<std::vector<Camera>> wantedCameras(const EncodeArguments& arguments,
   const bool rendered = arguments.engine == "rendered";
   if (!inputs.heights || (arguments.cameras.isDefault() && !rendered)) return std::vector<Camera>();
   const Bounds bounds = boundsOf(heightsOf(*inputs.heights), frameOf(*inputs.heights));
-  if (arguments.cameras.isDefault()) return unknownViewer(bounds);
-  return chooseCameras(arguments.cameras, bounds);
+  const CameraChoice any{.file = {}, .view = "any"};
+  return chooseCameras(arguments.cameras.isDefault() ? any : arguments.cameras, bounds);
 }
 
 /// The renderer that looks at the pictures; nothing: the library models them, or there are none.
@@ -228,32 +161,6 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
                                            inputs.image ? &image : nullptr, *options);
   if (!stream) return stream.status();
   return std::move(*stream);
-}
-
-/// A bound may be so small that nothing but every bit keeps it, or every bit takes fewer bytes than
-/// anything else that keeps it.
-std::string boundNote(const EncodeArguments& arguments, const tks_info& info) {
-  return arguments.max_error.empty() || info.lossless == 0
-             ? ""
-             : "--max-error " + arguments.max_error +
-                   ": nothing takes fewer bytes than every bit, which the stream restores";
-}
-
-/// A mask of many holes may take more bytes than all heights are to have.
-std::string maskNote(const tks_info& info) {
-  return info.has_voids == 0 || info.voids_known != 0
-             ? ""
-             : "the mask of voids does not fit: some voids are shown as ground";
-}
-
-/// One line about what was written.
-std::string summary(const std::string& name, const tks_info& info) {
-  const uint64_t heads =
-      info.stream_bytes - info.header_bytes - info.geometry_bytes - info.texture_bytes;
-  return name + ": " + std::to_string(info.stream_bytes) + " bytes (header " +
-         std::to_string(info.header_bytes) + ", heights " + std::to_string(info.geometry_bytes) +
-         ", texture " + std::to_string(info.texture_bytes) + ", heads of packets " +
-         std::to_string(heads) + ")";
 }
 
 Status writeReport(const EncodeArguments& arguments, const Reference& inputs,
