@@ -115,7 +115,7 @@ CLI::Option* addBytes(CLI::App& app, T& bytes, const std::string& help) {
   return addSize(app, "--bytes", bytes, help);
 }
 
-/// The name of preset cameras (ground/preset_cameras.cpp), judged before any file is read.
+/// The name of preset cameras (ground/preset_cameras.hpp), judged before any file is read.
 inline CLI::Validator presetView() {
   return silent(CLI::IsMember({"oblique", "low", "top", "orbit", "all", "any"}));
 }

@@ -11,6 +11,7 @@
 #include "base/length_unit.hpp"
 #include "tools/commands/decode_arguments.hpp"
 #include "tools/commands/decode_memory.hpp"
+#include "tools/commands/decode_outputs.hpp"
 #include "tools/commands/decode_windows.hpp"
 #include "tools/commands/decoded_texture.hpp"
 #include "tools/commands/engine_output.hpp"
@@ -43,74 +44,69 @@ std::string rawNote(const std::string& name, const HeightFile& heights) {
          sampleName(heights.sample);
 }
 
-/// Decodes into staged outputs; the caller commits them when all have succeeded.
+/// What is guessed of the ground, where its proportions count.
+void tellGuesses(const tks_info& info, const DecodeOutputs& outputs, bool quiet) {
+  if (!info.has_heights || !(outputs.mesh || outputs.normals || outputs.engine)) return;
+  tellNote(guessedUnitNote(info), quiet);
+  if (spacingOf(info) == std::array<double, 2>{})
+    tellNote("the stream does not tell the spacing of its samples, which counts as " +
+                 shortest(kUnknownSpacing) + " m",
+             quiet);
+}
+
+/// Decodes into the outputs that were planned.
 class Decoding {
  public:
-  Decoding(const DecodeArguments& arguments, OpenStream& stream, bool quiet)
+  Decoding(const DecodeArguments& arguments, OpenStream& stream, DecodeOutputs outputs, bool quiet)
       : arguments_(arguments),
         stream_(stream),
         decoder_(stream.decoder),
+        outputs_(std::move(outputs)),
         quiet_(quiet),
         memory_(arguments, stream),
         image_(arguments, stream) {}
 
-  /// That each of the outputs can be had, before there is any work.
-  Status checkMemory() { return memory_.check(); }
-
-  /// Begins the texture beside the heights where there are threads and memory for both.
-  void start() { beside_bytes_ = image_.begin(memory_); }
-
-  /// What stands in the way of writing, before there is anything to write.
-  Status plan() {
-    const tks_info& info = decoder_.info();
-    const char* const heights = arguments_.size.empty() ? ".tif" : ".r16";
-    if (Status status = plan(arguments_.height, heights, height_); !status.ok()) return status;
-    if (Status status = plan(arguments_.texture, ".png", texture_); !status.ok()) return status;
-    if (Status status = plan(arguments_.mesh, ".glb", mesh_); !status.ok()) return status;
-    if (Status status = plan(arguments_.normal_map, ".png", normals_); !status.ok()) return status;
-    if (Status status = planFormats(); !status.ok()) return status;
-    if (!texture_ || !info.has_texture) return Status();
-    return checkImageFormat(texture_->name(), {.channels = info.texture_channels,
-                                               .sample = info.texture_sample,
-                                               .opaque = info.texture_opaque != 0});
+  /// No file appears before all have been written. The texture is decoded beside the heights where
+  /// there are threads and memory for both.
+  Status run() {
+    beside_bytes_ = image_.begin(memory_);
+    Status status;
+    if (outputs_.height) status = writeHeightField();
+    if (status.ok() && outputs_.texture) status = writeTexture();
+    if (status.ok() && outputs_.mesh) status = writeSurfaceMesh();
+    if (status.ok() && outputs_.normals) status = writeNormals();
+    if (status.ok()) status = commit(outputs_);
+    return status.ok() && arguments_.json ? print(dump(engine_json_)) : status;
   }
 
-  /// What is guessed of the ground, where its proportions count.
-  void tellGuesses() const {
-    const tks_info& info = decoder_.info();
-    if (!info.has_heights || !(mesh_ || normals_ || engine_)) return;
-    tellNote(guessedUnitNote(info), quiet_);
-    if (spacingOf(info) == std::array<double, 2>{})
-      tellNote("the stream does not tell the spacing of its samples, which counts as " +
-                   shortest(kUnknownSpacing) + " m",
-               quiet_);
-  }
-
+ private:
   Status writeHeightField() {
-    if (engine_) return writeForEngine();
+    if (outputs_.engine) return writeForEngine();
     const Result<HeightFile> heights =
         decodeHeights(decoder_, heightWindow(arguments_), memory_.heights() + beside_bytes_);
     if (!heights.ok()) return heights.status();
-    tellNote(hgtNote(height_->name(), *heights), quiet_);
+    tellNote(hgtNote(outputs_.height->name(), *heights), quiet_);
     tellNote(rawNote(arguments_.height, *heights), quiet_);
-    return height_->stage([&](const std::string& path) { return writeHeights(path, *heights); });
+    return outputs_.height->stage(
+        [&](const std::string& path) { return writeHeights(path, *heights); });
   }
 
   Status writeNormals() {
     const Result<ImageFile> map = normalMap(decoder_, stream_.bytes.size() + beside_bytes_);
     if (!map.ok()) return map.status();
-    return normals_->stage([&](const std::string& path) { return writeImage(path, *map); });
+    return outputs_.normals->stage([&](const std::string& path) { return writeImage(path, *map); });
   }
 
   Status writeTexture() {
     const Result<ImageFile>& image = image_.get(memory_);
     if (!image.ok()) return image.status();
     const QuarterTurn turn(textureAxes());
-    if (engine_ && !turn.none()) {  // as the heights
-      return texture_->stage(
+    if (outputs_.engine && !turn.none()) {  // as the heights
+      return outputs_.texture->stage(
           [&](const std::string& path) { return writeImage(path, turned(*image, turn)); });
     }
-    return texture_->stage([&](const std::string& path) { return writeImage(path, *image); });
+    return outputs_.texture->stage(
+        [&](const std::string& path) { return writeImage(path, *image); });
   }
 
   Status writeSurfaceMesh() {
@@ -136,64 +132,28 @@ class Decoding {
     drapeTexture(info, mesh->gridIndices(), file);
     file.texture = texture;
     file.normals = std::move(*normals);
-    return mesh_->stage([&](const std::string& path) {
+    return outputs_.mesh->stage([&](const std::string& path) {
       return writeMesh(path, file, "", arguments_.mesh_options);
     });
   }
 
-  Status commit() {
-    std::vector<Output*> outputs;
-    for (std::optional<Output>* output : {&height_, &texture_, &mesh_, &normals_})
-      if (*output) outputs.push_back(&**output);
-    if (Status status = Output::commitAll(std::move(outputs)); !status.ok()) return status;
-    return arguments_.json ? print(dump(engine_json_)) : Status();
-  }
-
- private:
-  Status plan(const std::string& path, const char* extension, std::optional<Output>& output) const {
-    if (path.empty()) return Status();
-    Result<Output> planned = Output::plan(path, arguments_.force, extension);
-    if (!planned.ok()) return planned.status();
-    output.emplace(std::move(*planned));
-    return Status();
-  }
-
-  /// That what is asked for and the names of files go together.
-  Status planFormats() {
-    const tks_info& info = decoder_.info();
-    if (mesh_) {
-      const Status fits = checkMeshOptions(mesh_->name(), arguments_.mesh_options);
-      if (!fits.ok()) return fits;
-    }
-    if (normals_)
-      if (Status fits = checkImageFormat(normals_->name(), {.channels = 3}); !fits.ok())
-        return fits;
-    if (arguments_.size.empty()) {
-      if (!height_ || formatOf(height_->name(), "") != "r16") return Status();
-      return Status(TKS_USAGE, "an .r16 file is one of an engine: give --size unreal or unity");
-    }
-    const Result<EngineSize> size =
-        parseEngineSize(arguments_.size, std::max(info.width, info.height));
-    if (!size.ok()) return size.status();
-    engine_ = *size;
-    return checkEngineFormat(*engine_, height_->name());
-  }
-
   Status writeForEngine() {
     const Result<EngineHeights> heights =
-        decodeEngineHeights(decoder_, *engine_, stream_.bytes.size() + beside_bytes_);
+        decodeEngineHeights(decoder_, *outputs_.engine, stream_.bytes.size() + beside_bytes_);
     if (!heights.ok()) return heights.status();
     if (heights->voids > 0)
       tellNote(std::to_string(heights->voids) + " void samples have the lowest height", quiet_);
     if (heights->askew)
-      tellNote("the raster lies askew: " + height_->name() + " has north only about at its top",
-               quiet_);
+      tellNote(
+          "the raster lies askew: " + outputs_.height->name() + " has north only about at its top",
+          quiet_);
     if (arguments_.json) {
       engine_json_ = engineJson(*heights);
     } else if (!quiet_) {
-      std::fprintf(stderr, "%s: %s\n", height_->name().c_str(), engineText(*heights).c_str());
+      std::fprintf(stderr, "%s: %s\n", outputs_.height->name().c_str(),
+                   engineText(*heights).c_str());
     }
-    return height_->stage(
+    return outputs_.height->stage(
         [&](const std::string& path) { return writeEngineHeights(path, *heights); });
   }
 
@@ -219,9 +179,8 @@ class Decoding {
   const DecodeArguments& arguments_;
   const OpenStream& stream_;
   Decoder& decoder_;
+  DecodeOutputs outputs_;
   bool quiet_;
-  std::optional<Output> height_, texture_, mesh_, normals_;
-  std::optional<EngineSize> engine_;  ///< of --size
   Json engine_json_;
   DecodeMemory memory_;
   DecodedTexture image_;
@@ -239,20 +198,12 @@ Status decode(const DecodeArguments& arguments, bool quiet) {
                  texture_level = arguments.texture.empty() ? 0 : arguments.level;
   const Status set = stream->decoder.setLevels(heights_level, texture_level);
   if (!set.ok()) return set;
-  Decoding decoding(arguments, *stream, quiet);
-  if (Status status = decoding.plan(); !status.ok()) return status;
-  if (Status status = decoding.checkMemory(); !status.ok()) return status;
-  decoding.tellGuesses();
-  decoding.start();
-  if (!arguments.height.empty())
-    if (Status status = decoding.writeHeightField(); !status.ok()) return status;
-  if (!arguments.texture.empty())
-    if (Status status = decoding.writeTexture(); !status.ok()) return status;
-  if (!arguments.mesh.empty())
-    if (Status status = decoding.writeSurfaceMesh(); !status.ok()) return status;
-  if (!arguments.normal_map.empty())
-    if (Status status = decoding.writeNormals(); !status.ok()) return status;
-  return decoding.commit();
+  const tks_info& info = stream->decoder.info();
+  Result<DecodeOutputs> outputs = planOutputs(arguments, info);
+  if (!outputs.ok()) return outputs.status();
+  if (Status status = DecodeMemory(arguments, *stream).check(); !status.ok()) return status;
+  tellGuesses(info, *outputs, quiet);
+  return Decoding(arguments, *stream, std::move(*outputs), quiet).run();
 }
 
 }  // namespace
