@@ -21,16 +21,6 @@ struct Camera {
   double weight = 1;  ///< of its picture beside those of other cameras
 };
 
-/// Named view of a terrain, from the south, north up: "oblique" (sees all of it, 35 degrees above
-/// the horizon), "low" (from just above the highest ground, sees about a tenth before the sky),
-/// "top" (sees all of it, straight down). "all" gives the three, "orbit" the oblique view from four
-/// sides, "any" those of unknownViewer(). Other names, or bounds that are not finite: TKS_USAGE.
-Result<std::vector<Camera>> presetCameras(const std::string& view, const Bounds& bounds);
-
-/// A mix for a viewer of whom nothing is known: the oblique and the low view from four sides, which
-/// count as one each, and the top view. Bounds that are not finite: TKS_USAGE.
-Result<std::vector<Camera>> unknownViewer(const Bounds& bounds);
-
 /// TKS_USAGE with a sentence that names the camera and says what is wrong: a number that is not
 /// finite, eye and target in one place, an up along the line of sight, an angle beyond (0, 180), a
 /// picture of no pixel or more than 8192 a side, a negative weight.

@@ -41,7 +41,7 @@ struct UsualView {
   double sine;    ///< of the angle between the lines of sight and the horizon
 };
 
-/// From afar, from near and from above (unknownViewer() in ground/camera.hpp).
+/// From afar, from near and from above (unknownViewer() in ground/preset_cameras.hpp).
 constexpr std::array<UsualView, 3> kUsualViews = {{{1, 0.5, 0.574}, {0.1, 0.8, 0.2}, {1, 0.67, 1}}};
 
 /// The mean point of the ground that the view shows.

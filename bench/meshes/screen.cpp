@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "ground/preset_cameras.hpp"
 #include "tools/report/viewed_mesh.hpp"
 
 namespace tetrakis::bench {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preset cameras, and cameras that files describe.
-#include "ground/camera.hpp"
+#include "ground/preset_cameras.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,6 +13,7 @@
 #include <numbers>
 #include <string>
 
+#include "ground/preset_cameras.hpp"
 #include "tools/render/texture_pyramid.hpp"
 
 namespace tetrakis::tools {

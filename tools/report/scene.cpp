@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/length_unit.hpp"
+#include "ground/preset_cameras.hpp"
 #include "ground/vec3.hpp"
 
 #include "tools/files/place/ground_spacing.hpp"
