@@ -59,7 +59,7 @@ std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection
     const auto surface =
         pictures.surfaceOf(GroundRays(decoded.shownAt(of_heights.points[i].bytes)));
     const ScreenTexture shown = decoded.textureAt(of_texture.points[i].bytes);
-    errors.push_back(pictures.inside(surface, shown) + surface.outlines);
+    errors.push_back(pictures.errorInside(surface, shown) + surface.outlines);
   }
   return errors;
 }

@@ -30,7 +30,7 @@ Surfaces surfacesOf(const PictureErrors& pictures, DecodedNodes& decoded,
 std::vector<double> withTrueTexture(const PictureErrors& pictures, const Surfaces& surfaces) {
   std::vector<double> errors;
   for (const auto& surface : surfaces)
-    errors.push_back(pictures.inside(surface, pictures.trueTexture()));
+    errors.push_back(pictures.errorInside(surface, pictures.trueTexture()));
   return errors;
 }
 
@@ -60,7 +60,7 @@ std::vector<double> withTexture(const PictureErrors& pictures, const Surfaces& s
                                 const ScreenTexture& texture, const std::vector<double>& whole) {
   std::vector<double> errors(surfaces.size());
   for (size_t g = 0; g < surfaces.size(); ++g)
-    if (isLookedAt(g, surfaces.size())) errors[g] = pictures.inside(surfaces[g], texture);
+    if (isLookedAt(g, surfaces.size())) errors[g] = pictures.errorInside(surfaces[g], texture);
   fillBetween(whole, errors);
   return errors;
 }

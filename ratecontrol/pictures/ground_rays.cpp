@@ -2,7 +2,6 @@
 #include "ratecontrol/pictures/ground_rays.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -39,22 +38,16 @@ std::array<CellPlane, 2> planesOf(const Corners& h, bool even) {
            {h.ne + h.sw - h.se, h.se - h.sw, h.se - h.ne, {-1, 1, 1}}}};
 }
 
-constexpr float kLowest = -std::numeric_limits<float>::infinity();
-
-/// A comparison with NaN is false: voids raise nothing.
-float raised(float highest, float height) {
-  return height > highest ? height : highest;
-}
-
-/// The least and the greatest height; none: the other way round. Side by side, because each
-/// comparison waits for the one before.
+/// The least and the greatest height; of voids alone the least is above the greatest. Sixteen pairs
+/// are found side by side, because each comparison waits for the one before. Comparisons with NaN
+/// are false, so voids are neither.
 std::pair<double, double> rangeOf(const std::vector<float>& heights) {
   std::array<float, 16> low, high;
-  low.fill(-kLowest);
-  high.fill(kLowest);
+  low.fill(std::numeric_limits<float>::infinity());
+  high.fill(-std::numeric_limits<float>::infinity());
   const auto take = [&](size_t k, float h) {
     low[k] = h < low[k] ? h : low[k];
-    high[k] = raised(high[k], h);
+    high[k] = h > high[k] ? h : high[k];
   };
   size_t i = 0;
   for (; i + low.size() <= heights.size(); i += low.size())
@@ -123,43 +116,9 @@ struct GroundRays::Path {
   }
 };
 
-/// The highest vertex of each cell.
-GroundRays::Level GroundRays::cellsOf(const std::vector<float>& heights, Extent grid) {
-  Level cells{grid.width - 1, grid.height - 1, {}};
-  cells.highest.resize(size_t{cells.width} * cells.height);
-  std::vector<float> higher(grid.width);  // of two vertices of a column
-  float* out = cells.highest.data();
-  for (uint32_t y = 0; y < cells.height; ++y, out += cells.width) {
-    const float* const north = heights.data() + size_t{y} * grid.width;
-    const float* const south = north + grid.width;
-    for (uint32_t x = 0; x < grid.width; ++x)
-      higher[x] = raised(raised(kLowest, north[x]), south[x]);
-    for (uint32_t x = 0; x < cells.width; ++x) out[x] = raised(higher[x], higher[x + 1]);
-  }
-  return cells;
-}
-
-GroundRays::Level GroundRays::halved(const Level& fine) {
-  Level coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}};
-  coarse.highest.resize(size_t{coarse.width} * coarse.height);
-  std::vector<float> higher(2 * size_t{coarse.width}, kLowest);
-  float* out = coarse.highest.data();
-  for (uint32_t y = 0; y < coarse.height; ++y, out += coarse.width) {
-    const float* const north = fine.highest.data() + size_t{2 * y} * fine.width;
-    const float* const south = 2 * y + 1 < fine.height ? north + fine.width : north;
-    for (uint32_t x = 0; x < fine.width; ++x) higher[x] = raised(north[x], south[x]);
-    for (uint32_t x = 0; x < coarse.width; ++x) out[x] = raised(higher[2 * x], higher[2 * x + 1]);
-  }
-  return coarse;
-}
-
-GroundRays::GroundRays(Relief relief) : relief_(std::move(relief)) {
+GroundRays::GroundRays(Relief relief)
+    : relief_(std::move(relief)), highest_(relief_.heights, relief_.extent()) {
   const GroundFrame& f = relief_.frame;
-  const Extent grid = relief_.extent();
-  assert(grid.samples() > 0 && relief_.heights.size() == grid.samples());
-  levels_.push_back(cellsOf(relief_.heights, grid));
-  while (levels_.back().width > 1 || levels_.back().height > 1)
-    levels_.push_back(halved(levels_.back()));
   const auto [low, high] = rangeOf(relief_.heights);
   const double x = (f.width - 1.0) * f.spacing_x / 2, z = (f.height - 1.0) * f.spacing_y / 2;
   bounds_ = low <= high ? Bounds{{-x, low, -z}, {x, high, z}} : Bounds{{-x, 0, -z}, {x, 0, z}};
@@ -191,7 +150,7 @@ std::optional<GroundHit> GroundRays::hitInCell(uint32_t column, uint32_t row, co
 }
 
 std::optional<GroundHit> GroundRays::hit(const Ray& ray) const {
-  if (levels_.front().highest.empty()) return {};
+  if (highest_.cells().samples() == 0) return {};
   const double step = relief_.step;
   std::optional<GroundHit> found = firstHit(Path(ray, relief_.frame, step));
   if (!found) return found;
@@ -227,8 +186,8 @@ std::optional<GroundRays::Stay> GroundRays::stayOf(const Path& path) const {
 std::optional<GroundHit> GroundRays::firstHit(const Path& path) const {
   const std::optional<Stay> stay = stayOf(path);
   if (!stay) return {};
-  const Extent cells{levels_[0].width, levels_[0].height};
-  const size_t top = levels_.size() - 1;
+  const Extent cells = highest_.cells();
+  const size_t top = highest_.top();
   // Larger blocks nearly always have something above the ray.
   constexpr size_t kBlocksAlong = 5;  // log2
   size_t level = top - std::min(top, kBlocksAlong);
@@ -241,8 +200,7 @@ std::optional<GroundHit> GroundRays::firstHit(const Path& path) const {
     const Exit exit = path.exitFrom(block);
     const double leave = std::max(now, std::min({exit.columns, exit.rows, stay->leave}));
     const auto column = static_cast<uint32_t>(cell.column), row = static_cast<uint32_t>(cell.row);
-    if (std::min(path.at(1, now), path.at(1, leave)) <=
-        levels_[level].highestAt(column, row, level)) {
+    if (std::min(path.at(1, now), path.at(1, leave)) <= highest_.above(column, row, level)) {
       if (level > 0) {
         --level;
         continue;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where rays meet a height field: the two triangles of every cell, with the diagonals of the
-// tetrakis tiling. A pyramid of the highest vertices lets rays pass over what lies below them
-// (A. Tevs, I. Ihrke, H.-P. Seidel 2008: maximum mipmaps).
+// tetrakis tiling. Rays pass over blocks of cells that lie below them (maximum_mipmap.hpp).
 #pragma once
 
 #include <array>
@@ -11,6 +10,7 @@
 #include "base/plane.hpp"
 #include "ground/frame.hpp"
 #include "ground/vec3.hpp"
+#include "ratecontrol/pictures/maximum_mipmap.hpp"
 
 namespace tetrakis::inline pictures {
 
@@ -59,17 +59,6 @@ class GroundRays {
   const Bounds& bounds() const { return bounds_; }
 
  private:
-  struct Level {
-    uint32_t width = 0, height = 0;  ///< in blocks of this level
-    std::vector<float> highest;
-
-    /// Of the block around a cell. level: which this one is.
-    float highestAt(uint32_t column, uint32_t row, size_t level) const {
-      return highest[size_t{row >> level} * width + (column >> level)];
-    }
-  };
-  static Level cellsOf(const std::vector<float>& heights, Extent grid);
-  static Level halved(const Level& fine);
   struct Path;  ///< a ray in columns and rows
   /// When a ray is between the borders, and no higher or lower than any height.
   struct Stay {
@@ -83,7 +72,7 @@ class GroundRays {
                                      double leave) const;
 
   Relief relief_;
-  std::vector<Level> levels_;  ///< from single cells up
+  MaximumMipmap highest_;
   Bounds bounds_;
 };
 

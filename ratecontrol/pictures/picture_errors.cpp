@@ -23,7 +23,7 @@ PictureErrors::Surface PictureErrors::surfaceOf(const GroundRays& ground) const 
   return {points_.seenOf(ground, texels_), outlines_.errorOf(ground)};
 }
 
-double PictureErrors::inside(const Surface& surface, const ScreenTexture& texture) const {
+double PictureErrors::errorInside(const Surface& surface, const ScreenTexture& texture) const {
   const std::vector<Colour> colours = points_.coloursOf(surface.seen, texture);
   return points_.errorInside({true_surface_.seen, true_colours_}, {surface.seen, colours});
 }

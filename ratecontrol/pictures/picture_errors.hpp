@@ -33,7 +33,7 @@ class PictureErrors {
   const ScreenTexture& trueTexture() const { return true_texture_; }
 
   /// The error inside the ground, of a surface with a texture.
-  double inside(const Surface& surface, const ScreenTexture& texture) const;
+  double errorInside(const Surface& surface, const ScreenTexture& texture) const;
 
  private:
   Extent texels_;

@@ -96,8 +96,8 @@ double ScreenPoints::errorInside(const Pictures& truth, const Pictures& other) c
   return weights > 0 ? sum / weights : 0;
 }
 
-double ScreenPoints::inside(const PicturePoint& point, const SeenPoint& seen,
-                            const GroundHit& plane, const Surface& surface) const {
+double ScreenPoints::squaresMoved(const PicturePoint& point, const SeenPoint& seen,
+                                  const GroundHit& plane, const Surface& surface) const {
   const GroundFrame& frame = surface.ground.frame();
   const Colour truth = surface.texture.at(seen.u, seen.v, seen.level);
   double squares = 0;
@@ -124,7 +124,7 @@ std::vector<ScreenPoints::Worth> ScreenPoints::worthsOf(const Surface& surface,
     for (size_t i = view.begin; i < view.end; ++i) {
       const auto hit = seen[i].ground ? surface.ground.hit(points_[i].ray) : std::nullopt;
       if (!hit) continue;
-      const double moved = inside(points_[i], seen[i], *hit, surface);
+      const double moved = squaresMoved(points_[i], seen[i], *hit, surface);
       worths.push_back({hit->column, hit->row, weight * moved, weight});
     }
   }

@@ -69,8 +69,8 @@ class ScreenPoints {
 
   void addPoints(const Camera& camera, size_t count);
   /// Squared change of a point's colour if the ground that it shows rises or falls.
-  double inside(const PicturePoint& point, const SeenPoint& seen, const GroundHit& plane,
-                const Surface& surface) const;
+  double squaresMoved(const PicturePoint& point, const SeenPoint& seen, const GroundHit& plane,
+                      const Surface& surface) const;
 
   std::vector<PicturePoint> points_;
   std::vector<View> views_;
