@@ -10,9 +10,9 @@ namespace tetrakis::inline allocation {
 namespace {
 
 /// The squared error of one component while its packets are taken.
-class Falling {
+class FallingError {
  public:
-  explicit Falling(const ComponentCurve* curve) : curve_(curve) {}
+  explicit FallingError(const ComponentCurve* curve) : curve_(curve) {}
 
   void take(const Packet& packet) { bytes_ += packet.length(); }
 
@@ -65,7 +65,8 @@ void settleSlopes(std::span<Packet* const> packets, const std::vector<double>& r
 void stateSlopes(std::span<Packet> packets,
                  const std::array<const ComponentCurve*, kComponents>& curves,
                  const PairErrors* errors) {
-  std::array<Falling, kComponents> falling = {Falling(curves[0]), Falling(curves[1])};
+  std::array<FallingError, kComponents> falling = {FallingError(curves[0]),
+                                                   FallingError(curves[1])};
   const auto error = [&] {
     const double heights = falling[0].distortion(), texture = falling[1].distortion();
     if (errors == nullptr) return heights + texture;

@@ -13,14 +13,14 @@ namespace tetrakis::inline curves {
 
 namespace {
 
-// A prefix may fall by 0.03 dB: by so much where every byte is measured, and by less where some are
-// not.
+// A prefix dips if its distortion exceeds that of a shorter one by more than this factor (0.03 dB),
+// or by the smaller one where not every byte is measured.
 constexpr double kDip = 1.0067, kSparseDip = 1.005;
-constexpr uint64_t kFirstBytes = 8192;  // of which each is measured
-// Samples that small tracks decode for it in all: a few tenths of a second.
+constexpr uint64_t kFirstBytes = 8192;  // each of which is measured
+// Samples that the audit of a small track decodes in all: that takes a few tenths of a second.
 constexpr uint64_t kDecodedSamples = uint64_t{1} << 23;
 
-/// The points that improve on all before them, and what dips between.
+/// The points that improve on all points before them, and whether prefixes between them dip.
 class Records {
  public:
   void add(const RatePoint& point, double dip) {
@@ -32,7 +32,7 @@ class Records {
     }
   }
   bool exact() const { return !points_.empty() && points_.back().distortion == 0; }
-  /// Keeps the end of a track that does not improve.
+  /// Adds the end of a track even where its last bytes improve nothing.
   void keepEnd(uint64_t bytes) {
     constexpr double kLess = 1 - 1e-6;
     if (exact() || points_.back().bytes >= bytes) return;
@@ -132,7 +132,7 @@ class Correction {
       if (squares > 0) knots_.push_back({std::log(stated), std::log(squares / stated)});
     }
   }
-  /// What it is to be multiplied with.
+  /// The factor that corrects a stated distortion.
   double operator()(double squares) const {
     if (squares <= 0 || knots_.empty()) return 1;
     const double x = std::log(squares);  // knots fall in x

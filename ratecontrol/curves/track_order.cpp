@@ -18,14 +18,15 @@ namespace {
 /// lose 1.3 % of the bytes at 0.2, 1.1 at 0.12, 0.8 at 0.06 and below.
 constexpr double kRegionGrowth = 0.04;
 
-/// A packet and what it does to the distortion.
-struct Piece {
+/// A packet and what it takes off the distortion.
+struct PricedPacket {
   double slope;  ///< distortion removed per byte
   Packet packet;
   double removed, beyond;  ///< RatePoint
 };
 
-Piece pieceBetween(const RatePoint& a, const RatePoint& b, Component component, size_t track) {
+PricedPacket packetBetween(const RatePoint& a, const RatePoint& b, Component component,
+                           size_t track) {
   assert(a.bytes < b.bytes);
   const double removed = a.distortion - b.distortion;
   return {removed / static_cast<double>(b.bytes - a.bytes),
@@ -35,82 +36,83 @@ Piece pieceBetween(const RatePoint& a, const RatePoint& b, Component component, 
 }
 
 void appendHull(std::span<const RatePoint> points, Component component, size_t track,
-                std::vector<Piece>& pieces) {
+                std::vector<PricedPacket>& packets) {
   const std::vector<RatePoint> hull = lowerHull(points, kRegionGrowth);
   for (size_t i = 1; i < hull.size(); ++i) {
-    const double slope = pieceBetween(hull[i - 1], hull[i], component, track).slope;
+    const double slope = packetBetween(hull[i - 1], hull[i], component, track).slope;
     RatePoint begin = hull[i - 1];
     for (const RatePoint& end : packetEnds(points, hull[i - 1], hull[i])) {
-      pieces.push_back(pieceBetween(begin, end, component, track));
-      pieces.back().slope = slope;
+      packets.push_back(packetBetween(begin, end, component, track));
+      packets.back().slope = slope;
       begin = end;
     }
   }
 }
 
-/// Pieces that lie side by side in the same class are in the order of their tracks.
-int classOf(const Piece& piece, TrackOrder order) {
-  if (order == TrackOrder::kTracks || piece.slope <= 0) return std::numeric_limits<int>::min();
-  return std::ilogb(piece.slope * piece.slope);
+/// Packets that lie side by side in the same class are in the order of their tracks.
+int classOf(const PricedPacket& priced, TrackOrder order) {
+  if (order == TrackOrder::kTracks || priced.slope <= 0) return std::numeric_limits<int>::min();
+  return std::ilogb(priced.slope * priced.slope);
 }
 
 /// Hulls are convex, and packets between two vertices share a slope: stable sorts keep every
 /// codeword in order.
-void sortPieces(std::span<Piece> pieces, TrackOrder order) {
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const Piece& a, const Piece& b) { return a.slope > b.slope; });
+void sortPackets(std::span<PricedPacket> packets, TrackOrder order) {
+  std::stable_sort(packets.begin(), packets.end(),
+                   [](const PricedPacket& a, const PricedPacket& b) { return a.slope > b.slope; });
   if (order == TrackOrder::kSlopes) return;
-  std::stable_sort(pieces.begin(), pieces.end(), [&](const Piece& a, const Piece& b) {
-    const int of_a = classOf(a, order), of_b = classOf(b, order);
-    return of_a != of_b ? of_a > of_b : a.packet.track < b.packet.track;
-  });
+  std::stable_sort(packets.begin(), packets.end(),
+                   [&](const PricedPacket& a, const PricedPacket& b) {
+                     const int of_a = classOf(a, order), of_b = classOf(b, order);
+                     return of_a != of_b ? of_a > of_b : a.packet.track < b.packet.track;
+                   });
 }
 
-/// All pieces in their order.
-std::vector<Piece> orderedPieces(const CodedTracks& coded, TrackOrder order) {
+/// All packets in their order.
+std::vector<PricedPacket> orderedPackets(const CodedTracks& coded, TrackOrder order) {
   const auto& [component, tracks, opening_bytes, correction_bytes, correction_tracks] = coded;
   const size_t before_corrections = tracks.size() - correction_tracks;
   const std::span<const RatePoint> base = tracks.front().points;
-  std::vector<Piece> pieces;
+  std::vector<PricedPacket> packets;
   const size_t opening = opening_bytes > 0 ? 1 : 0, corrections = correction_bytes > 0 ? 1 : 0;
   assert(base.size() > opening + corrections);
-  if (opening > 0) pieces.push_back(pieceBetween(base[0], base[1], component, 0));
-  appendHull(base.subspan(opening, base.size() - opening - corrections), component, 0, pieces);
+  if (opening > 0) packets.push_back(packetBetween(base[0], base[1], component, 0));
+  appendHull(base.subspan(opening, base.size() - opening - corrections), component, 0, packets);
   for (size_t i = 1; i < before_corrections; ++i)
-    appendHull(tracks[i].points, component, i, pieces);
-  sortPieces(std::span(pieces).subspan(opening), order);
+    appendHull(tracks[i].points, component, i, packets);
+  sortPackets(std::span(packets).subspan(opening), order);
   if (corrections > 0)
-    pieces.push_back(pieceBetween(base[base.size() - 2], base.back(), component, 0));
+    packets.push_back(packetBetween(base[base.size() - 2], base.back(), component, 0));
   for (size_t i = before_corrections; i < tracks.size(); ++i) {
     const std::vector<RatePoint>& points = tracks[i].points;
-    if (points.size() > 1) pieces.push_back(pieceBetween(points[0], points[1], component, i));
+    if (points.size() > 1) packets.push_back(packetBetween(points[0], points[1], component, i));
   }
-  return pieces;
+  return packets;
 }
 
 }  // namespace
 
 OrderedTracks orderTracks(const CodedTracks& coded, TrackOrder by) {
   assert(!coded.tracks.empty());
-  const std::vector<Piece> pieces = orderedPieces(coded, by);
+  const std::vector<PricedPacket> packets = orderedPackets(coded, by);
   // Summed from the end, so that rounding leaves every packet but the last something to do.
   OrderedTracks order;
-  order.packets.resize(pieces.size());
-  order.points.resize(pieces.size() + 1);
+  order.packets.resize(packets.size());
+  order.points.resize(packets.size() + 1);
   double left = 0, beyond = 0;
   uint64_t bytes = 0;
   for (const EncodedTrack& track : coded.tracks) {
     left += track.points.back().distortion;
     beyond += track.points.back().beyond;
   }
-  for (const Piece& piece : pieces) bytes += piece.packet.length();
+  for (const PricedPacket& priced : packets) bytes += priced.packet.length();
   order.points.back() = {bytes, left, false, beyond};
-  for (size_t i = pieces.size(); i-- > 0;) {
-    left += pieces[i].removed;
-    beyond += pieces[i].beyond;
-    bytes -= pieces[i].packet.length();
+  for (size_t i = packets.size(); i-- > 0;) {
+    left += packets[i].removed;
+    beyond += packets[i].beyond;
+    bytes -= packets[i].packet.length();
     order.points[i] = {bytes, left, false, beyond};
-    order.packets[i] = pieces[i].packet;
+    order.packets[i] = packets[i].packet;
   }
   assert(bytes == 0);
   return order;
