@@ -21,7 +21,7 @@
 #include "wavelet/lifting/lifting_steps.hpp"
 #include "wavelet/lifting/masked_lifting.hpp"
 #include "wavelet/pyramid.hpp"
-#include "wavelet/wavelet.hpp"
+#include "wavelet/wavelet_spec.hpp"
 
 namespace tetrakis::inline wavelet {
 

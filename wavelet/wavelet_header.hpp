@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bitstream/stream/coding_headers.hpp"
-#include "wavelet/wavelet.hpp"
+#include "wavelet/wavelet_spec.hpp"
 
 namespace tetrakis::inline wavelet {
 

@@ -13,7 +13,7 @@ namespace tetrakis::inline stream {
 
 inline constexpr int kMaxFractionBits = 8;
 
-/// Which wavelet: wavelet/wavelet.hpp.
+/// Which wavelet: wavelet/wavelet_spec.hpp.
 struct WaveletHeader {
   std::array<uint8_t, 3> filters{};  ///< of level 1, of level 2, of all coarser ones
   uint8_t fraction_bits = 0;         ///< the transform works on samples * 2^fraction_bits

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "bitstream/track/reconstruction.hpp"
+#include "wavelet/level_transform.hpp"
 
 namespace tetrakis::inline synthesis {
 

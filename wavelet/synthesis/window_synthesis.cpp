@@ -161,16 +161,15 @@ std::vector<std::vector<uint8_t>> WindowSynthesis::findFractions() {
   std::vector<std::vector<uint8_t>> found(static_cast<size_t>(std::max(carried_, 1)));
   for (int number = 1; number < carried_; ++number) {
     Level& level = levels_[static_cast<size_t>(number - 1)];
-    LevelBlock block{level.values, level.block().extent(), level.low().extent(), {}};
-    block.fractions_in = number > 1;
-    block.fractions_out = true;
-    block.fractions = found[static_cast<size_t>(number - 1)];
+    const std::vector<uint8_t> low =
+        LevelTransform(spec_, number, Direction::kSynthesis)
+            .lowFractions(level.split(),
+                          {number > 1, true, found[static_cast<size_t>(number - 1)]});
     Window wanted = at(number + 1).block();
     wanted.x -= level.x.low.begin;
     wanted.y -= level.y.low.begin;
     found[static_cast<size_t>(number)] =
-        cut(std::span<const uint8_t>(lowFractions(spec_, number, block)), level.low().extent(),
-            {0, wanted});
+        cut(std::span<const uint8_t>(low), level.low().extent(), {0, wanted});
   }
   return found;
 }
@@ -193,12 +192,13 @@ std::vector<int32_t> WindowSynthesis::run(uint32_t, bool rounds) {
     const HeldLevel states = ladder ? ladder->level(number) : HeldLevel{};
     std::optional<HeldBlock> held;
     if (ladder) held.emplace(*pyramid_, states, number, block);
-    LevelBlock whole{level.values, block.extent(), level.low().extent(), maskOf(number),
-                     held ? &*held : nullptr};
-    whole.fractions_in = carries && number > 1 && number <= carried_;
-    whole.fractions_out = carries && number < carried_;
-    if (whole.fractions_in) whole.fractions = fractions[static_cast<size_t>(number - 1)];
-    inverseLevel(spec_, number, whole);
+    const std::vector<uint8_t> mask = maskOf(number);
+    SplitBlock whole = level.split();
+    whole.existing = mask;
+    whole.held = held ? &*held : nullptr;
+    Carrying carrying{carries && number > 1 && number <= carried_, carries && number < carried_};
+    if (carrying.in) carrying.fractions = fractions[static_cast<size_t>(number - 1)];
+    LevelTransform(spec_, number, Direction::kSynthesis).run(whole, carrying);
     // What the next finer level wants of it, or the window.
     Window wanted = number > 1 ? lowOf(number - 1) : window_;
     wanted.x -= block.x;

@@ -11,6 +11,7 @@
 
 #include "base/view.hpp"
 #include "wavelet/band_plan.hpp"
+#include "wavelet/level_transform.hpp"
 #include "wavelet/wavelet.hpp"
 
 namespace tetrakis::inline synthesis {
@@ -54,6 +55,7 @@ class WindowSynthesis {
     Window block() const { return {x.block.begin, y.block.begin, x.block.size(), y.block.size()}; }
     Window low() const { return {x.low.begin, y.low.begin, x.low.size(), y.low.size()}; }
     size_t samples() const { return block().extent().samples(); }
+    SplitBlock split() { return {values.data(), x.block.size(), block().extent(), low().extent()}; }
   };
   /// The coefficients of a subband that are needed, and where they lie among the values of a block
   /// or of LL.
