@@ -24,16 +24,17 @@ constexpr int64_t powerOfFour(uint32_t exponent) {
 constexpr int64_t horizontalDifference(uint32_t r) {
   return (2 * powerOfFour(r) + 1) / 3;
 }
-/// (4.2): between the ends of a row of 2^(r + 1) nodes.
-constexpr int64_t toroidalHorizontalDifference(uint32_t r) {
-  return (powerOfFour(r + 1) - 1) / 3;
+/// (4.2): between the ends of a row of the 2^level nodes that a patch has there.
+constexpr int64_t toroidalHorizontalDifference(uint32_t level) {
+  return (powerOfFour(level) - 1) / 3;
 }
+
 /// All differences of a forest. Additions are modulo 2^32, so that steps back need no sign.
 class IndexDifferences {
  public:
   explicit IndexDifferences(QuadtreeShape shape) : shape_(shape) {
     for (uint32_t level = 0; level < kLevels; ++level) {
-      const int64_t patch = powerOfFour(level), torus = (patch - 1) / 3;
+      const int64_t patch = powerOfFour(level), torus = toroidalHorizontalDifference(level);
       within_[level] = static_cast<uint32_t>(horizontalDifference(level));
       Border& border = borders_[level];
       border.enter_east = static_cast<uint32_t>(patch - torus);

@@ -75,9 +75,9 @@ TEST(ClosedForm, RecurrencesOfTheorem41HoldAtEveryDistance) {  // (4.27), (4.28)
   int64_t west = 1, east = 2, first = 1, last = 2, north = 1, south = 3, top = 1, bottom = 3;
   for (uint32_t r = 0; r < 16; ++r) {
     EXPECT_EQ(horizontalDifference(r), east - west);
-    EXPECT_EQ(toroidalHorizontalDifference(r), last - first);
+    EXPECT_EQ(toroidalHorizontalDifference(r + 1), last - first);
     EXPECT_EQ(2 * horizontalDifference(r), south - north);
-    EXPECT_EQ(2 * toroidalHorizontalDifference(r), bottom - top);
+    EXPECT_EQ(2 * toroidalHorizontalDifference(r + 1), bottom - top);
     west = 4 * west + 2, east = 4 * east + 1, first = 4 * first + 1, last = 4 * last + 2;
     north = 4 * north + 3, south = 4 * south + 1, top = 4 * top + 1, bottom = 4 * bottom + 3;
   }
