@@ -5,7 +5,7 @@
 namespace tetrakis::tools::synth {
 namespace {
 
-constexpr double kBend = 0.2;  // of belts by noise
+constexpr double kBeltBend = 0.2;  // of belts by noise
 constexpr int kOctaves = 9;
 
 }  // namespace
@@ -24,16 +24,16 @@ double Layout::belt(Point p) const {
 }
 
 double Layout::inland(Point p) const {
-  return belt(p) + kBend * fractal(seed_ + 10, {3 * p.x, 3 * p.y}, kOctaves);
+  return belt(p) + kBeltBend * fractal(seed_ + 10, {3 * p.x, 3 * p.y}, kOctaves);
 }
 
 bool Layout::isSea(Point p) const {
   constexpr double kRounding = 1e-9;
   const double straight = belt(p);
   const auto decided = [&](double sum, double rest) {
-    return std::abs(straight + kBend * sum - kCoast) > kBend * rest + kRounding;
+    return std::abs(straight + kBeltBend * sum - kCoast) > kBeltBend * rest + kRounding;
   };
-  return straight + kBend * fractalUntil(seed_ + 10, {3 * p.x, 3 * p.y}, kOctaves, decided) <
+  return straight + kBeltBend * fractalUntil(seed_ + 10, {3 * p.x, 3 * p.y}, kOctaves, decided) <
          kCoast;
 }
 
