@@ -2,8 +2,6 @@
 // What decoding allocates is at most what tks_check_memory says, for streams of every kind and all
 // that can be asked of them; and what it says is not much more than that.
 #include <array>
-#include <functional>
-#include <optional>
 
 #include "bitstream/stream/header.hpp"
 #include "conformance/samples/facets.hpp"
@@ -12,6 +10,7 @@
 #include "conformance/samples/patches.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/allocation_count.hpp"
+#include "tests/support/decode_calls.hpp"
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {
@@ -22,169 +21,17 @@ using samples::patches;
 using samples::Pattern;
 using samples::Raster;
 
-/// What a call is asked for, and the call.
-struct Call {
-  std::string name;
-  tks_part part;
-  std::optional<tks_window> window;
-  uint32_t max_triangles = 0;
-  uint32_t level = 0;
-  std::function<tks_status(tks_decoder*)> run;
-
-  const tks_window* asked() const { return window ? &*window : nullptr; }
-};
-
-struct Measured {
-  uint64_t bound = 0, limit = 0, peak = 0;
-  tks_status status = TKS_OK;
-};
-
-/// Of a decoder that has done nothing before, with no more memory than the bound.
-Measured measure(const Bytes& bytes, const Call& call, uint32_t threads = 1) {
-  const auto set = [&](Stream& stream) {
-    EXPECT_EQ(stream.status(), TKS_OK) << stream.message();
-    EXPECT_EQ(tks_set_threads(stream.get(), threads), TKS_OK);
-    const bool texture = call.part == TKS_PART_TEXTURE;
-    EXPECT_EQ(tks_set_levels(stream.get(), texture ? 0 : call.level, texture ? call.level : 0),
-              TKS_OK);
-  };
-  Stream unlimited(bytes);
-  set(unlimited);
-  Measured measured;
-  EXPECT_EQ(tks_check_memory(unlimited.get(), call.part, call.asked(), call.max_triangles, 0,
-                             &measured.bound),
-            TKS_OK)
-      << tks_message(unlimited.get());
-  tks_limits limits = {};
-  limits.size = sizeof limits;
-  limits.max_memory = measured.limit = measured.bound + 4 * bytes.size() + (1 << 20);
-  Stream stream(bytes, &limits);
-  set(stream);
-  measured.peak = peakBytes([&] { measured.status = call.run(stream.get()); });
-  return measured;
-}
-
-size_t side(uint32_t whole, uint32_t level) {
-  return ((whole - 1) >> level) + 1;
-}
-
-Call heightsOf(const tks_info& info, uint32_t level) {
-  const size_t bytes =
-      side(info.width, level) * side(info.height, level) * tks_sample_bytes(info.sample);
-  auto out = std::make_shared<std::vector<std::byte>>(bytes);
-  return {"heights of level " + std::to_string(level),
-          TKS_PART_HEIGHTS,
-          {},
-          0,
-          level,
-          [out](tks_decoder* d) { return tks_decode_heights(d, out->data(), out->size()); }};
-}
-
-Call validityOf(const tks_info& info) {
-  auto out = std::make_shared<std::vector<uint8_t>>(size_t{info.width} * info.height);
-  return {"validity",
-          TKS_PART_VALIDITY,
-          {},
-          0,
-          0,
-          [out](tks_decoder* d) { return tks_decode_validity(d, out->data(), out->size()); }};
-}
-
-Call surfaceOf(const tks_info& info, const tks_window& window) {
-  EXPECT_LE(window.x + window.width, info.width);
-  auto out = std::make_shared<std::vector<float>>(size_t{window.width} * window.height);
-  return {"a window of the surface", TKS_PART_HEIGHTS, window, 0, 0, [out, window](tks_decoder* d) {
-            return tks_decode_surface_window(d, &window, out->data(), out->size());
-          }};
-}
-
-Call textureOf(const tks_info& info, uint32_t level) {
-  const size_t bytes = side(info.texture_width, level) * side(info.texture_height, level) *
-                       info.texture_channels * tks_sample_bytes(info.texture_sample);
-  auto out = std::make_shared<std::vector<std::byte>>(bytes);
-  return {"texture of level " + std::to_string(level),
-          TKS_PART_TEXTURE,
-          {},
-          0,
-          level,
-          [out](tks_decoder* d) { return tks_decode_texture(d, out->data(), out->size()); }};
-}
-
-Call textureOf(const tks_info& info, const tks_window& window) {
-  auto out = std::make_shared<std::vector<std::byte>>(size_t{window.width} * window.height *
-                                                      info.texture_channels *
-                                                      tks_sample_bytes(info.texture_sample));
-  return {"a window of the texture", TKS_PART_TEXTURE, window, 0, 0, [out, window](tks_decoder* d) {
-            return tks_decode_texture_window(d, &window, out->data(), out->size());
-          }};
-}
-
-Call meshOf(tks_mesh_kind kind, uint32_t triangles) {
-  const auto decode = [kind, triangles](tks_decoder* decoder) {
-    tks_mesh mesh = {};
-    const tks_status status = tks_decode_mesh(decoder, kind, triangles, &mesh);
-    tks_free_mesh(&mesh);
-    return status;
-  };
-  return {"mesh of " + std::to_string(triangles),
-          kind == TKS_MESH_CODED ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH,
-          {},
-          triangles,
-          0,
-          decode};
-}
-
-Call treeOf(tks_mesh_kind kind, uint32_t triangles) {
-  Call call = meshOf(kind, triangles);
-  call.name += " in a tree";
-  call.run = [kind, triangles](tks_decoder* decoder) {
-    tks_mesh_tree* tree = nullptr;
-    const tks_status status = tks_decode_mesh_tree(decoder, kind, triangles, &tree);
-    tks_free_mesh_tree(tree);
-    return status;
-  };
-  return call;
-}
-
-std::vector<Call> callsOn(const tks_info& info) {
-  std::vector<Call> calls;
-  if (info.has_heights) {
-    const uint32_t w = info.width, h = info.height;
-    for (const uint32_t level : {0u, 1u, 2u, info.coarsest_level})
-      calls.push_back(heightsOf(info, std::min(level, info.coarsest_level)));
-    calls.push_back(validityOf(info));
-    for (const tks_window& window :
-         {tks_window{0, 0, w, h}, {w / 3, h / 4, w / 5 + 1, h / 6 + 1}, {w - 1, h - 1, 1, 1}})
-      calls.push_back(surfaceOf(info, window));
-    calls.push_back(meshOf(TKS_MESH_CODED, 0));
-    calls.push_back(treeOf(TKS_MESH_CODED, 0));
-    calls.push_back(treeOf(TKS_MESH_BUDGET, 0));
-    for (const uint64_t sixtieths : {0, 1, 4, 8, 13, 25, 40, 70, 120})
-      calls.push_back(
-          meshOf(TKS_MESH_BUDGET, static_cast<uint32_t>(uint64_t{w} * h * sixtieths / 60)));
-  }
-  if (info.has_texture) {
-    const uint32_t w = info.texture_width, h = info.texture_height;
-    for (const uint32_t level : {0u, 1u, 2u, info.texture_coarsest_level})
-      calls.push_back(textureOf(info, std::min(level, info.texture_coarsest_level)));
-    for (const tks_window& window :
-         {tks_window{0, 0, w, h}, {w / 3, h / 4, w / 5 + 1, h / 6 + 1}, {w - 1, h - 1, 1, 1}})
-      calls.push_back(textureOf(info, window));
-  }
-  return calls;
-}
-
 /// The whole of a stream, a part of it, and next to nothing. may_refuse: budget meshes, for
 /// triangles in voids that are not known before.
 void expectWithinBounds(const Bytes& bytes, const std::string& what, bool may_refuse = false) {
   for (const size_t size : {bytes.size(), bytes.size() / 3, size_t{0}}) {
     const size_t header = static_cast<size_t>(Stream(bytes).info().header_bytes);
     const Bytes cut(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(std::max(size, header)));
-    for (const Call& call : callsOn(Stream(cut).info())) {
+    for (const DecodeCall& call : callsOn(Stream(cut).info())) {
       const bool mesh = call.part >= TKS_PART_CODED_MESH;
       for (const uint32_t threads : {1u, 3u}) {
         if (mesh && threads > 1) continue;
-        const Measured measured = measure(cut, call, threads);
+        const MeasuredCall measured = measure(cut, call, threads);
         const bool refused = may_refuse && mesh && measured.status == TKS_LIMIT;
         EXPECT_TRUE(measured.status == TKS_OK || refused) << what << ", " << call.name;
         EXPECT_LE(measured.peak, may_refuse && mesh ? measured.limit : measured.bound)
@@ -423,8 +270,8 @@ TEST(DecodeMemory, TexturesOfEveryKindStayBelowTheBound) {
 }
 
 /// What is left of the bound where there is much to allocate.
-double excess(const Bytes& bytes, const Call& call) {
-  const Measured measured = measure(bytes, call);
+double excess(const Bytes& bytes, const DecodeCall& call) {
+  const MeasuredCall measured = measure(bytes, call);
   EXPECT_EQ(measured.status, TKS_OK) << call.name;
   EXPECT_LE(measured.peak, measured.bound) << call.name;
   return static_cast<double>(measured.bound) / static_cast<double>(measured.peak);
@@ -435,9 +282,10 @@ TEST(DecodeMemory, BoundsOfLargePlanesAreLessThanTwiceWhatIsTaken) {
   for (const uint32_t regions : {1u, 256u}) {
     const Bytes bytes = encode(&heights, nullptr, inRegions(lossless(), regions));
     const tks_info info = Stream(bytes).info();
-    for (const Call& call : {heightsOf(info, 0), heightsOf(info, 2), meshOf(TKS_MESH_CODED, 0),
-                             surfaceOf(info, {100, 200, 400, 300}), meshOf(TKS_MESH_BUDGET, 0),
-                             meshOf(TKS_MESH_BUDGET, 30000), meshOf(TKS_MESH_BUDGET, 220000)})
+    for (const DecodeCall& call :
+         {heightsOf(info, 0), heightsOf(info, 2), meshOf(TKS_MESH_CODED, 0),
+          surfaceOf(info, {100, 200, 400, 300}), meshOf(TKS_MESH_BUDGET, 0),
+          meshOf(TKS_MESH_BUDGET, 30000), meshOf(TKS_MESH_BUDGET, 220000)})
       EXPECT_LE(excess(bytes, call), 2) << call.name << ", regions of " << regions;
   }
   const Bytes voids = withVoids(heights, lossless());
@@ -449,7 +297,7 @@ TEST(DecodeMemory, BoundsOfLargePlanesAreLessThanTwiceWhatIsTaken) {
   for (const uint32_t regions : {1u, 256u}) {
     const Bytes bytes = encode(nullptr, &image, inRegions(budget(80000), regions));
     const tks_info info = Stream(bytes).info();
-    for (const Call& call :
+    for (const DecodeCall& call :
          {textureOf(info, 0), textureOf(info, 1), textureOf(info, tks_window{300, 200, 500, 400})})
       EXPECT_LE(excess(bytes, call), 2) << call.name << ", regions of " << regions;
   }
@@ -469,7 +317,7 @@ TEST(DecodeMemory, MeshesForCamerasStayBelowTheLimitThatLetsThemPass) {
   const tks_screen screen = {sizeof screen, &camera, 1, &texture};
   for (const Bytes& bytes : {encode(&heights, nullptr, lossless()), withVoids(heights, lossless())})
     for (const uint32_t triangles : {300u, 20000u, 500000u}) {
-      Measured measured;
+      MeasuredCall measured;
       measured.status = TKS_LIMIT;
       for (measured.limit = 8 << 20; measured.status == TKS_LIMIT;
            measured.limit += measured.limit / 4) {
@@ -495,7 +343,7 @@ TEST(DecodeMemory, FollowsWhatIsAsked) {
   const Raster image = make({Pattern::kRidges, 1024, 1024, 3, TKS_U8});
   const Bytes bytes = encode(nullptr, &image, inRegions(budget(100000), 64));
   const tks_info info = Stream(bytes).info();
-  const auto peak = [&](const Call& call) {
+  const auto peak = [&](const DecodeCall& call) {
     return static_cast<double>(measure(bytes, call).peak);
   };
   const double whole = peak(textureOf(info, 0));

@@ -12,6 +12,7 @@
 #include "conformance/samples/patches.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/stream_fixture.hpp"
+#include "tests/support/window_checks.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -151,21 +152,9 @@ TEST(DrawnHeights, PrefixesImprove) {
 
 TEST(DrawnHeights, WindowsAreThoseOfTheWholeInAllPrefixes) {
   for (const DrawnKind& kind : drawnKinds(90, 70)) {
-    const size_t bytes = tks_sample_bytes(kind.heights.sample);
     for (size_t n = readHeader(kind.stream)->bytes; n <= kind.stream.size(); n += 197) {
       const std::vector<std::byte> whole = Stream(Prefix(kind.stream).first(n)).heights();
-      const tks_window window{13, 9, 31, 20};
-      std::vector<std::byte> part(bytes * window.width * window.height);
-      Stream decoded(Prefix(kind.stream).first(n));
-      ASSERT_EQ(tks_decode_heights_window(decoded.get(), &window, part.data(), part.size()),
-                TKS_OK);
-      for (size_t y = 0; y < window.height; ++y) {
-        const auto row =
-            whole.begin() + static_cast<ptrdiff_t>(bytes * ((window.y + y) * 90 + window.x));
-        const size_t length = bytes * window.width;
-        ASSERT_TRUE(std::equal(row, row + static_cast<ptrdiff_t>(length),
-                               part.begin() + static_cast<ptrdiff_t>(y * length)));
-      }
+      expectHeightsWindow(Stream(Prefix(kind.stream).first(n)), {13, 9, 31, 20}, whole);
     }
   }
 }

@@ -11,6 +11,7 @@
 #include "conformance/reference_decoder.hpp"
 #include "conformance/samples/few_values.hpp"
 #include "tests/support/stream_fixture.hpp"
+#include "tests/support/window_checks.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -193,14 +194,7 @@ TEST(FewValues, WindowsAreThoseOfTheWholeInAllPrefixes) {
   const Bytes stream = encode(&heights, nullptr, lossless());
   for (size_t n = readHeader(stream)->bytes; n <= stream.size(); n += 97) {
     const std::vector<std::byte> whole = Stream(Prefix(stream).first(n)).heights();
-    const tks_window window{13, 9, 31, 20};
-    std::vector<std::byte> part(size_t{2} * window.width * window.height);
-    Stream decoded(Prefix(stream).first(n));
-    ASSERT_EQ(tks_decode_heights_window(decoded.get(), &window, part.data(), part.size()), TKS_OK);
-    for (uint32_t y = 0; y < window.height; ++y) {
-      const auto row = whole.begin() + 2 * ((window.y + y) * ptrdiff_t{90} + window.x);
-      ASSERT_TRUE(std::equal(row, row + 2 * window.width, part.begin() + 2 * y * window.width));
-    }
+    expectHeightsWindow(Stream(Prefix(stream).first(n)), {13, 9, 31, 20}, whole);
   }
 }
 

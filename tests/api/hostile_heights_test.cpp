@@ -6,6 +6,7 @@
 #include <random>
 
 #include "tests/support/stream_fixture.hpp"
+#include "tests/support/window_checks.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -199,10 +200,7 @@ TEST(HostileHeights, NoiseInTexturesIsStored) {
     Stream stream(bytes);
     EXPECT_EQ(stream.info().texture_drawn, 3);
     EXPECT_TRUE(sameBytes(stream.texture(), image.data));
-    const tks_window window = {7, 9, 12, 5};
-    std::vector<std::byte> part(size_t{12} * 5 * 3 * tks_sample_bytes(sample));
-    EXPECT_EQ(tks_decode_texture_window(stream.get(), &window, part.data(), part.size()), TKS_OK);
-    EXPECT_TRUE(part.front() == image.data[(size_t{9} * 40 + 7) * 3 * tks_sample_bytes(sample)]);
+    expectTextureWindow(stream, {7, 9, 12, 5}, image.data);
   }
 }
 

@@ -53,12 +53,6 @@ Holed holed(uint32_t width, uint32_t height, tks_sample sample, uint32_t of, boo
   return h;
 }
 
-std::vector<uint8_t> validityOf(Stream& stream) {
-  std::vector<uint8_t> valid(size_t{stream.info().width} * stream.info().height, 9);
-  EXPECT_EQ(tks_decode_validity(stream.get(), valid.data(), valid.size()), TKS_OK);
-  return valid;
-}
-
 GeometryLayers layersOf(const Bytes& bytes) {
   return readHeader(bytes)->header.layers;
 }
@@ -113,7 +107,7 @@ TEST(LateMask, PrefixesShowGroundUntilTheyKnowOfVoids) {
          n = n < bytes.size() ? std::min(n + step, bytes.size()) : n + 1) {
       Stream stream(Prefix(bytes).first(n));
       ASSERT_EQ(stream.status(), TKS_OK) << n;
-      const std::vector<uint8_t> valid = validityOf(stream);
+      const std::vector<uint8_t> valid = stream.validity();
       opened |= stream.info().geometry_bytes > layers.openingBytes() + 64;
       for (size_t i = 0; i < valid.size() && opened; ++i) {
         ASSERT_LE(c.heights.valid[i], valid[i]) << n;
@@ -175,7 +169,7 @@ TEST(LateMask, BudgetsHoldIt) {
       ASSERT_TRUE(layersOf(stream).late_mask);
       Stream opened(stream);
       EXPECT_EQ(opened.info().voids_known, 1) << bytes;
-      EXPECT_TRUE(validityOf(opened) == h.valid) << bytes;
+      EXPECT_TRUE(opened.validity() == h.valid) << bytes;
     }
   }
 }
@@ -262,7 +256,7 @@ TEST(LateMask, WindowsAndMeshesOfPrefixes) {
       const Prefix prefix = Prefix(bytes).first(header + (bytes.size() - header) * part / 6);
       Stream stream(prefix), windows(prefix);
       const std::vector<std::byte> whole = stream.heights();
-      const std::vector<uint8_t> valid = validityOf(stream);
+      const std::vector<uint8_t> valid = stream.validity();
       for (const tks_window& window : {tks_window{0, 0, 33, 20}, tks_window{41, 37, 69, 53}}) {
         std::vector<int16_t> samples(size_t{window.width} * window.height);
         ASSERT_EQ(tks_decode_heights_window(windows.get(), &window, samples.data(),

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Streams in regions, through the C interface: they restore, they may be cut anywhere, and windows
 // hold what the whole holds there.
-#include <sys/resource.h>
-
 #include <cmath>
 
 #include "conformance/samples/header_seal.hpp"
 #include "conformance/samples/void_masks.hpp"
+#include "tests/support/peak_memory.hpp"
 #include "tests/support/stream_fixture.hpp"
 #include "tests/support/window_checks.hpp"
 
@@ -290,12 +289,6 @@ TEST(RegionStream, SurvivesEveryDamagedByte) {
     }
   }
   EXPECT_GT(opened, bytes.size());
-}
-
-size_t peakMemory() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<size_t>(usage.ru_maxrss) * 1024;
 }
 
 /// However many regions a header declares, opening it takes no memory for them that the limits do

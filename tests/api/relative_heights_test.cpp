@@ -10,6 +10,7 @@
 #include "conformance/reference_decoder.hpp"
 #include "conformance/samples/offset_heights.hpp"
 #include "tests/support/stream_fixture.hpp"
+#include "tests/support/window_checks.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -122,15 +123,7 @@ TEST(RelativeHeights, InRegionsWindowsAreThoseOfTheWhole) {
     const Bytes stream = encode(&heights, nullptr, inRegions(lossless(), 32));
     Stream opened(stream);
     EXPECT_TRUE(opened.heights() == heights.data);
-    constexpr uint32_t kX = 37, kY = 51, kSide = 40;
-    std::vector<std::byte> window(size_t{kSide} * kSide * 4);
-    const tks_window place{kX, kY, kSide, kSide};
-    ASSERT_EQ(tks_decode_heights_window(opened.get(), &place, window.data(), window.size()),
-              TKS_OK);
-    for (uint32_t y = 0; y < kSide; ++y) {
-      const std::byte* row = heights.data.data() + 4 * (size_t{kY + y} * kWidth + kX);
-      ASSERT_EQ(std::memcmp(&window[size_t{4} * y * kSide], row, 4 * kSide), 0) << y;
-    }
+    expectHeightsWindow(opened, {37, 51, 40, 40}, heights.data);
   }
 }
 

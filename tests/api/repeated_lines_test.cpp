@@ -7,6 +7,7 @@
 #include "bitstream/stream/header.hpp"
 #include "conformance/reference_decoder.hpp"
 #include "tests/support/stream_fixture.hpp"
+#include "tests/support/window_checks.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -134,17 +135,8 @@ TEST(RepeatedLines, WindowsAreThoseOfTheWhole) {
     const Bytes stream = encode(&large, nullptr, options);
     const std::vector<std::byte> whole = Stream(stream).heights();
     for (const tks_window& window : {tks_window{0, 0, large.width, large.height},
-                                     tks_window{31, 40, 20, 3}, tks_window{119, 81, 1, 1}}) {
-      Stream again(stream);
-      std::vector<std::byte> part(size_t{2} * window.width * window.height);
-      ASSERT_EQ(tks_decode_heights_window(again.get(), &window, part.data(), part.size()), TKS_OK);
-      for (uint32_t y = 0; y < window.height; ++y) {
-        const size_t from = 2 * (size_t{window.y + y} * large.width + window.x);
-        ASSERT_TRUE(std::equal(part.begin() + size_t{2} * y * window.width,
-                               part.begin() + size_t{2} * (y + 1) * window.width,
-                               whole.begin() + static_cast<ptrdiff_t>(from)));
-      }
-    }
+                                     tks_window{31, 40, 20, 3}, tks_window{119, 81, 1, 1}})
+      expectHeightsWindow(Stream(stream), window, whole);
   }
 }
 

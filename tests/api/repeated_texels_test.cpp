@@ -12,6 +12,7 @@
 #include "conformance/samples/few_texels.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/stream_fixture.hpp"
+#include "tests/support/window_checks.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -123,17 +124,8 @@ TEST(RepeatedTexels, WindowsAreThoseOfTheWhole) {
     const Bytes stream = encode(nullptr, &large, options);
     const std::vector<std::byte> whole = Stream(stream).texture();
     for (const tks_window& window : {tks_window{0, 0, large.width, large.height},
-                                     tks_window{31, 40, 20, 3}, tks_window{122, 79, 1, 1}}) {
-      Stream again(stream);
-      std::vector<std::byte> part(size_t{3} * window.width * window.height);
-      ASSERT_EQ(tks_decode_texture_window(again.get(), &window, part.data(), part.size()), TKS_OK);
-      for (uint32_t y = 0; y < window.height; ++y) {
-        const size_t from = 3 * (size_t{window.y + y} * large.width + window.x);
-        ASSERT_TRUE(std::equal(part.begin() + size_t{3} * y * window.width,
-                               part.begin() + size_t{3} * (y + 1) * window.width,
-                               whole.begin() + static_cast<ptrdiff_t>(from)));
-      }
-    }
+                                     tks_window{31, 40, 20, 3}, tks_window{122, 79, 1, 1}})
+      expectTextureWindow(Stream(stream), window, whole);
   }
 }
 
@@ -158,14 +150,7 @@ TEST(RepeatedTexels, AWindowNeedsItsRangesAlone) {
   }
   tks_free_ranges(&ranges);
   EXPECT_LT(bytes, stream.size() - header);
-  std::vector<std::byte> part(size_t{3} * window.width * window.height);
-  ASSERT_EQ(tks_decode_texture_window(some.get(), &window, part.data(), part.size()), TKS_OK);
-  for (uint32_t y = 0; y < window.height; ++y) {
-    const size_t from = 3 * (size_t{window.y + y} * large.width + window.x);
-    ASSERT_TRUE(std::equal(part.begin() + size_t{3} * y * window.width,
-                           part.begin() + size_t{3} * (y + 1) * window.width,
-                           whole.begin() + static_cast<ptrdiff_t>(from)));
-  }
+  expectTextureWindow(some, window, whole);
 }
 
 TEST(RepeatedTexels, MeetTargets) {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Wrong arguments get TKS_USAGE with a sentence, limits TKS_LIMIT before anything is allocated, and
 // a failure leaves the outputs alone.
-#include <sys/resource.h>
-
 #include <functional>
 #include <limits>
 
 #include "conformance/samples/header_seal.hpp"
+#include "tests/support/peak_memory.hpp"
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {
@@ -160,12 +159,6 @@ TEST_F(Arguments, LimitsRefuseAtTheDoor) {
   EXPECT_EQ(openWith(&tks_limits::max_texels, 70), TKS_OK);
   EXPECT_EQ(openWith(&tks_limits::max_memory, 64), TKS_LIMIT);
   EXPECT_EQ(openWith(&tks_limits::max_memory, 1 << 16), TKS_OK) << "not for decoding, yet";
-}
-
-size_t peakMemory() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<size_t>(usage.ru_maxrss) * 1024;
 }
 
 /// Whatever sizes a header declares, opening it uses no memory for them: the limits refuse first.

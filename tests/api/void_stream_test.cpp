@@ -55,15 +55,9 @@ Bytes encodeHoled(const Holed& h, const tks_encode_options& options) {
   return encodeHeights(h.heights(), options);
 }
 
-std::vector<uint8_t> decodedValidity(Stream& stream) {
-  std::vector<uint8_t> valid(size_t{stream.info().width} * stream.info().height, 9);
-  EXPECT_EQ(tks_decode_validity(stream.get(), valid.data(), valid.size()), TKS_OK);
-  return valid;
-}
-
 /// Largest error over valid samples; fails where void and valid samples are mixed up.
 double checkedError(const Holed& h, Stream& stream) {
-  EXPECT_EQ(decodedValidity(stream), h.valid);
+  EXPECT_EQ(stream.validity(), h.valid);
   const auto decoded = stream.heights();
   double largest = 0;
   for (size_t i = 0; i < h.valid.size(); ++i) {
@@ -176,7 +170,7 @@ TEST(VoidStream, EveryPrefixDecodes) {
     Stream stream(Prefix(bytes).first(n));
     if (stream.status() == TKS_TRUNCATED) continue;
     ASSERT_EQ(stream.status(), TKS_OK) << n;
-    const auto valid = decodedValidity(stream);
+    const auto valid = stream.validity();
     size_t wrong = 0;
     for (size_t i = 0; i < valid.size(); ++i) wrong += valid[i] != h.valid[i];
     ASSERT_LE(wrong, before + before / 8 + 4) << "at byte " << n;
@@ -224,7 +218,7 @@ void expectNodataWhereVoid(const std::vector<std::byte>& samples, tks_sample sam
 /// The whole, a window, and the first mip level.
 void expectNodataWhereVoid(const Holed& h, Stream& stream) {
   const tks_sample sample = h.raster.sample;
-  const std::vector<uint8_t> valid = decodedValidity(stream);
+  const std::vector<uint8_t> valid = stream.validity();
   expectNodataWhereVoid(stream.heights(), sample, *h.nodata, valid);
   const tks_window window = {5, 3, 21, 17};
   std::vector<std::byte> part(21 * 17 * tks_sample_bytes(sample));
@@ -312,7 +306,7 @@ TEST_P(VoidMesh, StaysOffVoids) {
   const Holed h = holed(GetParam(), TKS_I16, 70, 45);
   const Bytes bytes = encodeHoled(h, budget(3000));
   Stream stream(bytes);
-  const auto valid = decodedValidity(stream);
+  const auto valid = stream.validity();
   for (const uint32_t triangles : {0u, 30u, 200u, 1500u}) {
     for (const tks_mesh_kind kind : {TKS_MESH_CODED, TKS_MESH_BUDGET}) {
       tks_mesh mesh = {};

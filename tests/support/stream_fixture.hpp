@@ -124,6 +124,13 @@ class Stream {
     }
     return out;
   }
+  /// Which heights are valid.
+  std::vector<uint8_t> validity() {
+    std::vector<uint8_t> out(size_t{info_.width} * info_.height, 9);  // no byte may stay 9
+    EXPECT_EQ(tks_decode_validity(decoder_, out.data(), out.size()), TKS_OK)
+        << tks_message(decoder_);
+    return out;
+  }
   std::vector<std::byte> texture() {
     std::vector<std::byte> out(info_.has_texture ? textureBytes() : 0);
     if (info_.has_texture) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Windows of streams in regions beside the whole.
+// Windows of streams beside the whole.
 #pragma once
 
 #include <cmath>
@@ -38,6 +38,23 @@ inline void expectWindow(const Stream& stream, DecodeWindow decode, const tks_wi
                                << window.height;
 }
 
+/// The window holds what `whole`, all samples of the heights, holds there.
+inline void expectHeightsWindow(const Stream& stream, const tks_window& window,
+                                const std::vector<std::byte>& whole) {
+  const size_t sample = tks_sample_bytes(stream.info().sample);
+  expectWindow(stream, tks_decode_heights_window, window,
+               cropBytes(whole, stream.info().width * sample, sample, window));
+}
+
+/// The window holds what `whole`, all texels, holds there.
+inline void expectTextureWindow(const Stream& stream, const tks_window& window,
+                                const std::vector<std::byte>& whole) {
+  const tks_info& info = stream.info();
+  const size_t texel = tks_sample_bytes(info.texture_sample) * info.texture_channels;
+  expectWindow(stream, tks_decode_texture_window, window,
+               cropBytes(whole, info.texture_width * texel, texel, window));
+}
+
 /// Windows of every prefix that is tried hold what the whole holds there.
 inline void expectWindows(const Bytes& bytes) {
   for (uint32_t trial = 0; trial < 12; ++trial) {
@@ -49,10 +66,8 @@ inline void expectWindows(const Bytes& bytes) {
     const tks_info& info = stream.info();
     EXPECT_EQ(tks_set_threads(stream.get(), 1 + trial % 3), TKS_OK);
     if (info.has_heights) {
-      const size_t sample = tks_sample_bytes(info.sample);
       const tks_window w = windowOf(trial, info.width, info.height);
-      expectWindow(stream, tks_decode_heights_window, w,
-                   cropBytes(stream.heights(), info.width * sample, sample, w));
+      expectHeightsWindow(stream, w, stream.heights());
       std::vector<float> surface(size_t{info.width} * info.height),
           part(size_t{w.width} * w.height);
       tks_decode_surface(stream.get(), surface.data(), surface.size());
@@ -63,10 +78,8 @@ inline void expectWindows(const Bytes& bytes) {
       }
     }
     if (info.has_texture) {
-      const size_t texel = tks_sample_bytes(info.texture_sample) * info.texture_channels;
       const tks_window w = windowOf(trial + 50, info.texture_width, info.texture_height);
-      expectWindow(stream, tks_decode_texture_window, w,
-                   cropBytes(stream.texture(), info.texture_width * texel, texel, w));
+      expectTextureWindow(stream, w, stream.texture());
     }
     if (::testing::Test::HasFatalFailure()) return;
   }
