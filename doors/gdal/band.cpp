@@ -58,6 +58,7 @@ class Band final : public GDALPamRasterBand {
   }
 
   double GetNoDataValue(int* success) override {
+    if (raster() != nullptr) return raster()->GetNoDataValue(success);
     int found = FALSE;
     const double pam = GDALPamRasterBand::GetNoDataValue(&found);
     if (success != nullptr) *success = found || facts_.nodata;
@@ -89,8 +90,16 @@ class Band final : public GDALPamRasterBand {
     return GDALPamRasterBand::SetUnitType(unit);
   }
   GDALColorInterp GetColorInterpretation() override {
+    if (raster() != nullptr) return raster()->GetColorInterpretation();
     const GDALColorInterp pam = GDALPamRasterBand::GetColorInterpretation();
     return pam != GCI_Undefined ? pam : facts_.colour;
+  }
+  GDALColorTable* GetColorTable() override {
+    return raster() != nullptr ? raster()->GetColorTable() : GDALPamRasterBand::GetColorTable();
+  }
+  char** GetCategoryNames() override {
+    return raster() != nullptr ? raster()->GetCategoryNames()
+                               : GDALPamRasterBand::GetCategoryNames();
   }
 
   int GetOverviewCount() override { return static_cast<int>(dataset().overviews().size()); }
@@ -140,6 +149,10 @@ class Band final : public GDALPamRasterBand {
 
  private:
   Dataset& dataset() const { return static_cast<Dataset&>(*poDS); }
+  /// Of an overview: the band that it is of, which knows what is kept beside.
+  GDALRasterBand* raster() const {
+    return dataset().raster() == nullptr ? nullptr : dataset().raster()->GetRasterBand(nBand);
+  }
 
   /// GDAL keeps no scale of 1 and no offset of 0 beside a file, so that both together say nothing.
   Scaling keptScaling() { return {GDALPamRasterBand::GetScale(), GDALPamRasterBand::GetOffset()}; }

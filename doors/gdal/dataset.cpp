@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "doors/gdal/band.hpp"
-#include "doors/gdal/overview.hpp"
 #include "doors/gdal/pixels.hpp"
 #include "doors/gdal/settings.hpp"
 #include "doors/gdal/subdataset_name.hpp"
@@ -18,6 +17,7 @@ namespace tetrakis::gdal {
 namespace {
 
 constexpr uint32_t kOverviewEnds = 256;  ///< no overview where both sides are at most this
+constexpr uint32_t kPieceRows = 2048;    ///< of the raster, decoded at once for an overview
 
 GDALColorInterp colourOf(uint32_t channels, uint32_t channel, bool has_alpha) {
   if (channels % 2 == 0 && channel + 1 == channels)
@@ -92,7 +92,7 @@ GDALDataset* Dataset::Open(GDALOpenInfo* info) {
   source->choose(*part);
   const bool heights = *part == TKS_PART_HEIGHTS;
   const std::optional<double> voids = heights ? voidValueOf(facts) : std::nullopt;
-  std::unique_ptr<Dataset> dataset(new Dataset(source, voids, 0));
+  std::unique_ptr<Dataset> dataset(new Dataset(source, voids));
   dataset->takeFacts();
   dataset->takePlace(facts, heights);
   dataset->addOverviews();
@@ -109,11 +109,20 @@ GDALDataset* Dataset::Open(GDALOpenInfo* info) {
   return dataset.release();
 }
 
-Dataset::Dataset(std::shared_ptr<Source> source, std::optional<double> void_value, uint32_t level)
-    : source_(std::move(source)), void_value_(void_value), level_(level) {
-  nRasterXSize = static_cast<int>(source_->width(level));
-  nRasterYSize = static_cast<int>(source_->height(level));
-  if (level > 0) nPamFlags |= GPF_NOSAVE;
+Dataset::Dataset(std::shared_ptr<Source> source, std::optional<double> void_value)
+    : source_(std::move(source)), void_value_(void_value) {
+  addBands();
+}
+
+Dataset::Dataset(Dataset& raster, uint32_t level)
+    : source_(raster.source_), void_value_(raster.void_value_), level_(level), raster_(&raster) {
+  nPamFlags |= GPF_NOSAVE;
+  addBands();
+}
+
+void Dataset::addBands() {
+  nRasterXSize = static_cast<int>(source_->width(level_));
+  nRasterYSize = static_cast<int>(source_->height(level_));
   const tks_info& info = source_->info();
   for (uint32_t channel = 0; channel < source_->channels(); ++channel) {
     BandFacts facts;
@@ -215,11 +224,10 @@ void Dataset::takePlace(const tks_info& info, bool heights) {
   if (crs_ && !own) crs_->StripVertical();
 }
 
-/// Overview k is made of level k - 1.
 void Dataset::addOverviews() {
   for (uint32_t level = 1; level <= source_->coarsestLevel() + 1 && level < 31; ++level) {
     if (std::max(source_->width(level - 1), source_->height(level - 1)) <= kOverviewEnds) return;
-    overviews_.emplace_back(new Dataset(source_, void_value_, level));
+    overviews_.emplace_back(new Dataset(*this, level));
   }
 }
 
@@ -262,35 +270,78 @@ CPLErr Dataset::IBuildOverviews(const char*, int, const int*, int, const int*, G
   return CE_Failure;
 }
 
+bool Dataset::hasClasses() const {
+  if (source_->isDrawn()) return true;
+  for (auto&& band : raster_->GetBands())
+    if (band->GetColorTable() != nullptr || band->GetCategoryNames() != nullptr) return true;
+  return false;
+}
+
+uint32_t Dataset::finerLevel() const {
+  if (level_ == 0) return 0;
+  // Levels of drawings hold samples of the raster, those of wavelets means.
+  return hasClasses() && !source_->isDrawn() ? 0 : level_ - 1;
+}
+
+NodataValues Dataset::nodataValues() const {
+  NodataValues values;
+  for (int band = 1; band <= raster_->GetRasterCount(); ++band) {
+    const bool alpha = source_->hasAlpha() && band == raster_->GetRasterCount();
+    int found = FALSE;
+    const double nodata = raster_->GetRasterBand(band)->GetNoDataValue(&found);
+    auto& value = values.at(static_cast<size_t>(band) - 1);
+    value = found ? nodata : void_value_;
+    if (alpha) value.reset();
+  }
+  return values;
+}
+
+bool Dataset::makeOverview(const tks_window& part, std::byte* out) {
+  const uint32_t finer = finerLevel();
+  const bool classes = hasClasses();
+  const uint32_t width = source_->width(finer), height = source_->height(finer);
+  const OverviewAxis across{finer, source_->width(0), source_->width(level_), width};
+  const OverviewAxis down{finer, source_->height(0), source_->height(level_), height};
+  tks_window area = classes ? areaOfMiddles(across, down, part) : areaOfMeans(across, down, part);
+  std::vector<std::byte> window;
+  const std::byte* pixels = nullptr;
+  if (readsWindows()) {
+    if (!source_->window(area, window)) return false;
+    pixels = window.data();
+  } else {
+    pixels = source_->level(finer);
+    area = {0, 0, width, height};
+  }
+  if (pixels == nullptr) return false;
+  const FinerLevel below{
+      pixels, area, source_->sample(), source_->channels(), source_->hasAlpha(), nodataValues()};
+  (classes ? takeMiddles : makeMeans)(below, across, down, part, out);
+  return true;
+}
+
 bool Dataset::read(const tks_window& window, std::vector<std::byte>& out) {
   try {
-    const size_t pixel = source_->pixelBytes();
     if (level_ == 0 && readsWindows()) return source_->window(window, out);
-    const uint32_t below = level_ == 0 ? 0 : level_ - 1;
-    const uint32_t width = source_->width(below), height = source_->height(below);
-    const OverviewAxis across{level_, source_->width(0), source_->width(level_), width};
-    const OverviewAxis down{level_, source_->height(0), source_->height(level_), height};
-    tks_window area = level_ == 0 ? window : areaBelow(across, down, window);
-    std::vector<std::byte> part;
-    const std::byte* pixels = nullptr;
-    if (readsWindows()) {
-      if (!source_->window(area, part)) return false;
-      pixels = part.data();
-    } else {
-      pixels = source_->level(below);
-      if (pixels == nullptr) return false;
-      if (level_ > 0) area = {0, 0, width, height};
-    }
-    out.resize(size_t{window.width} * window.height * pixel);
+    const size_t pixel = source_->pixelBytes(), row = window.width * pixel;
     if (level_ == 0) {
-      const std::byte* const first = pixels + (size_t{window.y} * width + window.x) * pixel;
-      copySamples({first, width * pixel, pixel, window.width, window.height}, pixel, out.data(),
-                  window.width * pixel);
+      const std::byte* const pixels = source_->level(0);
+      if (pixels == nullptr) return false;
+      const size_t line = source_->width(0) * pixel;
+      out.resize(row * window.height);
+      copySamples(
+          {pixels + window.y * line + window.x * pixel, line, pixel, window.width, window.height},
+          pixel, out.data(), row);
       return true;
     }
-    const FinerLevel finer{
-        pixels, area, source_->sample(), source_->channels(), source_->hasAlpha(), void_value_};
-    makeOverview(finer, across, down, window, out.data());
+    out.resize(row * window.height);
+    // Of classes many rows of the raster may lie below few of an overview: piece by piece.
+    const uint32_t coarser = level_ - finerLevel();
+    const uint32_t rows = coarser > 1 ? std::max(kPieceRows >> coarser, 1U) : window.height;
+    for (uint32_t y = 0; y < window.height; y += rows) {
+      const tks_window piece{window.x, window.y + y, window.width,
+                             std::min(rows, window.height - y)};
+      if (!makeOverview(piece, out.data() + y * row)) return false;
+    }
     return true;
   } catch (const std::bad_alloc&) {
     reportFailure(TKS_NO_MEMORY, source_->name(), "");

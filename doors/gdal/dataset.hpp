@@ -11,6 +11,7 @@
 #include <gdal_pam.h>
 #include "doors/gdal/aux_xml.hpp"
 #include "doors/gdal/crs.hpp"
+#include "doors/gdal/overview.hpp"
 #include "doors/gdal/source.hpp"
 
 namespace tetrakis::gdal {
@@ -35,8 +36,10 @@ class Dataset final : public GDALPamDataset {
   /// Pixels of this raster, channels interleaved. False after a reported error.
   bool read(const tks_window& window, std::vector<std::byte>& out);
   /// Whether small parts take much less time than all.
-  bool readsWindows() const { return level_ <= 1 && source_->regionSide() != 0; }
+  bool readsWindows() const { return finerLevel() == 0 && source_->regionSide() != 0; }
   uint32_t level() const { return level_; }
+  /// Of an overview: the raster that it is of.
+  Dataset* raster() const { return raster_; }
   const Source& source() const { return *source_; }
   bool isHeights() const { return source_->part() == TKS_PART_HEIGHTS; }
   const std::vector<std::unique_ptr<Dataset>>& overviews() const { return overviews_; }
@@ -48,7 +51,11 @@ class Dataset final : public GDALPamDataset {
                          CSLConstList options) override;
 
  private:
-  Dataset(std::shared_ptr<Source> source, std::optional<double> void_value, uint32_t level);
+  Dataset(std::shared_ptr<Source> source, std::optional<double> void_value);
+  /// An overview.
+  Dataset(Dataset& raster, uint32_t level);
+
+  void addBands();
 
   void takePlace(const tks_info& info, bool heights);
   void takeFacts();
@@ -58,10 +65,17 @@ class Dataset final : public GDALPamDataset {
   void takeRounding();
   void addOverviews();
   void listSubdatasets();
+  /// Of an overview: whether its samples are classes, of which there are no means.
+  bool hasClasses() const;
+  /// What the pixels are made of.
+  uint32_t finerLevel() const;
+  bool makeOverview(const tks_window& part, std::byte* out);
+  NodataValues nodataValues() const;
 
   std::shared_ptr<Source> source_;
   std::optional<double> void_value_;
-  uint32_t level_;  ///< 0: the raster itself; else its overview of that number
+  uint32_t level_ = 0;         ///< 0: the raster itself; else its overview of that number
+  Dataset* raster_ = nullptr;  ///< of an overview; it lives longer
   std::optional<std::array<double, 6>> transform_;
   SpatialReference crs_;
   StreamTexts texts_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <type_traits>
 #include <vector>
@@ -27,68 +28,71 @@ class Averager {
 
   /// Of three rows and columns of samples, from (x, y) of the level on.
   void pixel(uint32_t x, uint32_t y, const Shares& across, const Shares& down, T* out) const {
-    std::array<double, 4> sums{}, plain{};
-    double weight = 0, opaque = 0;
+    std::array<Sums, 4> sums{};
     for (uint32_t row = 0; row < 3; ++row) {
       for (uint32_t column = 0; column < 3; ++column) {
         const double share = down[row] * across[column];
         if (share == 0) continue;
         const T* const from = at(x + column, y + row);
-        if (isVoid(*from)) continue;
         const double alpha = finer_.has_alpha ? static_cast<double>(from[finer_.channels - 1]) : 1;
-        weight += share;
-        opaque += share * alpha;
         for (uint32_t channel = 0; channel < finer_.channels; ++channel) {
-          plain[channel] += share * static_cast<double>(from[channel]);
-          sums[channel] += share * alpha * static_cast<double>(from[channel]);
+          if (isVoid(channel, from[channel])) {
+            out[channel] = from[channel];
+          } else {
+            sums[channel].add(static_cast<double>(from[channel]), share, alpha);
+          }
         }
       }
     }
-    if (weight == 0) {
-      *out = voidValue();
-      return;
-    }
     for (uint32_t channel = 0; channel < finer_.channels; ++channel) {
+      const Sums& of = sums[channel];
+      if (of.weight == 0) continue;  // all were void
       const bool colour = !finer_.has_alpha || channel + 1 < finer_.channels;
-      out[channel] =
-          rounded<T>(colour && opaque > 0 ? sums[channel] / opaque : plain[channel] / weight);
+      const double mean = colour && of.opaque > 0 ? of.shown / of.opaque : of.plain / of.weight;
+      out[channel] = asGround(channel, rounded<T>(mean));
     }
-    *out = asGround(*out);
   }
 
  private:
+  struct Sums {
+    double weight = 0, plain = 0;
+    double opaque = 0, shown = 0;  ///< weighted by alpha
+
+    void add(double value, double share, double alpha) {
+      weight += share;
+      plain += share * value;
+      opaque += share * alpha;
+      shown += share * alpha * value;
+    }
+  };
+
   const T* at(uint32_t x, uint32_t y) const {
     const tks_window& window = finer_.window;
     const uint64_t pixel = uint64_t{y - window.y} * window.width + (x - window.x);
     return reinterpret_cast<const T*>(finer_.pixels) + pixel * finer_.channels;
   }
 
-  bool isVoid(T sample) const {
-    if (!finer_.nodata) return false;
+  bool isVoid(uint32_t channel, T sample) const {
+    const std::optional<double>& nodata = finer_.nodata[channel];
+    if (!nodata) return false;
     const auto value = static_cast<double>(sample);
-    return value == *finer_.nodata || std::isnan(value);
+    return value == *nodata || std::isnan(value);
   }
 
   /// A mean as ground, which the nodata value is not: of integers its neighbour, of floats the next
   /// towards 0 that GDAL does not take for it (ARE_REAL_EQUAL() in gdal_priv.h).
-  T asGround(T mean) const {
-    if (!finer_.nodata) return mean;
+  T asGround(uint32_t channel, T mean) const {
+    if (!finer_.nodata[channel]) return mean;
     if constexpr (std::is_integral_v<T>) {
-      if (!isVoid(mean)) return mean;
+      if (!isVoid(channel, mean)) return mean;
       return static_cast<T>(mean == std::numeric_limits<T>::max() ? mean - 1 : mean + 1);
     } else {
       constexpr double kEpsilon = std::numeric_limits<T>::epsilon();
-      const double nodata = *finer_.nodata, off = std::abs(mean - nodata);
+      const double nodata = *finer_.nodata[channel], off = std::abs(mean - nodata);
       if (nodata == 0) return mean == 0 ? std::numeric_limits<T>::min() : mean;
       const bool taken = off < 2 * kEpsilon * std::abs(mean + nodata);
       return taken ? static_cast<T>(nodata * (1 - 8 * kEpsilon)) : mean;
     }
-  }
-
-  /// Only reached where samples were void.
-  T voidValue() const {
-    if (std::isnan(*finer_.nodata)) return std::numeric_limits<T>::quiet_NaN();
-    return static_cast<T>(*finer_.nodata);
   }
 
   const FinerLevel& finer_;
@@ -118,17 +122,20 @@ void average(const FinerLevel& finer, const OverviewAxis& across, const Overview
 
 }  // namespace
 
-double OverviewAxis::start(uint32_t pixel) const {
-  const double sample = static_cast<double>(uint64_t{pixel} * raster) / overview - 0.5;
-  return std::ldexp(sample, 1 - static_cast<int>(k));
+double OverviewAxis::place(double pixel) const {
+  return std::ldexp(pixel * raster / overview - 0.5, -static_cast<int>(level));
 }
 
 uint32_t OverviewAxis::first(uint32_t pixel) const {
-  return static_cast<uint32_t>(start(pixel) + 0.5);
+  return static_cast<uint32_t>(place(pixel) + 0.5);
+}
+
+uint32_t OverviewAxis::middle(uint32_t pixel) const {
+  return std::min(static_cast<uint32_t>(place(pixel + 0.5) + 0.5), finer - 1);
 }
 
 std::array<double, 3> OverviewAxis::shares(uint32_t pixel) const {
-  const double begin = start(pixel), end = start(pixel + 1);
+  const double begin = place(pixel), end = place(pixel + 1.0);
   std::array<double, 3> shares{};
   for (uint32_t i = 0; i < 3; ++i) {
     const double sample = first(pixel) + i;
@@ -138,7 +145,7 @@ std::array<double, 3> OverviewAxis::shares(uint32_t pixel) const {
   return shares;
 }
 
-tks_window areaBelow(const OverviewAxis& x, const OverviewAxis& y, const tks_window& part) {
+tks_window areaOfMeans(const OverviewAxis& x, const OverviewAxis& y, const tks_window& part) {
   const auto end = [](const OverviewAxis& axis, uint32_t last) {
     return std::min(axis.first(last) + 3, axis.finer);
   };
@@ -147,8 +154,24 @@ tks_window areaBelow(const OverviewAxis& x, const OverviewAxis& y, const tks_win
           end(y, part.y + part.height - 1) - top};
 }
 
-void makeOverview(const FinerLevel& finer, const OverviewAxis& x, const OverviewAxis& y,
-                  const tks_window& part, std::byte* out) {
+tks_window areaOfMiddles(const OverviewAxis& x, const OverviewAxis& y, const tks_window& part) {
+  const uint32_t left = x.middle(part.x), top = y.middle(part.y);
+  return {left, top, x.middle(part.x + part.width - 1) + 1 - left,
+          y.middle(part.y + part.height - 1) + 1 - top};
+}
+
+void takeMiddles(const FinerLevel& finer, const OverviewAxis& x, const OverviewAxis& y,
+                 const tks_window& part, std::byte* out) {
+  const size_t pixel = finer.channels * tks_sample_bytes(finer.sample);
+  for (uint32_t row = part.y; row < part.y + part.height; ++row) {
+    const size_t line = size_t{y.middle(row) - finer.window.y} * finer.window.width;
+    for (uint32_t column = part.x; column < part.x + part.width; ++column, out += pixel)
+      std::memcpy(out, finer.pixels + (line + x.middle(column) - finer.window.x) * pixel, pixel);
+  }
+}
+
+void makeMeans(const FinerLevel& finer, const OverviewAxis& x, const OverviewAxis& y,
+               const tks_window& part, std::byte* out) {
   switch (finer.sample) {
     case TKS_U8:
       return average<uint8_t>(finer, x, y, part, out);

@@ -238,6 +238,10 @@ bool Source::hasAlpha() const {
   return part_ == TKS_PART_TEXTURE && info_.texture_opaque == 0;
 }
 
+bool Source::isDrawn() const {
+  return (part_ == TKS_PART_HEIGHTS ? info_.heights_drawn : info_.texture_drawn) == 1;
+}
+
 tks_sample Source::sample() const {
   return part_ == TKS_PART_HEIGHTS ? info_.sample : info_.texture_sample;
 }

@@ -48,6 +48,8 @@ class Source {
   uint32_t height(uint32_t level) const;
   uint32_t channels() const;
   bool hasAlpha() const;  ///< as the last channel
+  /// Coded as it is, without a wavelet: levels hold samples of the raster, not means.
+  bool isDrawn() const;
   tks_sample sample() const;
   size_t pixelBytes() const { return channels() * tks_sample_bytes(sample()); }
   uint32_t coarsestLevel() const;
