@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <cpl_error.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <gdal.h>
@@ -32,6 +33,33 @@ void dropChildren(CPLXMLNode* parent, const Predicate& predicate) {
   }
 }
 
+constexpr char kChecksum[] = "TKSStream";
+
+bool isSubdataset(const CPLXMLNode* node) {
+  return isElement(node, "Subdataset");
+}
+
+bool isChecksum(const CPLXMLNode* node) {
+  return isElement(node, kChecksum);
+}
+
+CPLXMLTreeCloser parsed(const char* file) {
+  VSIStatBufL stat;
+  const bool there = file != nullptr && VSIStatL(file, &stat) == 0;
+  const CPLErrorStateBackuper errors;
+  const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
+  return CPLXMLTreeCloser(there ? CPLParseXMLFile(file) : nullptr);
+}
+
+/// What the file says of a subdataset, or of the rest.
+std::string checksumOf(const CPLXMLNode* all, const char* subdataset) {
+  if (*subdataset == '\0') return CPLGetXMLValue(all, kChecksum, "");
+  for (const CPLXMLNode* child = all->psChild; child != nullptr; child = child->psNext)
+    if (isSubdataset(child) && EQUAL(CPLGetXMLValue(child, "name", ""), subdataset))
+      return CPLGetXMLValue(child, CPLSPrintf("PAMDataset.%s", kChecksum), "");
+  return "";
+}
+
 bool isOwnDomain(const CPLXMLNode* node) {
   const char* const domain = CPLGetXMLValue(node, "domain", "");
   return isElement(node, "Metadata") &&
@@ -54,6 +82,13 @@ void dropOfBand(CPLXMLNode* band, const std::string& description) {
   });
 }
 
+/// Where the part says nothing, the rest speaks for it.
+bool isOfAnother(const CPLXMLNode* all, const char* subdataset, const std::string& checksum) {
+  std::string told = checksumOf(all, subdataset);
+  if (told.empty()) told = checksumOf(all, "");
+  return !told.empty() && told != checksum;
+}
+
 }  // namespace
 
 CPLXMLNode* withoutStreamTexts(CPLXMLNode* tree, const StreamTexts& stream) {
@@ -71,22 +106,34 @@ CPLXMLNode* withoutStreamTexts(CPLXMLNode* tree, const StreamTexts& stream) {
   return nullptr;
 }
 
-CPLXMLNode* withSubdatasets(CPLXMLNode* tree, const char* file) {
-  const auto is_subdataset = [](const CPLXMLNode* node) { return isElement(node, "Subdataset"); };
-  VSIStatBufL stat;
-  if (file == nullptr || VSIStatL(file, &stat) != 0) return tree;
-  const CPLXMLTreeCloser kept(CPLParseXMLFile(file));
+CPLXMLNode* withSubdatasets(CPLXMLNode* tree, const char* file, const std::string& checksum) {
+  const CPLXMLTreeCloser kept = parsed(file);
   const CPLXMLNode* const all = CPLGetXMLNode(kept.get(), "=PAMDataset");
   if (all == nullptr) return tree;
-  if (tree != nullptr) dropChildren(tree, is_subdataset);
+  if (tree != nullptr) dropChildren(tree, isSubdataset);
   for (const CPLXMLNode* child = all->psChild; child != nullptr; child = child->psNext) {
-    if (!is_subdataset(child)) continue;
+    if (!isSubdataset(child)) continue;
+    if (isOfAnother(all, CPLGetXMLValue(child, "name", ""), checksum)) continue;
     if (tree == nullptr) tree = CPLCreateXMLNode(nullptr, CXT_Element, "PAMDataset");
     CPLXMLNode alone = *child;
     alone.psNext = nullptr;
-    CPLAddXMLChild(tree, CPLCloneXMLTree(&alone));
+    CPLXMLNode* const copy = CPLCloneXMLTree(&alone);
+    tellChecksum(CPLGetXMLNode(copy, "PAMDataset"), checksum);
+    CPLAddXMLChild(tree, copy);
   }
   return tree;
+}
+
+void tellChecksum(CPLXMLNode* tree, const std::string& checksum) {
+  if (tree == nullptr) return;
+  dropChildren(tree, isChecksum);
+  CPLCreateXMLElementAndValue(tree, kChecksum, checksum.c_str());
+}
+
+bool isOfAnotherStream(const char* file, const char* subdataset, const std::string& checksum) {
+  const CPLXMLTreeCloser kept = parsed(file);
+  const CPLXMLNode* const all = CPLGetXMLNode(kept.get(), "=PAMDataset");
+  return all != nullptr && isOfAnother(all, subdataset, checksum);
 }
 
 }  // namespace tetrakis::gdal

@@ -165,6 +165,13 @@ void Dataset::loadBeside(char** siblings) {
   std::vector<CPLStringList> own;
   for (const char* const domain : kOwnDomains) own.emplace_back(CSLDuplicate(GetMetadata(domain)));
   CPLStringList of_bands(CSLDuplicate(GetRasterBand(1)->GetMetadata("IMAGE_STRUCTURE")));
+  if (isBesideOfAnother(siblings)) {
+    CPLError(CE_Warning, CPLE_AppDefined,
+             "%s: The file .aux.xml beside it is about another stream that had this name, and is "
+             "not used.",
+             source_->name().c_str());
+    return;
+  }
   TryLoadXML(siblings);
   for (size_t i = 0; i < own.size(); ++i)
     if (GetMetadata(kOwnDomains[i]) != nullptr)
@@ -177,6 +184,17 @@ void Dataset::loadBeside(char** siblings) {
   if (*first.GetDescription() == '\0')
     first.GDALRasterBand::SetDescription(texts_.description.c_str());
   takeRounding();
+}
+
+bool Dataset::isBesideOfAnother(char** siblings) {
+  PamInitialize();
+  const char* const file = BuildPamFilename();
+  if (file == nullptr) return false;
+  // As GDAL does, which asks nothing of files that a folder does not have.
+  const std::string folder = CPLGetPath(source_->name().c_str());
+  const bool listed = siblings != nullptr && folder == CPLGetPath(file);
+  if (listed && CSLFindString(siblings, CPLGetFilename(file)) < 0) return false;
+  return isOfAnotherStream(file, GetSubdatasetName(), source_->checksum());
 }
 
 void Dataset::takeRounding() {
@@ -196,10 +214,16 @@ void Dataset::tellRounding(double rounding) {
 }
 
 CPLXMLNode* Dataset::SerializeToXML(const char* path) {
-  CPLXMLNode* const tree = withoutStreamTexts(GDALPamDataset::SerializeToXML(path), texts_);
-  if (*GetSubdatasetName() == '\0') return withSubdatasets(tree, BuildPamFilename());
-  // For null GDAL would remove the file, and with it what belongs to others.
-  return tree != nullptr ? tree : CPLCreateXMLNode(nullptr, CXT_Element, "PAMDataset");
+  CPLXMLNode* tree = withoutStreamTexts(GDALPamDataset::SerializeToXML(path), texts_);
+  const std::string checksum = source_->checksum();
+  if (*GetSubdatasetName() == '\0') {
+    tree = withSubdatasets(tree, BuildPamFilename(), checksum);
+  } else if (tree == nullptr) {
+    // For null GDAL would remove the file, and with it what belongs to others.
+    tree = CPLCreateXMLNode(nullptr, CXT_Element, "PAMDataset");
+  }
+  tellChecksum(tree, checksum);
+  return tree;
 }
 
 void Dataset::takePlace(const tks_info& info, bool heights) {

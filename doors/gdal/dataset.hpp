@@ -61,6 +61,8 @@ class Dataset final : public GDALPamDataset {
   void takeFacts();
   /// Takes what a file beside the stream says, but for what only the stream can know.
   void loadBeside(char** siblings);
+  /// Whether that file was written for another stream, which had this name.
+  bool isBesideOfAnother(char** siblings);
   /// Counts in what a copy has kept beside of its rounding.
   void takeRounding();
   void addOverviews();

@@ -3,6 +3,7 @@
 and is the same by every name of a raster."""
 
 import os
+import re
 import shutil
 import subprocess
 
@@ -52,6 +53,13 @@ def test_a_prefix_beside_metadata_is_lossy(tmp_path, image):
     assert reversibility(gdal.Open(name)) == "LOSSLESS"
 
 
+def without_checksum(beside):
+    """As plugins wrote it that did not bind it to its stream, or as other programs write it."""
+    text, count = re.subn("<TKSStream>[0-9A-F]{8}</TKSStream>", "", beside.read_text())
+    assert count > 0
+    beside.write_text(text)
+
+
 def test_claims_of_a_stream_that_was_replaced(tmp_path):
     """By a program that does not know of the file beside it."""
     name, other = tmp_path / "a.tks", tmp_path / "b.tks"
@@ -59,6 +67,7 @@ def test_claims_of_a_stream_that_was_replaced(tmp_path):
     copy(signed, name, "MAX_Z_ERROR=2")
     copy(memory(terrain(20, 30, "u1"), area_or_point="Area", description="roofs"), other)
     os.replace(other, name)
+    without_checksum(tmp_path / "a.tks.aux.xml")
     dataset = gdal.Open(str(name))
     band = dataset.GetRasterBand(1)
     assert reversibility(dataset) == "LOSSLESS"
@@ -66,6 +75,70 @@ def test_claims_of_a_stream_that_was_replaced(tmp_path):
     assert dataset.GetMetadata() == {"AREA_OR_POINT": "Area", "MISSION": "SRTM"}
     assert band.GetDescription() == "roofs"
     assert band.GetMetadataItem("PIXELTYPE", "IMAGE_STRUCTURE") is None
+
+
+def painted(array):
+    source = with_metadata(array, colours=[gdal.GCI_PaletteIndex])
+    table = gdal.ColorTable()
+    table.SetColorEntry(3, (10, 20, 30, 255))
+    source.GetRasterBand(1).SetColorTable(table)
+    return source
+
+
+def test_what_is_beside_belongs_to_its_stream(tmp_path):
+    """Statistics, colours and all else are not those of another stream that takes its name."""
+    name, other, beside = tmp_path / "a.tks", tmp_path / "b.tks", tmp_path / "a.tks.aux.xml"
+    copy(painted(terrain(20, 30, "u1")), name)
+    first_band(gdal.Open(str(name))).ComputeStatistics(False)
+    dataset, heard = warnings_of(lambda: gdal.Open(str(name)))
+    assert not heard and dataset.GetMetadataItem("MISSION") == "SRTM"
+    assert dataset.GetRasterBand(1).GetMetadataItem("STATISTICS_MEAN") is not None
+    dataset = None
+    copy(terrain(20, 30, "u1", seed=2), other)
+    os.replace(other, name)
+    dataset, heard = warnings_of(lambda: gdal.Open(str(name)))
+    assert len(heard) == 1 and "a.tks" in heard[0] and "another stream" in heard[0]
+    band = dataset.GetRasterBand(1)
+    assert dataset.GetMetadata() == {} and band.GetMetadata() == {}
+    assert band.GetColorTable() is None and band.GetColorInterpretation() == gdal.GCI_GrayIndex
+    # What is kept from now on is of the new one, and all of it.
+    band.SetNoDataValue(7)
+    band = dataset = None
+    assert "MISSION" not in beside.read_text()
+    dataset, heard = warnings_of(lambda: gdal.Open(str(name)))
+    assert not heard and dataset.GetRasterBand(1).GetNoDataValue() == 7
+    dataset = None
+    without_checksum(beside)
+    copy(terrain(20, 30, "u1", seed=3), other)
+    os.replace(other, name)
+    dataset, heard = warnings_of(lambda: gdal.Open(str(name)))
+    assert not heard and dataset.GetRasterBand(1).GetNoDataValue() == 7
+
+
+def test_what_is_beside_belongs_to_its_stream_by_all_names(tmp_path, image):
+    name, other = str(tmp_path / "a.tks"), str(tmp_path / "b.tks")
+
+    def replace(seed):
+        copy(terrain(20, 30, seed=seed), other, "TEXTURE=" + image)
+        os.replace(other, name)
+
+    def nodata(part):
+        dataset, heard = warnings_of(lambda: gdal.Open(f'TKS:"{name}":{part}'))
+        return dataset.GetRasterBand(1).GetNoDataValue(), len(heard)
+
+    replace(1)
+    first_band(gdal.Open(f'TKS:"{name}":texture')).SetNoDataValue(3)
+    assert nodata("texture") == (3, 0) and nodata("heights") == (None, 0)
+    first_band(gdal.Open(name)).SetNoDataValue(9)
+    assert nodata("texture") == (3, 0) and nodata("heights") == (9, 0)
+    replace(2)
+    assert nodata("texture") == (None, 1) and nodata("heights") == (None, 1)
+    # What is now kept of the one does not bring back what was there of the other.
+    first_band(gdal.Open(f'TKS:"{name}":texture')).SetNoDataValue(4)
+    assert nodata("texture") == (4, 0) and nodata("heights") == (None, 1)
+    replace(3)
+    first_band(gdal.Open(name)).SetNoDataValue(8)
+    assert nodata("texture") == (None, 0) and nodata("heights") == (8, 0)
 
 
 def test_claims_that_another_program_has_written_beside(tmp_path):
