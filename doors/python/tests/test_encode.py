@@ -49,7 +49,7 @@ def test_reflectances_have_a_white_level():
             white = stream.info.texture_white_level
             assert white == given if given else 2000 < white < 3000
             np.testing.assert_array_equal(stream.texture(), texture)
-    with tetrakis.open(tetrakis.encode(heights=np.zeros((3, 3)))) as stream:
+    with tetrakis.open(tetrakis.encode(heights=np.zeros((3, 3), "f4"))) as stream:
         assert stream.info.texture_white_level is None
 
 
