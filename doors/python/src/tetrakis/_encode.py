@@ -5,16 +5,18 @@ from __future__ import annotations
 
 import builtins
 import ctypes
-from typing import Any, Callable, List, Literal, Optional, Sequence, Tuple, Union
+from typing import Any, Literal, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _library as c
+from . import _stoppable as stoppable
 from . import _values as values
 from ._errors import Status, TksUsageError, error
 
-Progress = Callable[[float], Any]
+# So many samples and less are coded before anybody would press Ctrl-C.
+_SHORT = 1 << 14
 
 
 def _unused_value(valid: NDArray[Any], fill_value: Any) -> int:
@@ -156,24 +158,10 @@ def _set_target(options: c.EncodeOptions, target: dict) -> None:
         raise TksUsageError(f"The target {name} must be greater than 0.")
 
 
-def _watched(progress: Optional[Progress], raised: List[BaseException]) -> Any:
-    """A C callback. An exception cannot cross C: it is kept in `raised` and stops the encoder."""
-    if progress is None:
-        return c.PROGRESS()
-    if not callable(progress):
-        raise TksUsageError(f"progress must be a function, not {values.told(progress)}.")
-
-    def call(_user: Any, done: float) -> int:
-        try:
-            return 1 if progress(done) else 0
-        except BaseException as exception:
-            raised.append(exception)
-            return 1
-
-    return c.PROGRESS(call)
-
-
-def _run(heights: Any, image: Any, options: c.EncodeOptions) -> builtins.bytes:
+def _run(
+    heights: Any, image: Any, options: c.EncodeOptions, callback: Any
+) -> builtins.bytes:
+    options.progress = callback
     buffer = c.Buffer()
     message = ctypes.create_string_buffer(1024)
     status = c.lib.tks_encode(heights, image, options, buffer, message, len(message))
@@ -216,7 +204,7 @@ def encode(
     regions: Optional[int] = None,
     index: Union[bool, str] = False,
     threads: int = 1,
-    progress: Optional[Progress] = None,
+    progress: Optional[stoppable.Progress] = None,
 ) -> builtins.bytes:
     """Codes heights, a texture, or both over the same ground, into one stream.
 
@@ -263,13 +251,17 @@ def encode(
             or heights alone within max_error) also lays each region out in one piece, for windows
             over a network.
         threads: how many may work; the bytes never depend on it.
-        progress: called with a number from 0 to 1, from the threads that work; true stops. What it
-            raises, `encode` raises.
+        progress: called with a number from 0 to 1, in the thread that called `encode`; true stops.
+            What it raises, `encode` raises.
 
     Raises :class:`TksUsageError` (also a ValueError) for what makes no sense, and other
-    :class:`TksError` with their stable `code`.
+    :class:`TksError` with their stable `code`. Ctrl-C in the main thread raises KeyboardInterrupt
+    within a second, too. What has been begun goes on in the background until it next reports its
+    progress, which may take as long as a large array takes to be coded once; the arrays should not
+    be written to before (a copy may).
     """
-    raised: List[BaseException] = []
+    if progress is not None and not callable(progress):
+        raise TksUsageError(f"progress must be a function, not {values.told(progress)}.")
     options = c.EncodeOptions(
         size=ctypes.sizeof(c.EncodeOptions),
         triangles=values.unsigned(triangles, "triangles"),
@@ -277,7 +269,6 @@ def encode(
         regions=values.unsigned(regions, "regions"),
         index=values.choice(index, c.INDEXES, "index"),
         weights=values.choice(weights, c.WEIGHTS, "weights"),
-        progress=_watched(progress, raised),
     )
     if lossless is not None:
         lossless = values.flag(lossless, "lossless")
@@ -305,12 +296,11 @@ def encode(
         alpha=texture_alpha,
         white_level=texture_white_level,
     )
-    # The arrays' second names keep copies alive until the call is over.
-    height_field, _samples = (None, None) if heights is None else _heights_struct(heights, place)
-    image, _texels = (None, None) if texture is None else _image_struct(texture, texture_place)
-    try:
-        return _run(height_field, image, options)
-    except TksUsageError:
-        if raised:
-            raise raised[0] from None
-        raise
+    height_field, samples = (None, None) if heights is None else _heights_struct(heights, place)
+    image, texels = (None, None) if texture is None else _image_struct(texture, texture_place)
+    arrays = [array for array in (samples, texels) if array is not None]
+
+    def call(callback: Any, _kept: Any = arrays) -> builtins.bytes:
+        return _run(height_field, image, options, callback)
+
+    return stoppable.run(call, progress, sum(array.size for array in arrays) <= _SHORT)
