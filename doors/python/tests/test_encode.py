@@ -200,6 +200,13 @@ def test_scale_and_text_come_back(heights):
         np.testing.assert_allclose(opened.surface(), opened.heights() * 0.1 + 5, rtol=1e-5)
 
 
+class WithWkt:
+    """As the CRSs of rasterio and pyproj are."""
+
+    def to_wkt(self):
+        return "LOCAL_CS[]"
+
+
 REFUSED = [
     (dict(heights=np.zeros((4, 4), bool)), "bool"),
     (dict(heights=np.zeros((4, 4))), "float64"),
@@ -232,7 +239,8 @@ REFUSED = [
     (dict(heights=np.zeros((4, 4), "f4"), regions=33), "."),
     (dict(heights=np.zeros((4, 4), "f4"), unit="a\0b"), "NUL"),
     (dict(heights=np.zeros((4, 4), "f4"), unit="\ud800"), "Unicode"),
-    (dict(heights=np.zeros((4, 4), "f4"), crs=32611), "text"),
+    (dict(heights=np.zeros((4, 4), "f4"), crs=32611), r'"EPSG:32611" or WKT, not 32611 .*to_wkt'),
+    (dict(texture=np.zeros((4, 4), "u1"), texture_crs=WithWkt()), r"texture_crs .*to_wkt\(\)"),
     (dict(heights=np.zeros((4, 4), "f4"), crs="EPSG:Mercator"), "no code of EPSG"),
     (dict(texture=np.zeros((4, 4), "u1"), texture_crs="epsg:"), "no code of EPSG"),
     (dict(heights=np.zeros((4, 4), "f4"), index="tiles"), "one of"),

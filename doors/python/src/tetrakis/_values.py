@@ -71,7 +71,12 @@ def text(value: Optional[str], what: str) -> Optional[bytes]:
 def crs(value: Optional[str], what: str) -> Optional[bytes]:
     """A name or WKT is whatever its readers know; a code that is none is a mistake. Not all readers
     know EPSG in lower case."""
-    if not isinstance(value, str) or value[:5].upper() != "EPSG:":
+    if value is not None and not isinstance(value, str):
+        raise TksUsageError(
+            f'{what} must be text such as "EPSG:32611" or WKT, not {told(value)}'
+            " (of a CRS of rasterio or pyproj: crs.to_wkt())."
+        )
+    if value is None or value[:5].upper() != "EPSG:":
         return text(value, what)
     code = value[5:]
     if not re.fullmatch(r"[0-9]+(\+[0-9]+)?", code):
