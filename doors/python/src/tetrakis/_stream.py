@@ -28,7 +28,9 @@ class Mesh(NamedTuple):
     """uint32 (m, 3): places in `vertices`, counter-clockwise seen from above."""
     uv: NDArray[Any]
     """float32 (n, 2): place in the texture; (0, 0) is where its first row and column begin, (1, 1)
-    where its last ones end. Where heights and texture have geotransforms in one CRS, these say so,
+    where its last ones end. So v grows downwards, with the rows (without geotransforms it is
+    row / (rows - 1)), as in glTF; viewers whose v grows upwards, such as trimesh and PyVista, take
+    ``1 - v``. Where heights and texture have geotransforms in one CRS, these say so,
     and what lies outside the texture is below 0 or above 1 (the command line shows the texture's
     border there). CRSs are compared as text, codes without their vertical part and in any case.
     Where they differ, or a geotransform is missing, the texture covers the heights from the first
