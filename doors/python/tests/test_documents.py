@@ -2,6 +2,7 @@
 """The example runs, and what README.md and docstrings show works."""
 
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -42,6 +43,20 @@ def test_what_the_readme_shows_runs(tmp_path, monkeypatch):
 def test_the_licence_comes_along():
     installed = Path(tetrakis.__file__).with_name("LICENSE")
     assert installed.read_bytes() == (REPOSITORY / "LICENSE").read_bytes()
+
+
+def test_a_copy_of_the_folder_can_be_imported(tmp_path):
+    """Without what pip writes beside it."""
+    shutil.copytree(Path(tetrakis.__file__).parent, tmp_path / "tetrakis")
+    script = f"import sys; sys.path[:0] = [{str(tmp_path)!r}]\n" + (
+        "import importlib.metadata as metadata\n"
+        "def version(name): raise metadata.PackageNotFoundError(name)\n"
+        "metadata.version = version\n"
+        "import tetrakis; print(tetrakis.__file__, tetrakis.tks_version())\n"
+    )
+    printed = subprocess.check_output([sys.executable, "-c", script], text=True).split()
+    assert Path(printed[0]).parent == tmp_path / "tetrakis"
+    assert printed[1:] == ["tetrakis", "0+unknown"]
 
 
 def test_all_that_is_public_is_described():

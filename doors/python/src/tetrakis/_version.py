@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The version that the package was installed with: that of the C library."""
 
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 
-__version__ = version("tetrakis")
+try:
+    __version__ = version("tetrakis")
+except PackageNotFoundError:  # a copy of the folder alone
+    __version__ = "0+unknown"
