@@ -296,8 +296,11 @@ CPLErr Dataset::IBuildOverviews(const char*, int, const int*, int, const int*, G
 
 bool Dataset::hasClasses() const {
   if (source_->isDrawn()) return true;
-  for (auto&& band : raster_->GetBands())
+  for (auto&& band : raster_->GetBands()) {
+    const char* const layer = band->GetMetadataItem("LAYER_TYPE");
     if (band->GetColorTable() != nullptr || band->GetCategoryNames() != nullptr) return true;
+    if (layer != nullptr && EQUAL(layer, "thematic")) return true;  // so says Erdas Imagine
+  }
   return false;
 }
 

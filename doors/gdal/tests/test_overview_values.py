@@ -75,10 +75,14 @@ def test_overviews_of_a_band_with_a_colour_table(tmp_path, options, noise):
     assert overview.GetColorTable().GetColorEntry(7) == (7, 20, 30, 255)
 
 
-def test_overviews_of_a_band_with_names_of_categories(tmp_path):
+@pytest.mark.parametrize("said", ["names", "metadata"])
+def test_overviews_of_a_band_that_is_said_to_have_classes(tmp_path, said):
     array = classes(600, 700, noise=0.7)
     source = memory(array)
-    source.GetRasterBand(1).SetCategoryNames(["none", "water"])
+    if said == "names":
+        source.GetRasterBand(1).SetCategoryNames(["none", "water"])
+    else:
+        source.GetRasterBand(1).SetMetadataItem("LAYER_TYPE", "thematic")
     check_overviews(copy(source, tmp_path / "a.tks", "BLOCKSIZE=128"), array)
 
 
