@@ -103,9 +103,9 @@ struct Places {
     };
     skipVarint();  // body_bytes
     const bool geometry = stream[at++] & 1;
-    for (const bool varint : {true, false, true, true, true}) {  // payload_bytes to height
-      varint ? skipVarint() : void(++at);
-    }
+    skipVarint();                              // payload_bytes
+    if (stream[at++] & 2) at += 4;             // lossless, payload_crc
+    for (int i = 0; i < 3; ++i) skipVarint();  // triangles, width, height
     planes = at + (geometry ? 1 : 2);
     wavelet = planes + 1 + (geometry ? 1 : 0);
     for (int i = 0; geometry && i < 3; ++i) wavelet += 1 + stream[wavelet];  // f64
