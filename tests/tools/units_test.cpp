@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <string>
+
 #include "base/length_unit.hpp"
 
 namespace tetrakis::tools {
@@ -32,6 +35,24 @@ TEST(Units, SurveyFeetAreNotFeet) {
   EXPECT_EQ(canonicalUnit("FT"), "ft");
   EXPECT_EQ(canonicalUnit("M"), "m");
   EXPECT_EQ(canonicalUnit("K"), "K");
+}
+
+TEST(Units, NamesOfLengthsAreThoseOfTheTable) {
+  std::ifstream table(TKS_LENGTH_NAMES);
+  ASSERT_TRUE(table);
+  int names = 0;
+  for (std::string line; std::getline(table, line);) {
+    if (line.starts_with('#')) continue;
+    const std::string metres = line.substr(0, line.find(' ')),
+                      name = line.substr(metres.size() + 1);
+    const auto known = metresPerUnit(name);
+    EXPECT_EQ(known.has_value(), metres != "none") << name;
+    if (known) {
+      EXPECT_DOUBLE_EQ(*known, std::stod(metres)) << name;
+    }
+    ++names;
+  }
+  EXPECT_GT(names, 25);
 }
 
 TEST(Units, NonsenseIsRefused) {

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Metres on the ground: as a stream states them, or as its place tells. Encoders that know no CRS
 // state a place alone.
-const METRES = {ft: 0.3048, foot: 0.3048, feet: 0.3048, 'us-ft': 1200 / 3937};
+
+/** Of lengths by their names, as base/length_unit.cpp has them: lower case, words apart by blanks. */
+const METRES = new Map([
+  [1, 'm metre meter metres meters'],
+  [0.01, 'cm centimetre'],
+  [0.001, 'mm millimetre'],
+  [1000, 'km kilometre'],
+  [0.3048, 'ft foot feet international_foot international_feet'],
+  [1200 / 3937, 'us-ft ftus foot_us us_survey_foot us_survey_feet'],
+].flatMap(([metres, names]) => names.split(' ').map((name) => [name.replaceAll('_', ' '), metres])));
 /** Of WGS 84: half of its long axis, and the square of its eccentricity. */
 const AXIS = 6378137, ECCENTRICITY = 0.00669437999014;
 const RADIANS = Math.PI / 180;
@@ -46,9 +55,11 @@ function placedSpacing(info) {
   return spacing.every((metres) => metres > 0 && Number.isFinite(metres)) ? spacing : null;
 }
 
+const metresOf = (unit) => METRES.get(unit.toLowerCase().replaceAll('_', ' '));
+
 /** Metres of one unit of height, of one column and of one row; where nothing is known, 1. */
 export function groundScale(info) {
   const stated = info.spacingX > 0 && [info.spacingX, info.spacingY || info.spacingX];
   const [x, y] = stated || placedSpacing(info) || [1, 1];
-  return {height: METRES[info.unit.toLowerCase()] ?? 1, x, y};
+  return {height: metresOf(info.unit) ?? 1, x, y};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Metres on the ground, of streams that state a place alone.
 import assert from 'node:assert/strict';
+import {readFileSync} from 'node:fs';
 import test from 'node:test';
 
 import {encode} from '../src/encode.js';
@@ -57,5 +58,16 @@ test('without a CRS, an area or a latitude, nothing is known', async () => {
   ]) {
     const {x, y} = await scaleOf(place);
     assert.deepEqual([x, y], [1, 1]);
+  }
+});
+
+test('a unit of heights is as long as for the command line, by any of its names', () => {
+  const table = readFileSync(new URL('../../tests/tools/length_names.txt', import.meta.url), 'utf8');
+  const lines = table.trim().split('\n').filter((line) => !line.startsWith('#'));
+  assert.ok(lines.length > 25);
+  for (const line of lines) {
+    const [metres] = line.split(' '), unit = line.slice(metres.length + 1);
+    const {height} = groundScale({unit, spacingX: 30, spacingY: 30});
+    assert.equal(height, metres === 'none' ? 1 : Number(metres), unit);
   }
 });
