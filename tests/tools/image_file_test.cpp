@@ -138,6 +138,63 @@ TEST_F(ImageFiles, AssociatedAlphaIsDividedOutAndTold) {
   EXPECT_NE(note.find("alpha"), std::string::npos);
 }
 
+/// As gdal_translate -colorinterp writes them: further samples beside grey, and metadata.
+TEST_F(ImageFiles, BandsOfOtherOrdersBecomeRgb) {
+  const auto colours = [](const std::vector<std::string>& names) {
+    std::string xml = "<GDALMetadata>\n";
+    for (size_t i = 0; i < names.size(); ++i)
+      xml += "  <Item name=\"COLORINTERP\" sample=\"" + std::to_string(i) +
+             "\" role=\"colorinterp\">" + names[i] + "</Item>\n";
+    return xml + "</GDALMetadata>";
+  };
+  const auto grey = [](uint16_t channels, std::vector<uint16_t> extras, uint16_t bits = 8) {
+    std::vector<uint8_t> pixels(size_t{2} * channels * bits / 8);
+    for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<uint8_t>(10 * (i + 1));
+    TinyTiff tiff(2, 1, channels, bits, pixels);
+    tiff.shorts(TinyTiff::kPhotometric, {1});
+    if (!extras.empty()) tiff.shorts(TinyTiff::kExtraSamples, extras);
+    return tiff;
+  };
+  std::string note;
+  TinyTiff near_infrared = grey(4, {0, 0, 0});
+  near_infrared.ascii(TinyTiff::kGdalMetadata, colours({"Blue", "Green", "Red", "Undefined"}));
+  auto read = readImage(save("bgrn.tif", near_infrared.bytes()), &note);
+  expectPixels(read, {30, 20, 10, 40, 70, 60, 50, 80});
+  EXPECT_TRUE(read->hasFurtherColour());
+  EXPECT_NE(note.find("bands taken in the order 3, 2, 1, 4"), std::string::npos) << note;
+
+  TinyTiff wide = grey(3, {0, 0}, 16);
+  wide.ascii(TinyTiff::kGdalMetadata, colours({"Blue", "Green", "Red"}));
+  expectPixels(readImage(save("bgr.tif", wide.bytes()), &note),
+               {50, 60, 30, 40, 10, 20, 110, 120, 90, 100, 70, 80});
+
+  // Alpha is where ExtraSamples say so, wherever that is, or where the metadata do.
+  TinyTiff first = grey(4, {0, 0, 2});
+  first.ascii(TinyTiff::kGdalMetadata, colours({"Red", "Green", "Blue"}));
+  read = readImage(save("rgba.tif", first.bytes()), &note);
+  expectPixels(read, {10, 20, 30, 40, 50, 60, 70, 80});
+  EXPECT_TRUE(read->hasAlpha());
+  EXPECT_EQ(note, "");
+  TinyTiff turned = grey(4, {0, 0, 0});
+  turned.ascii(TinyTiff::kGdalMetadata, colours({"Alpha", "Blue", "Green", "Red"}));
+  read = readImage(save("abgr.tif", turned.bytes()), &note);
+  expectPixels(read, {40, 30, 20, 10, 80, 70, 60, 50});
+  EXPECT_TRUE(read->hasAlpha());
+
+  // What lies beside the file goes before; what nobody tells stays where it is.
+  expectPixels(readImage(save("plain.tif", grey(4, {0, 0, 0}).bytes()), &note),
+               {10, 20, 30, 40, 50, 60, 70, 80});
+  const std::string pam =
+      "<PAMDataset><PAMRasterBand band=\"1\"><ColorInterp>Blue</ColorInterp></PAMRasterBand>"
+      "<PAMRasterBand band=\"3\"><ColorInterp>Red</ColorInterp></PAMRasterBand></PAMDataset>";
+  save("beside.tif.aux.xml", std::vector<char>(pam.begin(), pam.end()));
+  const auto beside = readImage(save("beside.tif", grey(3, {0, 0}).bytes()), &note);
+  expectPixels(beside, {30, 10, 20, 60, 40, 50});
+
+  TinyTiff two = grey(3, {0, 2});
+  EXPECT_EQ(readImage(save("two.tif", two.bytes())).status().code(), TKS_USAGE);
+}
+
 TEST_F(ImageFiles, FurtherPagesAreTold) {
   std::vector<uint8_t> file = TinyTiff(2, 1, 1, 8, {1, 2}).bytes();
   uint32_t first = 0;

@@ -81,7 +81,32 @@ bool isWidened(const ImageFile& image) {
 /// What has become of the mask.
 enum class Masked { kNo, kAsAlpha, kBesideAlpha };
 
-std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked) {
+bool hasAlpha(const std::vector<BandColour>& colours) {
+  return std::find(colours.begin(), colours.end(), BandColour::kAlpha) != colours.end();
+}
+
+/// Puts the bands of a TIFF into the order of a texture. The note says which are where; "" if they
+/// stay where they are.
+Result<std::string> arrangeBands(const Raster& raster, const std::string& path, ImageFile& image) {
+  std::vector<BandColour> colours = raster.colours;
+  if (colours.size() != image.channels) return std::string();
+  takePam(path, colours);
+  image.opaque = colours.size() % 2 == 0 && !hasAlpha(colours);
+  if (colours.size() == 3 && hasAlpha(colours)) {
+    return Status(TKS_USAGE, raster.name +
+                                 " has two bands and an alpha: a texture is grey or RGB, which "
+                                 "gdal_translate -b, -colorinterp make of them");
+  }
+  const std::vector<uint32_t> order = textureOrder(colours);
+  if (std::is_sorted(order.begin(), order.end())) return std::string();
+  reorderChannels(image, order);
+  std::string bands;
+  for (const uint32_t band : order) bands += (bands.empty() ? "" : ", ") + std::to_string(band + 1);
+  return "bands taken in the order " + bands + ", as their colours say";
+}
+
+std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked,
+                   const std::string& arranged) {
   std::string note;
   const auto add = [&note](const char* text) {
     note += (note.empty() ? "" : ", ") + std::string(text);
@@ -92,11 +117,12 @@ std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked) 
   if (raster.alpha == Raster::Alpha::kAssociated) add("colours divided by their alpha");
   if (raster.orientation != 1) add("turned upright as its orientation tag says");
   if (raster.profile) add("colour profile not applied and not kept");
+  if (!arranged.empty()) add(arranged.c_str());
   const int bits = raster.stored_bits;
   if (isWidened(image)) add("its 16 bits say no more than 8, which would take far fewer bytes");
   if (raster.shape.sample == PictureSample::kU16 && bits > 8 && bits < 16)
     add((std::to_string(bits) + " bits stretched to 16").c_str());
-  if (raster.unnamed_alpha)
+  if (image.hasFurtherColour())
     add("last channel taken for a colour, because the file does not call it alpha");
   if (raster.nodata) add("nodata value not applied and not kept");
   if (masked == Masked::kAsAlpha) add("mask kept as alpha");
@@ -178,7 +204,8 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
   if (!data.ok()) return data.status();
   ImageFile image{static_cast<uint32_t>(shape.width), static_cast<uint32_t>(shape.height),
                   static_cast<uint32_t>(shape.channels), *sample, std::move(*data)};
-  image.opaque = raster->unnamed_alpha;
+  const auto arranged = arrangeBands(*raster, path, image);
+  if (!arranged.ok()) return arranged.status();
   if (raster->alpha == Raster::Alpha::kMultiplied && !isOpaque(image)) {
     return Status(TKS_USAGE, raster->name +
                                  " has an alpha that reading multiplies into the colours: convert "
@@ -189,7 +216,7 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
   if (!masked.ok()) return masked.status();
   const tks_image known = asImage(image);
   image.white_level = tks_find_white_level(&known);
-  if (note) *note = noteOn(*raster, image, *masked);
+  if (note) *note = noteOn(*raster, image, *masked, *arranged);
   if (raster->orientation != 1) return turnedUpright(image, raster->orientation);
   Notes notes;
   auto place = placeOf(*raster, path, notes);

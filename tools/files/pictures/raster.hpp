@@ -11,6 +11,7 @@
 #include "base/status.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/files.hpp"
+#include "tools/files/pictures/band_colours.hpp"
 #include "tools/files/pictures/picture_formats.hpp"
 
 namespace tetrakis::tools {
@@ -29,13 +30,13 @@ struct Raster {
   bool white_is_zero = false;             ///< inverted by reading
   bool further_pages = false;             ///< pages or frames that are not read
   bool mask = false;                      ///< a TIFF's mask page, which is not applied by reading
-  bool nodata = false;         ///< a TIFF's nodata value, which says nothing of a texture
-  bool unnamed_alpha = false;  ///< the last of two or four channels, not said to be alpha
-  bool sparse = false;         ///< parts of a TIFF are missing, which reading leaves at 0
-  bool profile = false;        ///< an ICC profile that is not applied
-  Temporary geo_box{};         ///< JPEG 2000: a TIFF with the tags of a GeoTIFF
-  bool unread_place = false;   ///< JPEG 2000: a place in GML alone, or damaged tags
-  int orientation = 1;         ///< as TIFF counts; not applied by reading
+  bool nodata = false;                ///< a TIFF's nodata value, which says nothing of a texture
+  std::vector<BandColour> colours{};  ///< of each channel of a TIFF that reading leaves as it is
+  bool sparse = false;                ///< parts of a TIFF are missing, which reading leaves at 0
+  bool profile = false;               ///< an ICC profile that is not applied
+  Temporary geo_box{};                ///< JPEG 2000: a TIFF with the tags of a GeoTIFF
+  bool unread_place = false;          ///< JPEG 2000: a place in GML alone, or damaged tags
+  int orientation = 1;                ///< as TIFF counts; not applied by reading
   /// Colours come multiplied by alpha: as the file says, or because OpenImageIO does it.
   enum class Alpha { kPlain, kAssociated, kMultiplied } alpha = Alpha::kPlain;
   std::vector<std::byte> decoded{};  ///< samples of a PNG or of a PNM of 16 bits

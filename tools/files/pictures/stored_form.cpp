@@ -44,11 +44,11 @@ Status noteTiff(Raster& raster) {
   raster.further_pages = form->further_pages;
   raster.mask = form->mask;
   raster.nodata = form->nodata;
-  raster.unnamed_alpha = form->unnamed_alpha;
   if (form->associated_alpha) raster.alpha = Raster::Alpha::kAssociated;
   const std::string colours = raster.reader->text("tiff:ColorSpace");
   raster.palette = colours == "palette";
   raster.cmyk = colours == "CMYK";
+  if (!raster.palette && !raster.cmyk) raster.colours = form->colours;
   return {};
 }
 

@@ -9,9 +9,11 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/status.hpp"
 #include "tools/files/files.hpp"
+#include "tools/files/pictures/band_colours.hpp"
 
 namespace tetrakis::tools {
 
@@ -72,15 +74,33 @@ class TiffFile {
   std::unique_ptr<TIFF, Close> tiff_;
 };
 
+/// The values of a tag, empty unless it is there with this type.
+template <class T>
+std::vector<T> tagValues(TIFF* tiff, uint32_t tag, TIFFDataType type) {
+  const TIFFField* field = TIFFFindField(tiff, tag, TIFF_ANY);
+  // libtiff gives tags that it does not know a 32-bit count before the values.
+  if (!field || TIFFFieldDataType(field) != type || !TIFFFieldPassCount(field) ||
+      TIFFFieldReadCount(field) != TIFF_VARIABLE2) {
+    return {};
+  }
+  uint32_t count = 0;
+  const T* values = nullptr;
+  if (!TIFFGetField(tiff, tag, &count, &values) || !values) return {};
+  return {values, values + count};
+}
+
+/// Up to its terminating zero; "" if the tag is no text.
+std::string tagText(TIFF* tiff, uint32_t tag);
+
 /// What the first directory says of its samples.
 struct TiffForm {
   bool states_bits = false;  ///< per sample; TIFF's default is 1
   bool whole = true;    ///< all strips or tiles lie inside the file, but for those that are missing
   bool sparse = false;  ///< some, not all, are missing
   bool associated_alpha = false;
-  bool unnamed_alpha = false;  ///< the last of two or four samples is not said to be alpha
-  bool nodata = false;         ///< GDAL's nodata value is declared
-  bool mask = false;           ///< there is a mask page for the first
+  std::vector<BandColour> colours{};  ///< of each sample
+  bool nodata = false;                ///< GDAL's nodata value is declared
+  bool mask = false;                  ///< there is a mask page for the first
   bool further_pages = false;  ///< other than that, and smaller versions of the first (overviews)
 };
 Result<TiffForm> tiffForm(const std::string& path);

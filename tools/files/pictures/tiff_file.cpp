@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // libtiff (4.5 or later: per-file error handlers) without its printing.
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 
@@ -21,6 +22,11 @@ int keepError(TIFF*, void* text, const char*, const char* format, va_list values
 }
 
 }  // namespace
+
+std::string tagText(TIFF* tiff, uint32_t tag) {
+  const std::vector<char> text = tagValues<char>(tiff, tag, TIFF_ASCII);
+  return {text.begin(), std::find(text.begin(), text.end(), '\0')};
+}
 
 Result<TiffFile> TiffFile::open(const std::string& path, const char* mode) {
   TiffFile file;

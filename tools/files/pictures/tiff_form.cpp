@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What TIFF tags tell of the samples that OpenImageIO does not.
+#include <algorithm>
 #include <filesystem>
 
+#include "tools/files/pictures/band_colours.hpp"
 #include "tools/files/pictures/tiff.hpp"
 
 namespace tetrakis::tools {
@@ -23,20 +25,11 @@ void noteBlocks(TIFF* tiff, uint64_t file_bytes, TiffForm& form) {
   if (missing == count) form.whole = false;
 }
 
-/// What the first sample beside the colours is.
-uint16_t extraSample(TIFF* tiff) {
+bool hasAssociatedAlpha(TIFF* tiff) {
   uint16_t count = 0;
   const uint16_t* kinds = nullptr;
-  const bool told = TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &count, &kinds) && count > 0;
-  return told ? kinds[0] : uint16_t{EXTRASAMPLE_UNSPECIFIED};
-}
-
-bool hasAlphaUnnamed(TIFF* tiff) {
-  uint16_t samples = 1, photometric = PHOTOMETRIC_MINISBLACK;
-  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &samples);
-  TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
-  return (samples == 2 || samples == 4) && photometric != PHOTOMETRIC_SEPARATED &&
-         extraSample(tiff) == EXTRASAMPLE_UNSPECIFIED;
+  if (!TIFFGetField(tiff, TIFFTAG_EXTRASAMPLES, &count, &kinds)) return false;
+  return std::find(kinds, kinds + count, EXTRASAMPLE_ASSOCALPHA) != kinds + count;
 }
 
 /// Of those that libtiff does not know itself.
@@ -94,8 +87,8 @@ Result<TiffForm> tiffForm(const std::string& path) {
   uint16_t bits = 0;
   TiffForm form;
   form.states_bits = TIFFGetField(tiff, TIFFTAG_BITSPERSAMPLE, &bits) != 0;
-  form.associated_alpha = extraSample(tiff) == EXTRASAMPLE_ASSOCALPHA;
-  form.unnamed_alpha = hasAlphaUnnamed(tiff);
+  form.associated_alpha = hasAssociatedAlpha(tiff);
+  form.colours = bandColours(tiff);
   form.nodata = hasTag(tiff, kGdalNodataTag);
   noteBlocks(tiff, unknown_size ? UINT64_MAX : bytes, form);
   notePages(tiff, form);

@@ -9,11 +9,6 @@
 
 namespace tetrakis::tools {
 
-std::string tagText(TIFF* tiff, uint32_t tag) {
-  const std::vector<char> text = tagValues<char>(tiff, tag, TIFF_ASCII);
-  return {text.begin(), std::find(text.begin(), text.end(), '\0')};
-}
-
 std::string GeoKeys::epsg(GeoKey key) const {
   return code(key) == 0 || code(key) == kUserDefined ? "" : "EPSG:" + std::to_string(code(key));
 }

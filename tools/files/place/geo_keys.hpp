@@ -13,24 +13,6 @@
 
 namespace tetrakis::tools {
 
-/// The values of a tag, empty unless it is there with this type.
-template <class T>
-std::vector<T> tagValues(TIFF* tiff, uint32_t tag, TIFFDataType type) {
-  const TIFFField* field = TIFFFindField(tiff, tag, TIFF_ANY);
-  // libtiff gives tags that it does not know a 32-bit count before the values.
-  if (!field || TIFFFieldDataType(field) != type || !TIFFFieldPassCount(field) ||
-      TIFFFieldReadCount(field) != TIFF_VARIABLE2) {
-    return {};
-  }
-  uint32_t count = 0;
-  const T* values = nullptr;
-  if (!TIFFGetField(tiff, tag, &count, &values) || !values) return {};
-  return {values, values + count};
-}
-
-/// Up to its terminating zero; "" if the tag is no text.
-std::string tagText(TIFF* tiff, uint32_t tag);
-
 struct GeoKeys {
   std::map<uint16_t, uint16_t> codes;
   std::map<uint16_t, std::vector<double>> numbers;

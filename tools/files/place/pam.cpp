@@ -103,4 +103,14 @@ void takePam(const std::string& picture, HeightFile& heights) {
     if (band.attribute("band").as_int() == 1) takeBand(band, heights);
 }
 
+void takePam(const std::string& picture, std::vector<BandColour>& colours) {
+  const pugi::xml_document document = documentBeside(picture);
+  for (const pugi::xml_node band : document.child("PAMDataset").children("PAMRasterBand")) {
+    const size_t number = band.attribute("band").as_uint();
+    const std::string name = band.child("ColorInterp").text().get();
+    if (number >= 1 && number <= colours.size() && !name.empty())
+      colours[number - 1] = bandColour(name);
+  }
+}
+
 }  // namespace tetrakis::tools

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tools/files/files.hpp"
+#include "tools/files/pictures/band_colours.hpp"
 
 namespace tetrakis::tools {
 
@@ -16,5 +17,8 @@ void takePam(const std::string& picture, Georeference& place);
 /// Takes what lies beside heights, of the first band: place, unit, scale, offset, description, and
 /// the nodata value.
 void takePam(const std::string& picture, HeightFile& heights);
+
+/// Takes what lies beside a picture of the colours of its bands.
+void takePam(const std::string& picture, std::vector<BandColour>& colours);
 
 }  // namespace tetrakis::tools
