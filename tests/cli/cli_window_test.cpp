@@ -36,15 +36,53 @@ TEST_F(CliWindows, WritesThePartOfHeightsAndTexture) {
   EXPECT_TRUE(sameBytes(part->data, cropOf(heights.data, 65, 2, {40, 3, 10, 20})));
   const auto whole = tools::readImage(path("a.png")), image = tools::readImage(path("b.png"));
   ASSERT_TRUE(whole.ok() && image.ok());
-  // Columns 40 to 49 of 0 to 64, rows 3 to 22, rounded outwards to texels.
-  const auto first = [](size_t sample, size_t texels) { return sample * texels / 64; };
-  const auto last = [](size_t sample, size_t texels) { return (sample * texels + 63) / 64; };
-  const size_t x = first(40, whole->width), y = first(3, whole->height);
-  EXPECT_EQ(image->width, last(49, whole->width) - x);
-  EXPECT_EQ(image->height, last(22, whole->height) - y);
+  // Columns 40 to 49 of 0 to 64, rows 3 to 22, each as wide as it is.
+  const auto edge = [](double sample, size_t texels) {
+    return static_cast<size_t>(std::lround((sample - 0.5) * static_cast<double>(texels) / 64));
+  };
+  const size_t x = edge(40, whole->width), y = edge(3, whole->height);
+  EXPECT_EQ(image->width, edge(50, whole->width) - x);
+  EXPECT_EQ(image->height, edge(23, whole->height) - y);
   const tks_window texels = {static_cast<uint32_t>(x), static_cast<uint32_t>(y), image->width,
                              image->height};
   EXPECT_TRUE(sameBytes(image->data, cropOf(whole->data, whole->width, whole->channels, texels)));
+}
+
+/// Whatever the texels of a sample are, of a texture with a place and without.
+TEST_F(CliWindows, TexelsOfWindowsAdjoin) {
+  tools::HeightFile heights = hills(100);
+  heights.crs = "EPSG:32632";
+  heights.geotransform = tools::GeoTransform{500000, 30, 0, 5200000, 0, -30};
+  ASSERT_TRUE(tools::writeHeights(path("h.tif"), heights).ok());
+  for (const uint32_t side : {200, 150, 100, 37}) {
+    for (const bool placed : {true, false}) {
+      SCOPED_TRACE(std::to_string(side) + (placed ? " placed" : ""));
+      tools::ImageFile image{side, side, 1, TKS_U8, {}};
+      for (uint32_t i = 0; i < side * side; ++i) image.data.push_back(std::byte(i % side));
+      const double texel = 3000.0 / side;
+      if (placed) {
+        image.place.crs = heights.crs;
+        image.place.geotransform = tools::GeoTransform{500000, texel, 0, 5200000, 0, -texel};
+      }
+      ASSERT_TRUE(tools::writeImage(path("t.tif"), image).ok());
+      ASSERT_EQ(cli("-q encode h.tif --texture t.tif --lossless -f -o w.tks").code, 0);
+      uint32_t columns = 0;
+      double end = 500000;
+      for (const char* window : {"0,30,50,40", "50,30,13,40", "63,30,37,40"}) {
+        ASSERT_EQ(cli(std::string("decode w.tks -f --texture b.tif --window ") + window).code, 0);
+        const auto part = *tools::readImage(path("b.tif"));
+        EXPECT_EQ(std::to_integer<uint32_t>(part.data[0]), columns);
+        columns += part.width;
+        if (!placed) continue;
+        const tools::GeoTransform place = *part.place.geotransform;
+        EXPECT_DOUBLE_EQ(place[0], end);
+        end = place[0] + part.width * place[1];
+      }
+      EXPECT_EQ(columns, side);
+      ASSERT_EQ(cli("decode w.tks -f --texture all.tif --window 0,0,100,100").code, 0);
+      EXPECT_TRUE(sameBytes(tools::readImage(path("all.tif"))->data, image.data));
+    }
+  }
 }
 
 /// Twice the ground of the heights in each direction, from the same corner, or another projection.

@@ -11,7 +11,7 @@ namespace tetrakis::tools {
 /// The samples of the heights, or of a texture without heights; nothing: all of them.
 std::optional<tks_window> heightWindow(const DecodeArguments& arguments);
 
-/// The texels over these samples, rounded outwards; nothing: all of them.
+/// The texels over the areas of these samples; nothing: all of them.
 std::optional<tks_window> textureWindow(const DecodeArguments& arguments, const tks_info& info);
 
 /// TKS_USAGE if the window is empty or reaches out of the raster.

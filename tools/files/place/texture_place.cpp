@@ -102,8 +102,8 @@ std::optional<tks_window> TexturePlace::texelsOver(const tks_window& samples) co
   constexpr int kParts = 16;
   Place low = {HUGE_VAL, HUGE_VAL}, high = {-HUGE_VAL, -HUGE_VAL};
   const auto look = [&](double across, double down) {
-    const Place texel = texelAt(samples.x + across * (samples.width - 1.) / kParts,
-                                samples.y + down * (samples.height - 1.) / kParts);
+    const Place texel = texelAt(samples.x - 0.5 + across * samples.width / kParts,
+                                samples.y - 0.5 + down * samples.height / kParts);
     for (size_t i = 0; i < 2; ++i) {
       if (!std::isfinite(texel[i])) continue;
       low[i] = std::min(low[i], texel[i]);
@@ -119,12 +119,11 @@ std::optional<tks_window> TexturePlace::texelsOver(const tks_window& samples) co
   const Place sides = {static_cast<double>(width_), static_cast<double>(height_)};
   std::array<uint32_t, 2> first, count;
   for (size_t i = 0; i < 2; ++i) {
-    // A sample on the border of two texels has the second one; the last one has no second.
-    const double begin = std::clamp(std::floor(low[i]), 0., sides[i]);
-    const double end = std::clamp(std::max(std::ceil(high[i]), begin + 1), 0., sides[i]);
-    if (!(low[i] <= sides[i] && high[i] >= 0)) return std::nullopt;
-    first[i] = static_cast<uint32_t>(std::min(begin, sides[i] - 1));
-    count[i] = static_cast<uint32_t>(std::max(end - first[i], 1.));
+    if (!(low[i] < sides[i] && high[i] > 0)) return std::nullopt;
+    const double begin = std::clamp(std::round(low[i]), 0., sides[i] - 1);
+    const double end = std::clamp(std::round(high[i]), begin + 1, sides[i]);
+    first[i] = static_cast<uint32_t>(begin);
+    count[i] = static_cast<uint32_t>(end - begin);
   }
   return tks_window{first[0], first[1], count[0], count[1]};
 }

@@ -45,7 +45,8 @@ class TexturePlace {
   /// the first. May lie outside; not finite where a projection has no place. Not thread safe.
   std::array<double, 2> texelAt(double column, double row) const { return texel_at_(column, row); }
 
-  /// The texels over the rectangle of these samples, borders included; nothing if there are none.
+  /// The texels whose middles lie over the areas of these samples, or the nearest one where none
+  /// does: adjoining windows have adjoining texels. Nothing if the texture lies beside.
   std::optional<tks_window> texelsOver(const tks_window& samples) const;
 
  private:
