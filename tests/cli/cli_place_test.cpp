@@ -281,6 +281,50 @@ TEST_F(CliPlace, ASpacingThatTheStreamLacksFollowsFromItsPlace) {
   EXPECT_NE(cli("decode s.tks -f --mesh m.obj").err.find("counts as 30 m"), std::string::npos);
 }
 
+/// Of a building site: nowhere on Earth, but in a unit that WKT or the keys of a GeoTIFF state.
+TEST_F(CliPlace, LocalGridsHaveTheSpacingOfTheirUnit) {
+  struct Local {
+    const char* crs;
+    const char* keys;
+    double metres;
+  };
+  constexpr double kSurveyFoot = 1200.0 / 3937;
+  tools::HeightFile file = hills(17);
+  file.spacing_x = file.spacing_y = 0;
+  file.geotransform = tools::GeoTransform{0, 10, 0, 80, 0, -20};
+  for (const auto& [crs, keys, metres] :
+       {Local{"site grid", "1026=\"site grid\" 3076=9001", 1},
+        Local{"site grid", "1024=32767 1026=\"site grid\" 3076=9002", 0.3048},
+        Local{"site grid", "1026=\"site 3076=9001\" 3076=9003", kSurveyFoot},
+        Local{"site grid", "1026=\"site grid\" 3076=32767 3077=20.1168", 20.1168},
+        Local{"LOCAL_CS[\"site grid\",UNIT[\"metre\",1]]", "", 1},
+        Local{"LOCAL_CS[\"site grid\",UNIT[\"US survey foot\",0.304800609601219]]", "",
+              kSurveyFoot},
+        Local{"ENGCRS[\"site grid\",EDATUM[\"\"],CS[Cartesian,2],AXIS[\"(E)\",east,ORDER[1],"
+              "LENGTHUNIT[\"foot\",0.3048]],AXIS[\"(N)\",north,ORDER[2],LENGTHUNIT[\"foot\","
+              "0.3048]]]",
+              "", 0.3048},
+        Local{"site grid", "1026=\"site grid\" 3076=32767 3077=0.017453292519943295", 0},
+        Local{"site grid", "1024=3 3076=9001", 0}}) {
+    SCOPED_TRACE(std::string(crs) + keys);
+    file.crs = crs;
+    file.geo_keys = keys;
+    writeStream(file, "s.tks");
+    const Json line = Json::parse(
+        cliOf({"profile", "s.tks", "--line", "0,0 3,0", "--points", "9", "--json"}).out);
+    EXPECT_EQ(line["distance_unit"], metres > 0 ? "m" : "samples");
+    EXPECT_NEAR(line["length"], metres > 0 ? 30 * metres : 3, 1e-6);
+    ASSERT_EQ(cli("-q decode s.tks -f --height h.tif").code, 0);
+    ASSERT_EQ(cli("-q encode h.tif --lossless -f -o again.tks").code, 0);
+    const Json info = Json::parse(cli("info --json again.tks").out)["heights"];
+    EXPECT_EQ(info["spacing_x"].is_null(), metres == 0) << info;
+    if (metres > 0) {
+      EXPECT_NEAR(info["spacing_x"], 10 * metres, 1e-6);
+      EXPECT_NEAR(info["spacing_y"], 20 * metres, 1e-6);
+    }
+  }
+}
+
 TEST_F(CliPlace, BrokenWorldFilesAreRefusedWithOneSentence) {
   ASSERT_TRUE(tools::writeHeights(path("h.png"), hills(9)).ok());
   for (const char* text : {"", "1 2 3 4 5", "1 2 3 4 5 6 7", "1 0 0 -1 nan 0", "1 0 0 -1 1e300 0",

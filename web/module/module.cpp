@@ -95,13 +95,13 @@ tks_status web_numbers(const tks_decoder* decoder, double* out) {
   return TKS_OK;
 }
 
-/// A text of the stream: 0 unit, 1 vertical datum, 2 CRS, 3 CRS of the texture.
+/// A text of the stream: 0 unit, 1 vertical datum, 2 CRS, 3 CRS of the texture, 4 GeoTIFF keys.
 const char* web_text(const tks_decoder* decoder, int which) {
   tks_info i{};
   i.size = sizeof i;
   if (tks_get_info(decoder, &i) != TKS_OK) return "";
-  const char* const texts[] = {i.unit, i.vertical_datum, i.crs, i.texture_crs};
-  return which >= 0 && which < 4 ? texts[which] : "";
+  const char* const texts[] = {i.unit, i.vertical_datum, i.crs, i.texture_crs, i.geo_keys};
+  return which >= 0 && which < 5 ? texts[which] : "";
 }
 
 /// Texels of 1 to 4 channels as RGBA of 8 bits each, with what is white at white_level. Opaque ones

@@ -16,17 +16,45 @@ const AXIS = 6378137, ECCENTRICITY = 0.00669437999014;
 const RADIANS = Math.PI / 180;
 
 /** WKT says what a CRS is first, or behind the name of the compound that it is a part of. */
-const WKT = /^(?:COMP\w+\["[^"]*",\s*)?(GEO|PROJ)/i;
+const WKT = /^(?:COMP\w+\["[^"]*",\s*)?(GEO|PROJ|LOCAL|ENG)/i;
 /** Of other codes no rule tells: 4547 is in metres, 6318 in degrees. */
 const DEGREES = /^EPSG:(4326|4269|4258|4979)(\D|$)/i;
 
+/** Of a unit of coordinates; 0: it is no length, or unknown. */
+const lengthOf = (metres) => (metres > 0 && Math.abs(metres / RADIANS - 1) > 1e-9 ? metres : 0);
+
+/** EPSG codes of the units that the keys of a GeoTIFF state most. */
+const LINEAR = {9001: 1, 9002: 0.3048, 9003: 1200 / 3937};
+
 /**
- * Whether coordinates are degrees: as the CRS says, or else if all lie where longitudes and
+ * The unit of coordinates, 'degree' or metres, as the keys of a GeoTIFF state it (docs/FORMAT.md,
+ * section 2); 0: they do not, or not for coordinates of this kind.
+ */
+function unitOfKeys(text) {
+  const pairs = text.matchAll(/(\d+)=("(?:[^"]|"")*"|[^ ]*)/g);
+  const keys = Object.fromEntries(Array.from(pairs, ([, id, value]) => [id, value]));
+  const {1024: model, 2054: angular = '9102', 3076: linear = '32767', 3077: size} = keys;
+  if (model === '2') return angular === '9102' ? 'degree' : 0;
+  if (model === '3') return 0;
+  return linear === '32767' ? lengthOf(Number(size)) : LINEAR[linear] ?? 0;
+}
+
+/** The same of the WKT of a CRS: its own unit is the last one ahead of a vertical part. */
+function unitOfWkt(crs) {
+  const kind = WKT.exec(crs)?.[1].toUpperCase();
+  if (!kind) return 0;
+  if (kind === 'GEO') return 'degree';
+  const [horizontal] = crs.split(/,\s*VERT\w*\[/i);
+  const units = Array.from(horizontal.matchAll(/UNIT\["[^"]*",\s*([\d.e+-]+)/gi));
+  return lengthOf(Number(units.at(-1)?.[1])) || 1;
+}
+
+/**
+ * Whether coordinates are degrees: by the code of the CRS, or else if all lie where longitudes and
  * latitudes do. Metres so near to the origin of a projection are next to none.
  */
 function isInDegrees({geotransform: [x0, a, b, y0, c, d], crs, width, height}) {
-  const kind = WKT.exec(crs)?.[1].toUpperCase();
-  if (kind || DEGREES.test(crs)) return kind !== 'PROJ';
+  if (DEGREES.test(crs)) return true;
   return [[0, 0], [width, 0], [0, height], [width, height]].every(([column, row]) =>
     Math.abs(x0 + a * column + b * row) <= 360 && Math.abs(y0 + c * column + d * row) <= 90);
 }
@@ -42,15 +70,16 @@ export function metresPerDegree(latitude) {
 }
 
 /**
- * Metres between columns and between rows, of degrees in the middle; other coordinates count as
- * metres. Nothing if there is no place, no CRS, or no distance.
+ * Metres between columns and between rows, of degrees in the middle; coordinates whose unit neither
+ * keys nor WKT state count as metres. Nothing if there is no place, no CRS, or no distance.
  */
 function placedSpacing(info) {
-  const {hasGeotransform, geotransform, crs, width, height} = info;
-  if (!hasGeotransform || !crs) return null;
+  const {hasGeotransform, geotransform, crs, geoKeys = '', width, height} = info;
+  if (!hasGeotransform || !(crs || geoKeys)) return null;
+  const unit = unitOfKeys(geoKeys) || unitOfWkt(crs) || (isInDegrees(info) ? 'degree' : 1);
   const [, a, b, north, c, d] = geotransform;
   const [east, up] =
-    isInDegrees(info) ? metresPerDegree(north + (width * c + height * d) / 2) : [1, 1];
+    unit === 'degree' ? metresPerDegree(north + (width * c + height * d) / 2) : [unit, unit];
   const spacing = [Math.hypot(a * east, c * up), Math.hypot(b * east, d * up)];
   return spacing.every((metres) => metres > 0 && Number.isFinite(metres)) ? spacing : null;
 }

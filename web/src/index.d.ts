@@ -121,6 +121,8 @@ export interface TerrainInfo {
   verticalDatum: string;
   crs: string;
   textureCrs: string;
+  /** What a GeoTIFF of the heights says beyond `crs`, as docs/FORMAT.md writes it. */
+  geoKeys: string;
   [field: string]: unknown;
 }
 

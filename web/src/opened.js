@@ -119,7 +119,7 @@ export class Opened {
     info.hasIndex = this.hasIndex;
     info.geotransform = gather('g');
     info.textureGeotransform = gather('t');
-    const texts = ['unit', 'verticalDatum', 'crs', 'textureCrs'];
+    const texts = ['unit', 'verticalDatum', 'crs', 'textureCrs', 'geoKeys'];
     texts.forEach((name, i) => (info[name] = instance.text(instance.calls.web_text(decoder, i))));
     return info;
   }

@@ -50,6 +50,27 @@ test('metres whose code looks like degrees are metres', async () => {
   }
 });
 
+test('the unit of a grid is that of its keys, or of its WKT', async () => {
+  // So near to the origin that numbers alone look like degrees.
+  const geotransform = [0, 10, 0, 80, 0, -5], foot = 1200 / 3937;
+  const projected = 'PROJCS["a",GEOGCS["b",UNIT["degree",0.0174532925199433]],UNIT["foot",0.3048]]';
+  for (const [crs, geoKeys, metres] of [
+    ['site grid', '1026="site grid" 3076=9001', 1],
+    ['site grid', '1024=32767 1026="site grid" 3076=9002', 0.3048],
+    ['site grid', '1026="site ""3076=9001" 3076=9003', foot],
+    ['site grid', '1026="site grid" 3076=32767 3077=20.1168', 20.1168],
+    ['LOCAL_CS["site grid",UNIT["metre",1]]', undefined, 1],
+    [`LOCAL_CS["site grid",UNIT["US survey foot",${foot}]]`, undefined, foot],
+    ['ENGCRS["site grid",EDATUM[""],CS[Cartesian,2],AXIS["(E)",east,LENGTHUNIT["foot",0.3048]]]',
+      undefined, 0.3048],
+    [projected, undefined, 0.3048],
+    [`COMPD_CS["c",${projected},VERT_CS["d",UNIT["metre",1]]]`, undefined, 0.3048],
+  ]) {
+    const {x, y} = await scaleOf({crs, geoKeys, geotransform});
+    assert.deepEqual([x, y], [10 * metres, 5 * metres], geoKeys ?? crs);
+  }
+});
+
 test('without a CRS, an area or a latitude, nothing is known', async () => {
   for (const place of [
     {crs: '', geotransform: [0, 25, 0, 0, 0, -25]}, {crs: 'EPSG:2056', geotransform: undefined},

@@ -42,7 +42,9 @@ function spacingOf(t, keys, height) {
   let east = UNITS[keys.ProjLinearUnitsGeoKey ?? 9001]?.[1], north = east;
   if (keys.GTModelTypeGeoKey === 2) {
     [east, north] = metresPerDegree(t[3] + (height / 2) * t[5]);
-  } else if (keys.GTModelTypeGeoKey !== 1) return 0;
+  } else if (keys.GTModelTypeGeoKey !== 1 && !keys.ProjLinearUnitsGeoKey) {
+    return 0;  // of a local grid GDAL states no model, but a unit
+  }
   const x = Math.hypot(t[1] * east, t[4] * north), y = Math.hypot(t[2] * east, t[5] * north);
   return x > 0 && y > 0 && isFinite(x) && isFinite(y) ? [x, y] : 0;
 }

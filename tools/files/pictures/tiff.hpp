@@ -44,7 +44,8 @@ enum GeoKey : uint16_t {
   kVerticalDatumGeoKey = 4098,
   kVerticalUnitsGeoKey = 4099,
 };
-inline constexpr uint16_t kModelTypeProjected = 1, kModelTypeGeographic = 2;
+inline constexpr uint16_t kModelTypeProjected = 1, kModelTypeGeographic = 2,
+                          kModelTypeGeocentric = 3;
 inline constexpr uint16_t kUserDefined = 32767;
 
 /// EPSG units of measure, our name for them, and their length.

@@ -14,10 +14,18 @@
 namespace tetrakis::tools {
 namespace {
 
+/// A grid of a building site, say: straight axes that lie nowhere on Earth.
+bool isLocalGrid(PJ_CONTEXT* context, const PJ* crs) {
+  if (proj_get_type(crs) != PJ_TYPE_ENGINEERING_CRS) return false;
+  const ProjObject system(proj_crs_get_coordinate_system(context, crs));
+  return system && proj_cs_get_type(context, system.get()) == PJ_CS_TYPE_CARTESIAN;
+}
+
 ProjObject partWith(PJ_CONTEXT* context, ProjObject crs, CrsAxis axis) {
   if (axis == CrsAxis::kVertical) return verticalPart(context, std::move(crs));
   crs = horizontalPart(context, std::move(crs));
-  if (crs && proj_get_type(crs.get()) != PJ_TYPE_PROJECTED_CRS) crs.reset();
+  if (crs && proj_get_type(crs.get()) != PJ_TYPE_PROJECTED_CRS && !isLocalGrid(context, crs.get()))
+    crs.reset();
   return crs;
 }
 
@@ -48,8 +56,13 @@ std::optional<CrsUnit> crsUnit(const std::string& crs, CrsAxis axis) {
   const ProjObject part = partWith(context.get(), findCrs(context.get(), crs), axis);
   if (!part) return std::nullopt;
   const auto unit = axisUnit(context.get(), part.get());
-  return unit && unit->metres > 0 ? std::optional(named(unit->name.c_str(), unit->metres))
-                                  : std::nullopt;
+  if (!unit || !(unit->metres > 0) || isDegree(unit->metres)) return std::nullopt;
+  return named(unit->name.c_str(), unit->metres);
+}
+
+bool isDegree(double size) {
+  constexpr double kRadiansPerDegree = std::numbers::pi / 180;
+  return std::abs(size - kRadiansPerDegree) < 1e-9 * kRadiansPerDegree;
 }
 
 bool isKnownCrs(const std::string& crs) {
@@ -58,7 +71,6 @@ bool isKnownCrs(const std::string& crs) {
 }
 
 bool isInDegrees(const std::string& crs) {
-  constexpr double kRadiansPerDegree = std::numbers::pi / 180;
   const ProjContext context = quietContext();
   if (!context) return false;
   const ProjObject part = horizontalPart(context.get(), findCrs(context.get(), crs));
@@ -66,7 +78,7 @@ bool isInDegrees(const std::string& crs) {
   const PJ_TYPE type = proj_get_type(part.get());
   if (type != PJ_TYPE_GEOGRAPHIC_2D_CRS && type != PJ_TYPE_GEOGRAPHIC_3D_CRS) return false;
   const auto unit = axisUnit(context.get(), part.get());
-  return unit && std::abs(unit->metres - kRadiansPerDegree) < 1e-9 * kRadiansPerDegree;
+  return unit && isDegree(unit->metres);
 }
 
 std::optional<CrsUnit> epsgUnit(uint16_t code) {

@@ -20,6 +20,9 @@ enum class CrsAxis { kHorizontal, kVertical };
 /// machine lacks PROJ's database.
 std::optional<CrsUnit> crsUnit(const std::string& crs, CrsAxis axis);
 
+/// Whether a unit of so many radians, or metres where somebody wrote it as a length, is a degree.
+bool isDegree(double size);
+
 /// Whether PROJ can tell what CRS that is.
 bool isKnownCrs(const std::string& crs);
 

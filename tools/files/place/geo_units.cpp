@@ -39,17 +39,34 @@ std::optional<double> gridUnitOfCrs(const GeoKeys& keys) {
   return std::nullopt;
 }
 
+bool namesGridUnit(const GeoKeys& keys) {
+  const uint16_t code = keys.code(kProjLinearUnitsGeoKey);
+  return code != 0 && code != kUserDefined;
+}
+
 }  // namespace
 
-std::optional<double> gridUnit(const GeoKeys& keys) {
-  const uint16_t code = keys.code(kProjLinearUnitsGeoKey);
-  if (code != 0 && code != kUserDefined) {
-    const auto unit = epsgUnit(code);
+std::optional<double> statedGridUnit(const GeoKeys& keys) {
+  if (namesGridUnit(keys)) {
+    const auto unit = epsgUnit(keys.code(kProjLinearUnitsGeoKey));
     return unit ? std::optional(unit->metres) : std::nullopt;
   }
   const double size = keys.number(kProjLinearUnitSizeGeoKey);
-  if (std::isfinite(size) && size > 0) return size;
-  return gridUnitOfCrs(keys);
+  return std::isfinite(size) && size > 0 && !isDegree(size) ? std::optional(size) : std::nullopt;
+}
+
+std::optional<double> gridUnit(const GeoKeys& keys) {
+  const auto stated = statedGridUnit(keys);
+  return stated || namesGridUnit(keys) ? stated : gridUnitOfCrs(keys);
+}
+
+std::string wktIn(const GeoKeys& keys) {
+  constexpr std::string_view kEsri = "ESRI PE String = ";
+  const uint16_t model = keys.code(kGtModelTypeGeoKey);
+  const std::string text = keys.text(kProjectedCitationGeoKey);
+  if (model == kModelTypeProjected || model == kModelTypeGeographic || !text.starts_with(kEsri))
+    return "";
+  return text.substr(kEsri.size());
 }
 
 bool statesHeights(const GeoKeys& keys) {

@@ -13,6 +13,12 @@ namespace tetrakis::tools {
 /// or citation; nothing if neither tells. GDAL leaves the unit keys out of compound CRSs.
 std::optional<double> gridUnit(const GeoKeys& keys);
 
+/// Of a grid that need not be projected, as of a building site: as the unit keys say, or nothing.
+std::optional<double> statedGridUnit(const GeoKeys& keys);
+
+/// Where the model is neither projected nor geographic, Esri and GDAL write WKT; "" if none.
+std::string wktIn(const GeoKeys& keys);
+
 /// Whether a vertical CRS or unit is stated at all.
 bool statesHeights(const GeoKeys& keys);
 

@@ -18,27 +18,6 @@
 namespace tetrakis::tools {
 namespace {
 
-/// Where the model is neither projected nor geographic, Esri and GDAL write WKT here; "" if none.
-std::string wktIn(const GeoKeys& keys) {
-  constexpr std::string_view kEsri = "ESRI PE String = ";
-  const uint16_t model = keys.code(kGtModelTypeGeoKey);
-  const std::string text = keys.text(kProjectedCitationGeoKey);
-  if (model == kModelTypeProjected || model == kModelTypeGeographic || !text.starts_with(kEsri))
-    return "";
-  return text.substr(kEsri.size());
-}
-
-GridUnit gridUnitIn(const GeoKeys& keys) {
-  const uint16_t model = keys.code(kGtModelTypeGeoKey);
-  if (model == kModelTypeGeographic) {
-    constexpr uint16_t kWholeDegree = 9102;
-    const uint16_t unit = keys.code(kGeogAngularUnitsGeoKey);
-    return {unit == 0 || unit == kWholeDegree, 0};
-  }
-  if (model != kModelTypeProjected) return gridUnitOf(wktIn(keys));
-  return {false, gridUnit(keys).value_or(0)};
-}
-
 bool speaksOfPoints(const GeoKeys& keys) {
   return keys.code(kGtRasterTypeGeoKey) == TKS_REGISTRATION_POINT;
 }
@@ -46,7 +25,7 @@ bool speaksOfPoints(const GeoKeys& keys) {
 void setSpacing(HeightFile& heights, const GeoKeys& keys,
                 const std::optional<GeoTransform>& transform, Notes& notes) {
   if (!transform) return;
-  const GridUnit unit = gridUnitIn(keys);
+  const GridUnit unit = gridUnitOf(keys);
   const bool projected = keys.code(kGtModelTypeGeoKey) == kModelTypeProjected;
   if (projected && unit.metres == 0) {
     notes.push_back(

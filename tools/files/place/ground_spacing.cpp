@@ -5,6 +5,7 @@
 
 #include "tools/files/place/crs_units.hpp"
 #include "tools/files/place/earth.hpp"
+#include "tools/files/place/geo_units.hpp"
 
 namespace tetrakis::tools {
 
@@ -19,6 +20,20 @@ std::optional<std::array<double, 2>> groundSpacing(const GeoTransform& t, uint32
   return std::array<double, 2>{x, y};
 }
 
+GridUnit gridUnitOf(const GeoKeys& keys) {
+  const uint16_t model = keys.code(kGtModelTypeGeoKey);
+  if (model == kModelTypeGeographic) {
+    constexpr uint16_t kWholeDegree = 9102;
+    const uint16_t unit = keys.code(kGeogAngularUnitsGeoKey);
+    return {unit == 0 || unit == kWholeDegree, 0};
+  }
+  if (model == kModelTypeGeocentric) return {};
+  if (model == kModelTypeProjected) return {false, gridUnit(keys).value_or(0)};
+  // Of a local grid GDAL states no model.
+  const GridUnit of_crs = gridUnitOf(wktIn(keys));
+  return of_crs.known() ? of_crs : GridUnit{false, statedGridUnit(keys).value_or(0)};
+}
+
 GridUnit gridUnitOf(const std::string& crs) {
   if (crs.empty()) return {};
   if (isInDegrees(crs)) return {true, 0};
@@ -29,8 +44,9 @@ GridUnit gridUnitOf(const std::string& crs) {
 std::array<double, 2> spacingOf(const tks_info& info) {
   const std::array<double, 2> stated{info.spacing_x, info.spacing_y};
   if (stated[0] > 0 || stated[1] > 0 || !info.has_geotransform) return stated;
-  return groundSpacing(std::to_array(info.geotransform), info.width, info.height,
-                       gridUnitOf(info.crs))
+  GridUnit unit = gridUnitOf(parseGeoKeys(info.geo_keys).value_or(GeoKeys{}));
+  if (!unit.known()) unit = gridUnitOf(info.crs);
+  return groundSpacing(std::to_array(info.geotransform), info.width, info.height, unit)
       .value_or(stated);
 }
 

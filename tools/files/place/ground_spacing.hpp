@@ -10,6 +10,7 @@
 #include "tetrakis/tetrakis.h"
 
 #include "tools/files/files.hpp"
+#include "tools/files/place/geo_keys.hpp"
 
 namespace tetrakis::tools {
 
@@ -17,6 +18,8 @@ namespace tetrakis::tools {
 struct GridUnit {
   bool degrees = false;
   double metres = 0;  ///< in one unit of a length; 0: unknown
+
+  bool known() const { return degrees || metres > 0; }
 };
 
 /// Along rows and columns, of degrees at the middle of the raster (earth.hpp); nothing if the unit
@@ -24,11 +27,14 @@ struct GridUnit {
 std::optional<std::array<double, 2>> groundSpacing(const GeoTransform& transform, uint32_t width,
                                                    uint32_t height, const GridUnit& unit);
 
+/// As the keys of a GeoTIFF say: of any grid in a unit that they state, else in that of the CRS.
+GridUnit gridUnitOf(const GeoKeys& keys);
+
 /// Unknown for a CRS that PROJ does not know (crs_units.hpp), or whose angles are no degrees.
 GridUnit gridUnitOf(const std::string& crs);
 
-/// Of heights, as the stream states it, or else from their place and CRS as far as these tell: not
-/// every encoder knows what a CRS means. 0: unknown.
+/// Of heights, as the stream states it, or else from their place, keys and CRS as far as these
+/// tell: not every encoder knows what a CRS means. 0: unknown.
 std::array<double, 2> spacingOf(const tks_info& info);
 
 /// Sets the spacing of heights from their place and CRS, as far as these tell.
