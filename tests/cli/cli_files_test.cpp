@@ -256,9 +256,11 @@ TEST_F(CliFiles, MeshesOfEveryFormatAreWrittenWithTheirSideFiles) {
     const Outcome run = cli("decode a.tks --mesh " + std::string(name));
     EXPECT_EQ(run.code, 0) << name << run.err;
     EXPECT_GT(content(name).size(), 1000u) << name;
+    EXPECT_EQ(run.err.find("no place for the texture") != run.err.npos, name[2] == 'p') << run.err;
   }
   EXPECT_NE(content("m.obj").find("mtllib m.mtl"), std::string::npos);
-  EXPECT_NE(content("m.mtl"), "");
+  EXPECT_NE(content("m.mtl").find("map_Kd m.png"), std::string::npos);
+  EXPECT_EQ(content("m.mtl").find("map_d"), std::string::npos);
   EXPECT_TRUE(cli("decode a.tks --mesh - --triangles 20").out.starts_with("glTF"));
   EXPECT_TRUE(cli("decode a.tks --mesh - --coded-mesh").out.starts_with("glTF"));
   EXPECT_EQ(cli("decode a.tks --mesh m.obj").code, 2);

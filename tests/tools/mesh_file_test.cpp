@@ -174,6 +174,19 @@ TEST_F(MeshFiles, ObjNamesItsTexture) {
   EXPECT_STREQ(name.C_Str(), "hill.png");
 }
 
+TEST_F(MeshFiles, ObjNamesTheAlphaOfItsTexture) {
+  MeshFile mesh = hill(2);
+  for (const bool opaque : {true, false}) {
+    ImageFile texture{2, 1, 2, TKS_U8, std::vector<std::byte>(4, std::byte{100})};
+    if (opaque) texture = {2, 1, 1, TKS_U8, std::vector<std::byte>(2, std::byte{100})};
+    mesh.texture = &texture;
+    ASSERT_TRUE(writeMesh(path("a.obj"), mesh).ok());
+    std::ifstream file(path("a.mtl"));
+    const std::string material(std::istreambuf_iterator<char>(file), {});
+    EXPECT_EQ(material.find("map_d a.png\n") == material.npos, opaque) << material;
+  }
+}
+
 TEST_F(MeshFiles, TexturesAreShownUpToTheirWhiteLevel) {
   ImageFile texture{4, 1, 1, TKS_U16, {}};
   const std::array<uint16_t, 4> samples{0, 500, 1000, 4000};

@@ -128,6 +128,8 @@ class Decoding {
     Result<std::vector<float>> normals = surfaceNormals(decoder_, mesh->gridIndices());
     if (!normals.ok()) return normals.status();
     tellNote(coarsestNote(mesh->triangleCount(), arguments_.triangles), quiet_);
+    if (texture && formatOf(outputs_.mesh->name(), "") == "ply")
+      tellNote("a .ply file has no place for the texture: --texture writes it beside", quiet_);
     MeshFile file = placeMesh(*mesh, frameOf(info));
     drapeTexture(info, mesh->gridIndices(), file);
     file.texture = texture;

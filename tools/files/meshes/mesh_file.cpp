@@ -124,7 +124,8 @@ Status writeObj(const std::string& path, const MeshFile& mesh) {
   Status status = writeBytes(texture, *png);
   if (status.ok()) {
     const std::string file = std::filesystem::path(texture).filename().string();
-    status = writeText(library, "newmtl terrain\nKd 1 1 1\nmap_Kd " + file + "\n");
+    const std::string alpha = mesh.texture->hasAlpha() ? "map_d " + file + "\n" : "";
+    status = writeText(library, "newmtl terrain\nKd 1 1 1\nmap_Kd " + file + "\n" + alpha);
   }
   if (!status.ok()) return status;
   return writeText(path, objText(mesh, std::filesystem::path(library).filename().string()));
