@@ -54,6 +54,12 @@ TEST_F(CliVoids, UndeclaredNanStaysUndeclared) {
     ASSERT_TRUE(decoded.ok());
     EXPECT_TRUE(sameBytes(decoded->data, heights.data));
     EXPECT_EQ(decoded->nodata.has_value(), declared);
+    const std::string table = cli("info v.tks").out, text = cli("info --json v.tks").out;
+    EXPECT_NE(text.find(declared ? "\"nodata\": \"nan\"" : "\"nodata\": null"), text.npos) << text;
+    const size_t row = table.find("heights.nodata");
+    ASSERT_NE(row, table.npos);
+    EXPECT_EQ(table.substr(row, table.find('\n', row) - row).ends_with(declared ? " nan" : " -"),
+              true);
   }
   TinyTiff tiff(32, 32, 1, 32, std::vector<uint8_t>(32 * 32 * 4, 0x40));  // 3.0039
   tiff.shorts(TinyTiff::kSampleFormat, {3});

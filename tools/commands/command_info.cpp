@@ -33,6 +33,14 @@ Json rounded(double value, const char* format) {
   return std::strtod(text, nullptr);
 }
 
+/// JSON has numbers that are finite only.
+Json nodataJson(const tks_info& info) {
+  if (!info.has_nodata) return Json();
+  if (std::isnan(info.nodata)) return "nan";
+  if (std::isinf(info.nodata)) return info.nodata < 0 ? "-inf" : "inf";
+  return info.nodata;
+}
+
 Json transformJson(bool known, const double* transform) {
   return known ? Json(std::vector<double>(transform, transform + 6)) : Json();
 }
@@ -67,7 +75,7 @@ Json heightsJson(const tks_info& info) {
           {"coding", kCodings.at(static_cast<size_t>(info.heights_drawn))},
           {"voids", info.has_voids != 0},
           {"voids_known", info.voids_known != 0},
-          {"nodata", info.has_nodata ? Json(info.nodata) : Json()},
+          {"nodata", nodataJson(info)},
           {"regions", info.regions > 0 ? Json(info.regions) : Json()},
           {"max_error", stated(info.max_error)},
           {"rmse", rounded(info.heights_rmse, "%.3g")}};
