@@ -50,7 +50,7 @@ export interface FrameOptions {
   /** Ends the call with its requests, and rejects it with its reason; what is being decoded ends at
    * its next part. */
   signal?: AbortSignal;
-  /** The mesh has at most so many, from 2 on. Default 20000. */
+  /** The mesh has at most so many, a whole number from 2 on. Default 20000. */
   triangles?: number;
   /** What is looked at. 16 numbers: of the mesh only what they may show. With a picture: bytes are
    * fetched that help it most, if the stream has an index and the server knows ranges. */
@@ -65,7 +65,8 @@ export interface FrameOptions {
   texels?: number;
   /** Longest side of the grid of heights, likewise. Default 4096. */
   samples?: number;
-  /** The mip levels themselves, in place of `texels` and `samples`. */
+  /** The mip levels themselves, in place of `texels` and `samples`; to info.textureCoarsestLevel
+   * and info.coarsestLevel. */
   textureLevel?: number;
   surfaceLevel?: number;
 }

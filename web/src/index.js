@@ -4,7 +4,7 @@ import {abortable, stoppedBy} from './abort.js';
 import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {groundScale} from './ground.js';
-import {checkBytes, checkSides, trianglesOf} from './limits.js';
+import {checkBytes, checkLevels, checkSides, trianglesOf} from './limits.js';
 import {FIRST_BYTES, FIRST_FRAME, Flow, GROWTH, nextBytes} from './pace.js';
 import {Held, requestsFor} from './ranges.js';
 import {sourceOf} from './source.js';
@@ -168,6 +168,7 @@ class Terrain {
   async #frame(bytes, {signal, ...options}) {
     const asked = {...DEFAULTS, ...options};
     checkSides(asked);
+    checkLevels(asked, this.info ?? {});
     const triangles = trianglesOf(asked.triangles), cut = cutOf(asked.view);
     return this.#call('decode', {...asked, view: null, triangles, cut, bytes}, signal);
   }

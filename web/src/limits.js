@@ -5,20 +5,36 @@ import {TksError} from './error.js';
 /** A rectangle; the decoder counts them by 32 bits. */
 const LEAST_TRIANGLES = 2, MOST_TRIANGLES = 2 ** 32 - 1;
 
+function refuse(name, what) {
+  throw new TksError('usage', `\`${name}\` is ${what}.`);
+}
+
 function checkNumber(name, value, least) {
-  if (typeof value === 'number' && value >= least) return;
-  const from = least > -Infinity ? ` from ${least} on` : '';
-  throw new TksError('usage', `\`${name}\` is a number${from}.`);
+  if (typeof value !== 'number' || !(value >= least)) refuse(name, `a number from ${least} on`);
 }
 
 export function checkBytes(bytes) {
-  checkNumber('bytes', bytes, -Infinity);
+  checkNumber('bytes', bytes, 0);
 }
 
 /** As the decoder takes them. */
 export function trianglesOf(triangles) {
-  checkNumber('triangles', triangles, LEAST_TRIANGLES);
+  if (triangles !== Infinity && !(Number.isInteger(triangles) && triangles >= LEAST_TRIANGLES)) {
+    refuse('triangles', `a whole number from ${LEAST_TRIANGLES} on, or Infinity`);
+  }
   return Math.min(triangles, MOST_TRIANGLES);
+}
+
+/** Mip levels, where they are given in the place of sides. */
+export function checkLevels({textureLevel, surfaceLevel}, info) {
+  const check = (name, level, coarsest) => {
+    if (level === undefined || level === null) return;
+    if (!Number.isInteger(level) || level < 0 || level > coarsest) {
+      refuse(name, `a mip level of this stream, a whole number from 0 to ${coarsest}`);
+    }
+  };
+  if (info.hasTexture) check('textureLevel', textureLevel, info.textureCoarsestLevel);
+  if (info.hasHeights) check('surfaceLevel', surfaceLevel, info.coarsestLevel);
 }
 
 /** Longest sides of rasters. */

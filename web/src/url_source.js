@@ -7,6 +7,9 @@ import {gathered, inLarger} from './pieces.js';
 import {Version} from './version.js';
 import {WholeAnswer} from './whole_answer.js';
 
+const BROKE = ': the connection broke.';
+/** Of an answer that ended before it told what it is: codes of Node's errors. */
+const BROKEN = ['UND_ERR_SOCKET', 'ECONNRESET', 'EPIPE'];
 const MAGIC = [0x54, 0x4b, 0x53, 0x1a];
 
 /** Refuses what is no stream, as far as its first bytes tell. `what` says where it is from. */
@@ -88,7 +91,9 @@ export class UrlSource {
       const {credentials} = this.#request, {signal} = stop;
       return await fetch(this.#url, {headers, credentials, signal});
     } catch (error) {
-      throw this.#failure(stop, await this.#refusal(stop), error);
+      // Pages are not told; Node is.
+      const broke = BROKEN.includes(error?.cause?.code);
+      throw this.#failure(stop, broke ? BROKE : await this.#refusal(stop), error);
     }
   }
   /** What there is to say where fetch() fails, which tells nobody why. */
@@ -106,7 +111,7 @@ export class UrlSource {
     return answers
       ? ` cannot be read: its server answers, but does not allow pages of ${origin} to read what it ` +
         'sends (CORS). It has to send the header Access-Control-Allow-Origin.'
-      : ' cannot be fetched: its server cannot be reached.';
+      : ' cannot be fetched: its server cannot be reached, or broke the connection.';
   }
 
   /** false: the answer is the whole file, which is now read from its beginning. */
@@ -162,7 +167,7 @@ export class UrlSource {
     let length = 0;
     for (;;) {
       const {done, value} = await reader.read().catch((error) => {
-        throw this.#failure(stop, ': the connection broke.', error);
+        throw this.#failure(stop, BROKE, error);
       });
       if (!done) length += value.length;
       if (length > most || (done && range && length !== announced)) {
@@ -186,7 +191,7 @@ export class UrlSource {
     } catch (error) {
       this.#running.delete(stop);
       this.#whole = null;
-      throw this.#failure(stop, ': the connection broke.', error);
+      throw this.#failure(stop, BROKE, error);
     }
   }
 }

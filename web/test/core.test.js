@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import {openAsBlob} from 'node:fs';
 import {readFile, mkdtemp, writeFile, rm} from 'node:fs/promises';
+import {createServer} from 'node:http';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
@@ -88,11 +89,16 @@ test('a frame is whole: triangles within the budget, indices, normals, RGBA', as
   assert.ok(small.texture.width <= 40 && small.texture.level > 0 && !small.mesh);
 });
 
-test('what is no number, or no number of triangles, is refused', async () => {
+test('what is no number, no number of triangles or no level is refused', async () => {
   const terrain = await open(bytes);
   for (const [options, pattern] of [[{bytes: NaN}, /`bytes` is a number/], [{bytes: '9'}, /`bytes`/],
-    [{triangles: 0}, /`triangles` is a number from 2 on/], [{triangles: 1}, /`triangles`/],
-    [{triangles: NaN}, /`triangles`/], [{texels: NaN}, /`texels`/], [{samples: NaN}, /`samples`/]]) {
+    [{bytes: -1}, /`bytes` is a number from 0 on/],
+    [{triangles: 0}, /`triangles` is a whole number from 2 on/], [{triangles: 1}, /`triangles`/],
+    [{triangles: 10.5}, /`triangles`/], [{triangles: '9'}, /`triangles`/],
+    [{triangles: NaN}, /`triangles`/], [{texels: NaN}, /`texels`/], [{samples: NaN}, /`samples`/],
+    [{surface: true, surfaceLevel: 99}, /`surfaceLevel` is a mip level of this stream/],
+    [{surface: true, surfaceLevel: 0.5}, /`surfaceLevel`/], [{surfaceLevel: -1}, /`surfaceLevel`/],
+    [{textureLevel: 99}, /`textureLevel`/], [{textureLevel: NaN}, /`textureLevel`/]]) {
     await rejects(terrain.decode(options), 'usage', pattern);
     await rejects(terrain.refine(options).next(), 'usage', pattern);
   }
@@ -292,6 +298,21 @@ test('aborting: the reason comes back, and the terrain goes on', async () => {
     await new Promise((resolve) => setTimeout(resolve, 50));
     remote.dispose();
   });
+});
+
+test('a connection that is cut ahead of an answer or in the middle of it broke', async () => {
+  for (const sent of [0, 100]) {
+    const server = createServer((request, response) => {
+      if (sent === 0) return response.destroy();
+      response.writeHead(206, {'content-length': 4096, 'content-range': 'bytes 0-4095/9999'});
+      response.write(bytes.subarray(0, sent));
+      setTimeout(() => response.destroy(), 20);
+    });
+    await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+    await rejects(open(`http://127.0.0.1:${server.address().port}/a.tks`), 'io',
+      /: the connection broke\.$/);
+    server.close();
+  }
 });
 
 /** Resolves to false if the connection is cut before all of the answer went out. */
