@@ -131,6 +131,32 @@ TEST_F(CliWindows, TexelsLieOverTheSamplesWhateverTheTextureCovers) {
   EXPECT_EQ(cli("decode w.tks --window 1,1,2,2 --height c.tif").code, 0);
 }
 
+/// Of the same ground, from another corner.
+TEST_F(CliWindows, TurnedTexturesAreNotedAsTurned) {
+  tools::HeightFile heights = hills(40);
+  heights.crs = "EPSG:32632";
+  heights.geotransform = tools::GeoTransform{500000, 30, 0, 5200000, 0, -30};
+  ASSERT_TRUE(tools::writeHeights(path("h.tif"), heights).ok());
+  tools::ImageFile image = photo(80);
+  image.place.crs = heights.crs;
+  const auto noteOn = [&](const tools::GeoTransform& place) {
+    image.place.geotransform = place;
+    EXPECT_TRUE(tools::writeImage(path("t.tif"), image).ok());
+    return cli("encode h.tif --texture t.tif --lossless -f -o w.tks").err;
+  };
+  for (const tools::GeoTransform& place :
+       {tools::GeoTransform{500000, 15, 0, 5198800, 0, 15},     // south-up
+        tools::GeoTransform{501200, -15, 0, 5198800, 0, 15},    // by half a circle
+        tools::GeoTransform{500000, 0, 15, 5198800, 15, 0}}) {  // by a quarter
+    const std::string note = noteOn(place);
+    EXPECT_NE(note.find("begins at another corner"), note.npos) << note;
+    EXPECT_EQ(note.find("other ground"), note.npos) << note;
+  }
+  EXPECT_EQ(noteOn({500000, 15, 0, 5200000, 0, -15}).find("ground"), std::string::npos);
+  const std::string beyond = noteOn({500000, 15, 0, 5198500, 0, 15});
+  EXPECT_NE(beyond.find("covers other ground"), beyond.npos) << beyond;
+}
+
 TEST_F(CliWindows, RefusesWhatMakesNoSense) {
   ASSERT_TRUE(tools::writeHeights(path("h.tif"), hills(17)).ok());
   EXPECT_EQ(cli("encode h.tif --regions 100 --lossless -o w.tks").code, 1);

@@ -72,6 +72,12 @@ std::string placeNote(const std::string& texture, const HeightFile& heights,
   if (!place.isOwn()) return "";
   const char* const who =
       texels.crs == heights.crs ? "the encoder's cameras see" : "cameras and web pages see";
+  if (place.isTurned()) {
+    return quoted(texture) +
+           " covers the ground of the heights, but begins at another corner: meshes have it where "
+           "it lies, but " +
+           who + " it turned; gdalwarp writes rasters north-up";
+  }
   return quoted(texture) +
          " covers other ground than the heights: meshes have it where it lies, but " + who +
          " it stretched over them; gdalwarp can cut it to their ground";

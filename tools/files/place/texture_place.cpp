@@ -87,14 +87,20 @@ TexturePlace::TexturePlace(const PlacedRaster& heights, const PlacedRaster& text
   if (!placed) return;
   const PlaceAt covered = std::exchange(texel_at_, *std::move(placed));
   // How far the corners lie from there, in samples.
-  for (const double column : {0., heights.width - 1.}) {
-    for (const double row : {0., heights.height - 1.}) {
-      const Place here = texelAt(column, row), there = covered(column, row);
-      const Place next = covered(column + 1, row + 1);
-      for (size_t i = 0; i < 2; ++i)
-        own_ |= !(std::abs(here[i] - there[i]) <= 1.01 * (next[i] - there[i]));
-    }
+  const Place sample = covered(1, 1);  // in texels
+  const auto near = [&](const Place& here, const Place& there) {
+    return std::abs(here[0] - there[0]) <= 1.01 * sample[0] &&
+           std::abs(here[1] - there[1]) <= 1.01 * sample[1];
+  };
+  std::array<Place, 4> corners, covered_corners;
+  for (size_t i = 0; i < corners.size(); ++i) {
+    const double column = i % 2 ? heights.width - 1. : 0, row = i / 2 ? heights.height - 1. : 0;
+    corners[i] = texelAt(column, row);
+    covered_corners[i] = covered(column, row);
+    own_ |= !near(corners[i], covered_corners[i]);
   }
+  turned_ =
+      own_ && std::is_permutation(corners.begin(), corners.end(), covered_corners.begin(), near);
 }
 
 /// The border of the rectangle says what lies in it, whatever the projection bends.

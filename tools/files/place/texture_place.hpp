@@ -41,6 +41,10 @@ class TexturePlace {
   /// Whether it covers other ground than from the first sample to the last, by more than a sample.
   bool isOwn() const { return own_; }
 
+  /// Of one that is its own: whether that is the same ground, and only the first texel lies over
+  /// another corner of it than the first sample.
+  bool isTurned() const { return turned_; }
+
   /// Column and row of a texel, (0, 0) the outer corner of the first, where a sample lies, (0, 0)
   /// the first. May lie outside; not finite where a projection has no place. Not thread safe.
   std::array<double, 2> texelAt(double column, double row) const { return texel_at_(column, row); }
@@ -52,7 +56,7 @@ class TexturePlace {
  private:
   uint32_t width_, height_;  ///< of the texture
   std::function<std::array<double, 2>(double, double)> texel_at_;
-  bool own_ = false;
+  bool own_ = false, turned_ = false;
 };
 
 }  // namespace tetrakis::tools
