@@ -143,7 +143,8 @@ class ScreenMeshCall {
 
 tks_status tks_decode_screen_mesh(tks_decoder* decoder, const tks_screen* screen,
                                   uint32_t max_triangles, tks_mesh* out) {
-  if (decoder == nullptr || out == nullptr) return TKS_USAGE;
+  if (out == nullptr) return tetrakis::keeping(decoder, tetrakis::outputMissing);
+  if (decoder == nullptr) return TKS_USAGE;
   *out = {};
   const tetrakis::Status status = tetrakis::guarded(
       [&] { return tetrakis::ScreenMeshCall(*decoder, max_triangles).run(screen, *out); });

@@ -91,7 +91,8 @@ struct Call {
   /// The output takes as many bytes as so many places, and memory suffices.
   Status check(tks_decoder& decoder, const View& view, size_t places, size_t place_bytes) const {
     const size_t wanted = places * place_bytes;
-    if (bytes != wanted || out == nullptr) return wrongSize(wanted, bytes);
+    if (out == nullptr) return outputMissing();
+    if (bytes != wanted) return wrongSize(wanted, bytes);
     return checkMemory(decoder, {part, view, 0});
   }
 };

@@ -88,7 +88,7 @@ Status checkOptions(const tks_encode_options& o, bool has_heights) {
   const int targets = (o.bytes != 0) + (o.psnr != 0) + (o.max_error != 0) + (o.lossless != 0);
   if (targets != 1) return misuse("Give exactly one of bytes, psnr, max-error and lossless.");
   if (!std::isfinite(o.psnr) || o.psnr < 0 || !std::isfinite(o.max_error) || o.max_error < 0) {
-    return misuse("The quality target must be a positive number.");
+    return misuse("The quality target must be a positive and finite number.");
   }
   if (o.max_error > 0 && !has_heights) return misuse("A maximum error needs heights.");
   const bool any_region = o.regions <= 1;
@@ -174,7 +174,7 @@ Status encodeAndProve(const tks_heights* heights, const tks_image* image,
 tks_status tks_encode(const tks_heights* heights, const tks_image* image,
                       const tks_encode_options* options, tks_buffer* out, char* message,
                       size_t message_size) {
-  if (out == nullptr) return TKS_USAGE;
+  if (out == nullptr) return tetrakis::report(tetrakis::outputMissing(), message, message_size);
   *out = {nullptr, 0};
   const tetrakis::Status status =
       tetrakis::guarded([&] { return tetrakis::encodeAndProve(heights, image, options, out); });

@@ -44,7 +44,8 @@ Status viewMesh(const tks_mesh_tree& tree, const double* clip, tks_mesh& out) {
 
 tks_status tks_decode_mesh_tree(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
                                 tks_mesh_tree** out) {
-  if (decoder == nullptr || out == nullptr) return TKS_USAGE;
+  if (out == nullptr) return tetrakis::keeping(decoder, tetrakis::outputMissing);
+  if (decoder == nullptr) return TKS_USAGE;
   *out = nullptr;
   const tetrakis::Status status =
       tetrakis::guarded([&] { return tetrakis::decodeTree(*decoder, kind, max_triangles, *out); });

@@ -150,7 +150,8 @@ Status decodeMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangl
 
 tks_status tks_decode_mesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
                            tks_mesh* out) {
-  if (decoder == nullptr || out == nullptr) return TKS_USAGE;
+  if (out == nullptr) return tetrakis::keeping(decoder, tetrakis::outputMissing);
+  if (decoder == nullptr) return TKS_USAGE;
   *out = {};
   const tetrakis::Status status =
       tetrakis::guarded([&] { return tetrakis::decodeMesh(*decoder, kind, max_triangles, *out); });

@@ -21,6 +21,10 @@ inline tks_status report(const Status& status, char* message, size_t message_siz
   return status.code();
 }
 
+inline Status outputMissing() {
+  return {TKS_USAGE, "The output is missing."};
+}
+
 /// Runs f; the exceptions that may occur inside, of exhausted memory, become a Status. Of 32 bits a
 /// vector may be asked for more than it can ever hold.
 template <class F>

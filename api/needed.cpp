@@ -83,7 +83,7 @@ Result<std::vector<tks_range>> neededRanges(tks_decoder& decoder, tks_part part,
 
 tks_status tks_needed_ranges(tks_decoder* decoder, tks_part part, const tks_window* window,
                              tks_ranges* out) {
-  if (out == nullptr) return TKS_USAGE;
+  if (out == nullptr) return tetrakis::keeping(decoder, tetrakis::outputMissing);
   *out = {};
   return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
     const auto ranges = tetrakis::neededRanges(*decoder, part, window);

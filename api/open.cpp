@@ -143,8 +143,13 @@ Status takeMorePackets(tks_decoder& decoder) {
 
 tks_status tks_open(const uint8_t* data, size_t size, const tks_limits* limits, tks_decoder** out,
                     char* message, size_t message_size) {
-  if (out == nullptr || (data == nullptr && size != 0)) return TKS_USAGE;
+  const auto refuse = [&](const tetrakis::Status& status) {
+    return tetrakis::report(status, message, message_size);
+  };
+  if (out == nullptr) return refuse(tetrakis::outputMissing());
   *out = nullptr;
+  if (data == nullptr && size != 0)
+    return refuse({TKS_USAGE, "The bytes of the stream are missing."});
   tks_decoder* decoder = nullptr;
   const tetrakis::Status status = tetrakis::guarded([&]() -> tetrakis::Status {
     decoder = new tks_decoder;

@@ -51,7 +51,7 @@ Status plan(tks_decoder& decoder, std::span<const WeightedSighting> sightings,
 
 tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, const tks_fetch* fetch,
                     tks_ranges* out) {
-  if (out == nullptr) return TKS_USAGE;
+  if (out == nullptr) return tetrakis::keeping(decoder, tetrakis::outputMissing);
   *out = {};
   return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
     if (fetch == nullptr) return {TKS_USAGE, "What to fetch at most is missing."};

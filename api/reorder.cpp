@@ -179,7 +179,7 @@ Status reorder(tks_decoder& decoder, const std::vector<WeightedSighting>& sighti
 
 tks_status tks_reorder(tks_decoder* decoder, const tks_screen_camera* cameras,
                        uint32_t camera_count, tks_buffer* out) {
-  if (out == nullptr) return TKS_USAGE;
+  if (out == nullptr) return tetrakis::keeping(decoder, tetrakis::outputMissing);
   *out = {nullptr, 0};
   return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
     const tetrakis::StreamHeader& header = decoder->parsed.header;

@@ -18,8 +18,10 @@ const char* faultOf(const Camera& camera) {
   if (!isFinite(camera.eye)) return "has an eye that is not finite";
   if (!isFinite(camera.target)) return "has a target that is not finite";
   if (!isFinite(camera.up)) return "has an up that is not finite";
-  const Vec3 direction = normalized(subtract(camera.target, camera.eye));
+  const Vec3 sight = subtract(camera.target, camera.eye), direction = normalized(sight);
+  if (!std::isfinite(length(sight))) return "has its eye too far from its target";
   if (!(length(direction) > 0)) return "has its target in its eye";
+  if (!std::isfinite(length(camera.up))) return "has an up that is too long";
   if (!(length(cross(direction, normalized(camera.up))) > 1e-9))
     return "has an up along its line of sight";
   if (!(camera.fov_y > 0 && camera.fov_y < 180))
@@ -27,7 +29,8 @@ const char* faultOf(const Camera& camera) {
   const auto fits = [](uint32_t side) { return side >= 1 && side <= kLargestPicture; };
   if (!fits(camera.width) || !fits(camera.height))
     return "has a picture whose sides are not 1 to 8192 pixels";
-  if (!std::isfinite(camera.weight) || camera.weight < 0) return "has a negative weight";
+  if (!std::isfinite(camera.weight)) return "has a weight that is not finite";
+  if (camera.weight < 0) return "has a negative weight";
   return nullptr;
 }
 

@@ -102,8 +102,27 @@ TEST_F(Arguments, NothingToEncodeOrNowhereToPutIt) {
   tks_buffer buffer = {};
   EXPECT_EQ(tks_encode(nullptr, nullptr, &options, &buffer, nullptr, 0), TKS_USAGE);
   EXPECT_EQ(tks_encode(&heights, nullptr, nullptr, &buffer, nullptr, 0), TKS_USAGE);
-  EXPECT_EQ(tks_encode(&heights, nullptr, &options, nullptr, nullptr, 0), TKS_USAGE);
+  char message[100] = "";
+  EXPECT_EQ(tks_encode(&heights, nullptr, &options, nullptr, message, sizeof message), TKS_USAGE);
+  EXPECT_STREQ(message, "The output is missing.");
   EXPECT_EQ(buffer.data, nullptr);
+}
+
+TEST_F(Arguments, TargetsAreFinite) {
+  const tks_heights heights = surface_.heights();
+  for (double tks_encode_options::*target :
+       {&tks_encode_options::psnr, &tks_encode_options::max_error}) {
+    for (const double value : {kInfinity, -1.0}) {
+      tks_encode_options options = lossless();
+      options.lossless = 0;
+      options.*target = value;
+      tks_buffer buffer = {};
+      char message[100] = "";
+      EXPECT_EQ(tks_encode(&heights, nullptr, &options, &buffer, message, sizeof message),
+                TKS_USAGE);
+      EXPECT_STREQ(message, "The quality target must be a positive and finite number.");
+    }
+  }
 }
 
 /// The message is cut to the caller's room and always ends with a zero.
@@ -125,14 +144,23 @@ TEST_F(Arguments, Decoding) {
   EXPECT_EQ(tks_decode_heights(stream.get(), out.data(), stream.heightsBytes() - 1), TKS_USAGE);
   EXPECT_EQ(tks_decode_heights(stream.get(), out.data(), stream.heightsBytes() + 1), TKS_USAGE);
   EXPECT_EQ(tks_decode_heights(stream.get(), nullptr, stream.heightsBytes()), TKS_USAGE);
+  EXPECT_STREQ(tks_message(stream.get()), "The output is missing.");
   EXPECT_EQ(tks_decode_texture(stream.get(), out.data(), 0), TKS_USAGE) << "there is none";
   EXPECT_STRNE(tks_message(stream.get()), "");
   EXPECT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_CODED, 0, nullptr), TKS_USAGE);
+  EXPECT_STREQ(tks_message(stream.get()), "The output is missing.");
+  EXPECT_EQ(tks_decode_mesh(nullptr, TKS_MESH_CODED, 0, nullptr), TKS_USAGE);
   tks_info info = {};
   EXPECT_EQ(tks_get_info(stream.get(), &info), TKS_USAGE) << "size is not set";
   tks_decoder* decoder = nullptr;
   EXPECT_EQ(tks_open(nullptr, 100, nullptr, &decoder, nullptr, 0), TKS_USAGE);
   EXPECT_EQ(tks_open(bytes.data(), bytes.size(), nullptr, nullptr, nullptr, 0), TKS_USAGE);
+  char message[100] = "";
+  EXPECT_EQ(tks_open(nullptr, 100, nullptr, &decoder, message, sizeof message), TKS_USAGE);
+  EXPECT_STREQ(message, "The bytes of the stream are missing.");
+  EXPECT_EQ(tks_open(bytes.data(), bytes.size(), nullptr, nullptr, message, sizeof message),
+            TKS_USAGE);
+  EXPECT_STREQ(message, "The output is missing.");
 }
 
 TEST_F(Arguments, TextureStreamHasNoSurface) {

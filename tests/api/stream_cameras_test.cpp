@@ -84,6 +84,21 @@ TEST_F(Cameras, ThoseThatCannotLookAreNamed) {
   }
 }
 
+TEST_F(Cameras, FaultsAreCalledByTheirNames) {
+  const std::pair<void (*)(tks_camera&), const char*> faults[] = {
+      {[](tks_camera& c) { c.eye[0] = 1e300; }, "has its eye too far from its target"},
+      {[](tks_camera& c) { c.up[0] = 1e300; }, "has an up that is too long"},
+      {[](tks_camera& c) { c.weight = kNan; }, "has a weight that is not finite"},
+      {[](tks_camera& c) { c.weight = kInfinity; }, "has a weight that is not finite"},
+      {[](tks_camera& c) { c.weight = -1; }, "has a negative weight"},
+  };
+  for (const auto& [spoil, text] : faults) {
+    tks_camera camera = above();
+    spoil(camera);
+    EXPECT_NE(told({camera}).find(text), std::string::npos) << told({camera});
+  }
+}
+
 /// The ground is about 17 of its 393216 pixels.
 TEST_F(Cameras, OneThatSeesLittleGroundSees) {
   tks_camera camera = above();
