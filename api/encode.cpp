@@ -12,6 +12,7 @@
 #include "api/message.hpp"
 #include "api/proof.hpp"
 #include "api/sized.hpp"
+#include "base/utf8.hpp"
 #include "base/white_level.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/georeference.hpp"
@@ -35,6 +36,8 @@ Status checkTexts(const std::string& whose, std::initializer_list<const char*> t
       return misuse("A text about the " + whose + " takes " + std::to_string(std::strlen(text)) +
                     " bytes; each takes at most " + std::to_string(kMost) + ".");
     }
+    if (text != nullptr && !isUtf8(text))
+      return misuse("A text about the " + whose + " is no UTF-8.");
   }
   return {};
 }

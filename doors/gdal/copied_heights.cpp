@@ -52,8 +52,8 @@ void takeFacts(const std::string& name, GDALDataset& dataset, CopiedHeights& cop
   tks_heights& heights = copy.heights;
   heights.scale = scaleOf(name, band);
   heights.offset = band.GetOffset();
-  copy.unit = band.GetUnitType() != nullptr ? band.GetUnitType() : "";
-  copy.description = band.GetDescription();
+  copy.unit = band.GetUnitType() != nullptr ? asUtf8(band.GetUnitType()) : "";
+  copy.description = asUtf8(band.GetDescription());
   if (const OGRSpatialReference* const system = dataset.GetSpatialRef())
     copy.crs = crsTexts(*system);
   const Place place = placeOf(dataset);

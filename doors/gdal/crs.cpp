@@ -3,6 +3,7 @@
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
+#include <cpl_string.h>
 
 namespace tetrakis::gdal {
 namespace {
@@ -47,7 +48,7 @@ std::string wktOf(const OGRSpatialReference& system) {
   const char* const options[] = {"FORMAT=WKT2_2019", "MULTILINE=NO", nullptr};
   char* text = nullptr;
   const bool written = system.exportToWkt(&text, options) == OGRERR_NONE;
-  std::string out = written ? text : "";
+  std::string out = written ? asUtf8(text) : "";
   CPLFree(text);
   return out;
 }
@@ -70,6 +71,14 @@ SpatialReference compound(SpatialReference horizontal, const std::string& vertic
 }
 
 }  // namespace
+
+std::string asUtf8(const char* text) {
+  if (CPLIsUTF8(text, -1) != FALSE) return text;
+  char* const recoded = CPLRecode(text, CPL_ENC_ISO8859_1, CPL_ENC_UTF8);
+  std::string out = recoded;
+  CPLFree(recoded);
+  return out;
+}
 
 CrsTexts crsTexts(const OGRSpatialReference& system) {
   const Quiet quiet;

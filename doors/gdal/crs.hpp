@@ -13,6 +13,9 @@ struct CrsTexts {
   std::string crs, vertical_datum, geo_keys;  ///< "" when unknown
 };
 
+/// As streams have texts: what is no UTF-8 is taken for ISO 8859-1.
+std::string asUtf8(const char* text);
+
 /// Codes where they say all, else WKT2.
 CrsTexts crsTexts(const OGRSpatialReference& system);
 

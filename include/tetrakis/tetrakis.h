@@ -89,7 +89,8 @@ typedef enum tks_registration {
  *     y (northing, latitude)  = geotransform[3] + c * geotransform[4] + r * geotransform[5]
  * whatever the registration. Its numbers must lie within +-2^512, else TKS_USAGE.
  *
- * Texts have at most 65 535 bytes each. */
+ * Texts are UTF-8 of at most 65 535 bytes each, else TKS_USAGE. What decoders give is what streams
+ * hold, which may be any bytes. */
 typedef struct tks_heights {
   size_t size; /* sizeof(tks_heights) */
   uint32_t width, height;         /* from 1 to 2^20 */

@@ -206,5 +206,34 @@ TEST_F(GeoreferenceTest, WhatMakesNoSenseIsRefusedWithOneSentence) {
   expectRefused("a text that is too long");
 }
 
+TEST_F(GeoreferenceTest, TextsAreUtf8) {
+  for (const char* text : {"m\xC2\xB2", "\xE2\x82\xAC", "\xF0\x9F\x8F\x94",
+                           "\xED\x9F\xBF\xEE\x80\x80", "\xF4\x8F\xBF\xBF", "\x7F"}) {
+    heights_.unit = heights_.crs = heights_.description = image_.crs = text;
+    EXPECT_EQ(encode(true), TKS_OK) << message_;
+  }
+  const char* const broken[] = {"m\xB2",
+                                "\xC2",
+                                "\xC0\x80",
+                                "\xE2\x82",
+                                "\xE0\x9F\xBF",
+                                "\xED\xA0\x80",
+                                "\xF4\x90\x80\x80",
+                                "\xF0\x8F\xBF\xBF",
+                                "\xE2\x82\xC2\xB2",
+                                "\xFF",
+                                "\x80"};
+  for (const char* text : broken) {
+    for (const char** field :
+         {&heights_.unit, &heights_.vertical_datum, &heights_.crs, &heights_.description,
+          &heights_.geo_keys, &image_.crs, &image_.geo_keys}) {
+      const char* const before = std::exchange(*field, text);
+      EXPECT_EQ(encode(true), TKS_USAGE);
+      EXPECT_NE(message_.find("is no UTF-8."), std::string::npos) << message_;
+      *field = before;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tetrakis::test

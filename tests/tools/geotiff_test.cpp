@@ -217,6 +217,19 @@ TEST_F(GeoTiff, KeysOfOtherMakersComeBack) {
   }
 }
 
+/// Older files have texts in ISO 8859-1; streams have UTF-8.
+TEST_F(GeoTiff, TextsBecomeUtf8) {
+  tiff.shorts(kGeoKeys, {1, 1, 0, 3, 1024, 0, 1, 1, 3072, 0, 1, 32767, 3073, kGeoAscii, 8, 0});
+  tiff.ascii(kGeoAscii, "Z\xFCrich\xB2|");
+  tiff.ascii(TinyTiff::kGdalMetadata,
+             "<GDALMetadata><Item sample=\"0\" role=\"unittype\">m\xB2</Item>"
+             "<Item sample=\"0\" role=\"description\">H\xC3\xB6hen</Item></GDALMetadata>");
+  const HeightFile heights = read();
+  EXPECT_EQ(heights.crs, "Z\xC3\xBCrich\xC2\xB2");
+  EXPECT_EQ(heights.unit, "m\xC2\xB2");
+  EXPECT_EQ(heights.description, "H\xC3\xB6hen");
+}
+
 /// Tags that make no sense cost the information, not the heights.
 /// What is not used is not left out silently: of heights, nor of a texture.
 TEST_F(GeoTiff, TransformsOfNoUseAreNoted) {

@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <string>
 
+#include "base/utf8.hpp"
+
 namespace tetrakis::tools {
 
 /// With so many digits behind the point; the C locale's point always.
@@ -24,6 +26,18 @@ std::string shortest(T value) {
   if (std::isnan(value)) return "nan";
   std::array<char, 32> text{};
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
+
+/// A text of a file as UTF-8: what is none is taken for ISO 8859-1.
+inline std::string asUtf8(std::string text) {
+  if (isUtf8(text)) return text;
+  std::string out;
+  for (const char c : text) {
+    const auto byte = static_cast<uint8_t>(c);
+    if (byte >= 0x80) out += static_cast<char>(0xC0 | byte >> 6);
+    out += byte >= 0x80 ? static_cast<char>(0x80 | (byte & 0x3F)) : c;
+  }
+  return out;
 }
 
 /// "1 sample", "2 samples".

@@ -198,3 +198,17 @@ def test_other_metadata_go_beside(tmp_path):
     source.SetMetadataItem("MISSION", "SRTM")
     copy(source, tmp_path / "a.tks")
     assert gdal.Open(str(tmp_path / "a.tks")).GetMetadataItem("MISSION") == "SRTM"
+
+
+def test_texts_become_utf8(tmp_path):
+    """Older files have them in ISO 8859-1."""
+    name = tmp_path / "a.tif"
+    source = memory(terrain(20, 30), unit="mQQ", description="HQQhe")
+    gdal.GetDriverByName("GTiff").CreateCopy(str(name), source)
+    data = name.read_bytes()
+    assert b"mQQ" in data and b"HQQhe" in data
+    name.write_bytes(data.replace(b"mQQ", b"m\xb2 ").replace(b"HQQhe", b"H\xf6 he"))
+    copy(gdal.Open(str(name)), tmp_path / "a.tks")
+    band = first_band(gdal.Open(str(tmp_path / "a.tks")))
+    assert band.GetUnitType().strip() == "m²"
+    assert band.GetDescription() == "Hö he"

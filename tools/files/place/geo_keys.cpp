@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "tools/files/place/geo_tags.hpp"
+#include "tools/files/text.hpp"
 
 namespace tetrakis::tools {
 
@@ -56,7 +58,7 @@ GeoKeys readGeoKeys(TIFF* tiff) {
     } else if (place == kGeoAsciiParamsTag && value < ascii.size()) {
       std::string text = ascii.substr(value, length);
       if (text.ends_with('|')) text.pop_back();
-      keys.texts[id] = text;
+      keys.texts[id] = asUtf8(std::move(text));
     }
   }
   return keys;

@@ -14,6 +14,7 @@
 #include "tools/files/place/geo_tags.hpp"
 #include "tools/files/place/geo_units.hpp"
 #include "tools/files/place/ground_spacing.hpp"
+#include "tools/files/text.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -127,7 +128,7 @@ void setGdalMetadata(HeightFile& heights, const std::string& xml, Notes& notes) 
   for (const pugi::xml_node item : document.child("GDALMetadata").children("Item")) {
     if (item.attribute("sample").as_int() != 0) continue;
     const std::string_view role = item.attribute("role").value();
-    const std::string text = item.text().get();
+    const std::string text = asUtf8(item.text().get());
     const double value = number(text).value_or(std::numeric_limits<double>::quiet_NaN());
     if (role == "scale" && std::isfinite(value) && value != 0) heights.scale = value;
     if (role == "scale" && heights.scale != value)

@@ -11,6 +11,7 @@
 #include "tools/files/place/given_crs.hpp"
 #include "tools/files/place/ground_spacing.hpp"
 #include "tools/files/place/proj_objects.hpp"
+#include "tools/files/text.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -73,9 +74,9 @@ void takeBand(const pugi::xml_node& band, HeightFile& heights) {
   const auto scale = numberIn(band.child("Scale")), offset = numberIn(band.child("Offset"));
   if (scale && std::isfinite(*scale) && *scale != 0) heights.scale = *scale;
   if (offset && std::isfinite(*offset)) heights.offset = *offset;
-  const std::string unit = band.child("UnitType").text().get();
+  const std::string unit = asUtf8(band.child("UnitType").text().get());
   if (!unit.empty()) heights.unit = canonicalUnit(unit);
-  const std::string description = band.child("Description").text().get();
+  const std::string description = asUtf8(band.child("Description").text().get());
   if (!description.empty()) heights.description = description;
 }
 
@@ -85,7 +86,7 @@ void takePam(const std::string& picture, Georeference& place) {
   const pugi::xml_document document = documentBeside(picture);
   const pugi::xml_node dataset = document.child("PAMDataset");
   takePlace(dataset, place);
-  const std::string wkt = dataset.child("SRS").text().get();
+  const std::string wkt = asUtf8(dataset.child("SRS").text().get());
   if (wkt.empty()) return;
   place.crs = shortCrs(wkt);
   place.geo_keys.clear();
@@ -96,7 +97,7 @@ void takePam(const std::string& picture, HeightFile& heights) {
   const pugi::xml_node dataset = document.child("PAMDataset");
   if (!dataset) return;
   takePlace(dataset, heights);
-  const std::string wkt = dataset.child("SRS").text().get();
+  const std::string wkt = asUtf8(dataset.child("SRS").text().get());
   if (!wkt.empty()) giveCrs(heights, shortCrs(wkt));
   if (dataset.child("GeoTransform")) setGroundSpacing(heights);
   for (const pugi::xml_node band : dataset.children("PAMRasterBand"))

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether bytes are UTF-8 (RFC 3629).
+#pragma once
+
+#include <string_view>
+
+namespace tetrakis::inline base {
+
+/// In the shortest form, without surrogates, up to U+10FFFF.
+bool isUtf8(std::string_view text);
+
+}  // namespace tetrakis::inline base
