@@ -6,8 +6,9 @@
 namespace tetrakis::inline stream {
 namespace {
 
-/// What the eight steps of each byte come to.
-constexpr std::array<uint32_t, 256> kSteps = [] {
+/// What the eight steps of each byte come to. Made for each call, which takes microseconds: kept it
+/// would be a kilobyte of every module that a page loads.
+std::array<uint32_t, 256> stepsOfBytes() {
   std::array<uint32_t, 256> steps{};
   for (uint32_t byte = 0; byte < 256; ++byte) {
     uint32_t crc = byte;
@@ -15,13 +16,14 @@ constexpr std::array<uint32_t, 256> kSteps = [] {
     steps[byte] = crc;
   }
   return steps;
-}();
+}
 
 }  // namespace
 
 uint32_t crc32(std::span<const uint8_t> bytes) {
+  const std::array<uint32_t, 256> steps = stepsOfBytes();
   uint32_t crc = 0xffffffff;
-  for (const uint8_t byte : bytes) crc = (crc >> 8) ^ kSteps[(crc ^ byte) & 0xff];
+  for (const uint8_t byte : bytes) crc = (crc >> 8) ^ steps[(crc ^ byte) & 0xff];
   return ~crc;
 }
 
