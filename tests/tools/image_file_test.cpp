@@ -382,10 +382,41 @@ TEST_F(ImageFiles, WhatATiffMeansOtherwiseIsTold) {
     EXPECT_EQ(noteOn(tiff), "");
   }
   constexpr uint16_t kNodata = 42113;
-  TinyTiff tiff(1, 1, 3, 8, {1, 2, 3});
-  EXPECT_EQ(noteOn(tiff), "");
+  TinyTiff tiff(1, 1, 4, 8, {1, 2, 3, 4});
+  tiff.shorts(TinyTiff::kExtraSamples, {0});
   tiff.ascii(kNodata, "255");
   EXPECT_NE(noteOn(tiff).find("nodata"), std::string::npos);
+}
+
+/// Texels that have it in all channels, as GDAL hides them; not such as have it in some.
+TEST_F(ImageFiles, NodataBecomesAlpha) {
+  constexpr uint16_t kNodata = 42113;
+  const std::vector<uint8_t> samples{0, 0, 0, 0, 9, 0, 7, 7, 7, 0, 0, 0};
+  TinyTiff tiff(4, 1, 3, 8, samples);
+  expectPixels(readImage(save("a.tif", tiff.bytes())), samples);
+  tiff.ascii(kNodata, "0");
+  std::string note;
+  expectPixels(readImage(save("a.tif", tiff.bytes()), &note),
+               {0, 0, 0, 0, 0, 9, 0, 255, 7, 7, 7, 255, 0, 0, 0, 0});
+  EXPECT_NE(note.find("nodata"), std::string::npos);
+  for (const char* const other : {"8", "-9999", "300", "nan", "none", ""}) {
+    TinyTiff whole(4, 1, 3, 8, samples);
+    whole.ascii(kNodata, other);
+    expectPixels(readImage(save("a.tif", whole.bytes()), &note), samples);
+    EXPECT_EQ(note, "") << other;
+  }
+  TinyTiff nothing(2, 1, 1, 8, {5, 5});  // a picture of which nothing is there is one
+  nothing.ascii(kNodata, "5");
+  expectPixels(readImage(save("a.tif", nothing.bytes())), {5, 5});
+  TinyTiff wide(2, 1, 1, 16, {44, 1, 255, 255});
+  wide.ascii(kNodata, "65535");
+  const auto read = readImage(save("a.tif", wide.bytes()));
+  ASSERT_TRUE(read.ok());
+  EXPECT_EQ(read->channels, 2u);
+  TinyTiff narrow(4, 1, 1, 4, {0x0F, 0x50});  // 15 becomes 255
+  narrow.ascii(kNodata, "15");
+  expectPixels(readImage(save("a.tif", narrow.bytes()), &note), {0, 255, 85, 0});
+  EXPECT_NE(note.find("nodata"), std::string::npos);
 }
 
 /// 1 x 2 pixels, of which the second is left out.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "tools/files/file_bytes.hpp"
@@ -10,6 +11,7 @@
 #include "tools/files/gdal_mask.hpp"
 #include "tools/files/pictures/alpha.hpp"
 #include "tools/files/pictures/raster.hpp"
+#include "tools/files/pictures/tag_number.hpp"
 #include "tools/files/pictures/tiff.hpp"
 #include "tools/files/place/pam.hpp"
 #include "tools/files/place/world_file.hpp"
@@ -79,7 +81,7 @@ bool isWidened(const ImageFile& image) {
 }
 
 /// What has become of the mask.
-enum class Masked { kNo, kAsAlpha, kBesideAlpha };
+enum class Masked { kNo, kAsAlpha, kBesideAlpha, kNodataAsAlpha };
 
 bool hasAlpha(const std::vector<BandColour>& colours) {
   return std::find(colours.begin(), colours.end(), BandColour::kAlpha) != colours.end();
@@ -105,6 +107,14 @@ Result<std::string> arrangeBands(const Raster& raster, const std::string& path, 
   return "bands taken in the order " + bands + ", as their colours say";
 }
 
+/// Whether the samples of one or three colours are what the file holds, its nodata value too.
+bool keepsValues(const Raster& raster, const ImageFile& image) {
+  const int bits = raster.stored_bits;
+  const bool whole = bits == 8 || bits == 16 || bits == 32;
+  return whole && !raster.palette && !raster.cmyk && !raster.white_is_zero &&
+         image.channels % 2 != 0;
+}
+
 std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked,
                    const std::string& arranged) {
   std::string note;
@@ -124,8 +134,12 @@ std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked,
     add((std::to_string(bits) + " bits stretched to 16").c_str());
   if (image.hasFurtherColour())
     add("last channel taken for a colour, because the file does not call it alpha");
-  if (raster.nodata) add("nodata value not applied and not kept");
   if (masked == Masked::kAsAlpha) add("mask kept as alpha");
+  if (masked == Masked::kNodataAsAlpha) {
+    add("texels of its nodata value have alpha 0");
+  } else if (!raster.nodata.empty() && !keepsValues(raster, image)) {
+    add("nodata value not applied and not kept");
+  }
   if (masked == Masked::kBesideAlpha) add("mask not applied and not kept beside its last channel");
   if (raster.further_pages) add("further pages left out");
   if (raster.unread_place) add("place in GML, or in damaged tags, not read");
@@ -141,11 +155,23 @@ Result<std::vector<uint8_t>> maskOf(const Raster& raster, const std::string& pat
   return readMaskPage(raster.file.path(), width, height);
 }
 
+/// As GDAL's mask does: texels that have the nodata value in all channels are not there. An alpha
+/// goes before it, and so does a picture of which nothing else is there.
+Masked applyNodata(const Raster& raster, ImageFile& image) {
+  const std::optional<double> nodata = tagNumber(raster.nodata);
+  if (!nodata || !keepsValues(raster, image)) return Masked::kNo;
+  const std::vector<uint8_t> mask = maskOfValue(image, *nodata);
+  const auto there = std::count(mask.begin(), mask.end(), 1);
+  if (there == 0 || static_cast<size_t>(there) == mask.size()) return Masked::kNo;
+  image = withAlpha(image, mask);
+  return Masked::kNodataAsAlpha;
+}
+
 /// Pixels that a mask leaves out get alpha 0; an image of two or four channels has no room for it.
 Result<Masked> applyMask(const Raster& raster, const std::string& path, ImageFile& image) {
   const auto mask = maskOf(raster, path);
   if (!mask.ok()) return mask.status();
-  if (std::find(mask->begin(), mask->end(), 0) == mask->end()) return Masked::kNo;
+  if (std::find(mask->begin(), mask->end(), 0) == mask->end()) return applyNodata(raster, image);
   if (image.channels % 2 == 0) return Masked::kBesideAlpha;
   image = withAlpha(image, *mask);
   return Masked::kAsAlpha;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 namespace tetrakis::tools {
 namespace {
@@ -15,15 +16,19 @@ void forEachPixel(std::span<T> samples, uint32_t channels, const Visit& visit) {
   for (; !samples.empty(); samples = samples.subspan(channels)) visit(samples.first(channels));
 }
 
-template <class Visit>
-void forEachPixel(ImageFile& image, const Visit& visit) {
+/// Image: const or not, and so are the samples.
+template <class Image, class Visit>
+void forEachPixel(Image& image, const Visit& visit) {
   const size_t count = image.data.size() / tks_sample_bytes(image.sample);
+  const auto visitAll = [&](auto* first) {
+    forEachPixel(std::span(first, count), image.channels, visit);
+  };
+  using Word = std::conditional_t<std::is_const_v<Image>, const uint16_t, uint16_t>;
+  using Byte = std::conditional_t<std::is_const_v<Image>, const uint8_t, uint8_t>;
   if (image.sample == TKS_U8) {
-    forEachPixel(std::span(reinterpret_cast<uint8_t*>(image.data.data()), count), image.channels,
-                 visit);
+    visitAll(reinterpret_cast<Byte*>(image.data.data()));
   } else {
-    forEachPixel(std::span(reinterpret_cast<uint16_t*>(image.data.data()), count), image.channels,
-                 visit);
+    visitAll(reinterpret_cast<Word*>(image.data.data()));
   }
 }
 
@@ -63,6 +68,16 @@ ImageFile withAlpha(const ImageFile& colours, const std::vector<uint8_t>& mask) 
     from += pixel;
   }
   return image;
+}
+
+std::vector<uint8_t> maskOfValue(const ImageFile& image, double value) {
+  std::vector<uint8_t> mask;
+  mask.reserve(size_t{image.width} * image.height);
+  forEachPixel(image, [&](auto pixel) {
+    mask.push_back(
+        !std::all_of(pixel.begin(), pixel.end(), [value](auto v) { return v == value; }));
+  });
+  return mask;
 }
 
 void divideByAlpha(ImageFile& image) {

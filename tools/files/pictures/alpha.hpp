@@ -16,6 +16,9 @@ bool isOpaque(const ImageFile& image);
 /// and elsewhere its largest value.
 ImageFile withAlpha(const ImageFile& colours, const std::vector<uint8_t>& mask);
 
+/// A byte for each pixel: 0 where all channels have the value.
+std::vector<uint8_t> maskOfValue(const ImageFile& image, double value);
+
 /// Turns colours that were multiplied by alpha into plain ones, rounded; those under alpha 0 stay.
 void divideByAlpha(ImageFile& image);
 

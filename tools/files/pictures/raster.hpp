@@ -30,7 +30,7 @@ struct Raster {
   bool white_is_zero = false;             ///< inverted by reading
   bool further_pages = false;             ///< pages or frames that are not read
   bool mask = false;                      ///< a TIFF's mask page, which is not applied by reading
-  bool nodata = false;                ///< a TIFF's nodata value, which says nothing of a texture
+  std::string nodata{};                   ///< a TIFF's nodata value as it is written; "": none
   std::vector<BandColour> colours{};  ///< of each channel of a TIFF that reading leaves as it is
   bool sparse = false;                ///< parts of a TIFF are missing, which reading leaves at 0
   bool profile = false;               ///< an ICC profile that is not applied

@@ -100,8 +100,8 @@ struct TiffForm {
   bool sparse = false;  ///< some, not all, are missing
   bool associated_alpha = false;
   std::vector<BandColour> colours{};  ///< of each sample
-  bool nodata = false;                ///< GDAL's nodata value is declared
-  bool mask = false;                  ///< there is a mask page for the first
+  std::string nodata{};        ///< GDAL's nodata value as it is written; "": none is declared
+  bool mask = false;           ///< there is a mask page for the first
   bool further_pages = false;  ///< other than that, and smaller versions of the first (overviews)
 };
 Result<TiffForm> tiffForm(const std::string& path);

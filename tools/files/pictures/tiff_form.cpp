@@ -32,14 +32,6 @@ bool hasAssociatedAlpha(TIFF* tiff) {
   return std::find(kinds, kinds + count, EXTRASAMPLE_ASSOCALPHA) != kinds + count;
 }
 
-/// Of those that libtiff does not know itself.
-bool hasTag(TIFF* tiff, uint32_t tag) {
-  const int count = TIFFGetTagListCount(tiff);
-  for (int i = 0; i < count; ++i)
-    if (TIFFGetTagListEntry(tiff, i) == tag) return true;
-  return false;
-}
-
 uint32_t kindOf(TIFF* tiff) {
   uint32_t kind = 0;
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SUBFILETYPE, &kind);
@@ -89,7 +81,7 @@ Result<TiffForm> tiffForm(const std::string& path) {
   form.states_bits = TIFFGetField(tiff, TIFFTAG_BITSPERSAMPLE, &bits) != 0;
   form.associated_alpha = hasAssociatedAlpha(tiff);
   form.colours = bandColours(tiff);
-  form.nodata = hasTag(tiff, kGdalNodataTag);
+  form.nodata = tagText(tiff, kGdalNodataTag);
   noteBlocks(tiff, unknown_size ? UINT64_MAX : bytes, form);
   notePages(tiff, form);
   return form;

@@ -9,6 +9,7 @@
 
 #include "base/length_unit.hpp"
 #include "tools/files/file_bytes.hpp"
+#include "tools/files/pictures/tag_number.hpp"
 #include "tools/files/pictures/tiff.hpp"
 #include "tools/files/place/crs_keys.hpp"
 #include "tools/files/place/geo_tags.hpp"
@@ -80,33 +81,10 @@ void setUnit(HeightFile& heights, const GeoKeys& keys, Notes& notes) {
                    "--unit"});
 }
 
-constexpr std::string_view kPadding(" \t\r\n\0", 5);
-
-/// What a text that begins as 1 or -1 goes on with for a number that is none or infinite, as C
-/// libraries of Windows wrote it: 1.#INF, -1.#IND, 1.#QNAN, with digits behind or without.
-std::optional<double> windowsNumber(double value, std::string_view rest) {
-  if (rest.starts_with("#INF")) return std::copysign(HUGE_VAL, value);
-  for (const std::string_view none : {"#IND", "#QNAN", "#SNAN"})
-    if (rest.starts_with(none)) return std::numeric_limits<double>::quiet_NaN();
-  return {};
-}
-
-std::optional<double> number(std::string_view text) {
-  const size_t start = text.find_first_not_of(" +");
-  if (start == std::string_view::npos) return {};
-  text.remove_prefix(start);
-  double value = 0;
-  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end.ec != std::errc()) return {};
-  text.remove_prefix(static_cast<size_t>(end.ptr - text.data()));
-  if (text.find_first_not_of(kPadding) == std::string_view::npos) return value;
-  return windowsNumber(value, text);
-}
-
 /// Nothing if the file declares none that is a number.
 std::optional<double> nodataIn(const std::string& text, Notes& notes) {
-  const std::optional<double> nodata = number(text);
-  if (!nodata && text.find_first_not_of(kPadding) != std::string::npos)
+  const std::optional<double> nodata = tagNumber(text);
+  if (!nodata && !isBlank(text))
     notes.push_back({"its nodata value " + quoted(text) +
                          " is no number and is not used: give "
                          "--nodata",
@@ -129,7 +107,7 @@ void setGdalMetadata(HeightFile& heights, const std::string& xml, Notes& notes) 
     if (item.attribute("sample").as_int() != 0) continue;
     const std::string_view role = item.attribute("role").value();
     const std::string text = asUtf8(item.text().get());
-    const double value = number(text).value_or(std::numeric_limits<double>::quiet_NaN());
+    const double value = tagNumber(text).value_or(std::numeric_limits<double>::quiet_NaN());
     if (role == "scale" && std::isfinite(value) && value != 0) heights.scale = value;
     if (role == "scale" && heights.scale != value)
       notes.push_back(
