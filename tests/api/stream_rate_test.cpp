@@ -164,6 +164,29 @@ TEST(StreamRate, LosslessIsTheShortestWayToTheLastBit) {
   }
 }
 
+/// Woods on open ground, whose height is far below the middle of all.
+TEST(StreamRate, HeightsOfWhichNothingIsKnownAreAtTheirMean) {
+  Raster woods = make({Pattern::kRidges, 150, 130, 1, TKS_U16, 4});
+  auto* const heights = reinterpret_cast<uint16_t*>(woods.data.data());
+  const size_t count = woods.data.size() / sizeof *heights;
+  std::vector<uint16_t> sorted(heights, heights + count);
+  std::sort(sorted.begin(), sorted.end());
+  const uint16_t ground = sorted[count * 8 / 10];
+  double sum = 0, squares = 0;
+  for (size_t i = 0; i < count; ++i) {
+    heights[i] = static_cast<uint16_t>(heights[i] > ground ? heights[i] - ground : 0);
+    const double height = heights[i];
+    sum += height;
+    squares += height * height;
+  }
+  const double spread = squares - sum * sum / static_cast<double>(count);
+  for (const tks_encode_options& options : {lossless(), budget(3000), within(9)}) {
+    const Bytes stream = encode(&woods, nullptr, options);
+    const size_t header = static_cast<size_t>(Stream(stream).info().header_bytes);
+    EXPECT_LE(squaredError(woods, Stream(Prefix(stream).first(header)).heights()), spread * 1.01);
+  }
+}
+
 /// Corrected samples are what surfaces and meshes pass through, as far as a prefix tells.
 TEST(StreamRate, SurfacesPassThroughCorrectedSamples) {
   const Raster hills = roundedHills(90);

@@ -74,11 +74,26 @@ class Stepper {
     setRange(core);
   }
 
+  /// How far above the lowest sample a plane is that stands for all, until more of them is known:
+  /// in the middle, where steps take the fewest bits, or at the mean, if most samples lie far from
+  /// that, as open ground does among trees.
+  double typicalAbove(double step) const {
+    constexpr double kFar = 0.25, kFewSteps = 1 << 24;
+    double sum = 0, count = 0;
+    for (size_t i = 0; i < count_; ++i) {
+      if (!isInRange(i)) continue;
+      sum += static_cast<double>(samples_[i]) - low_;
+      ++count;
+    }
+    const double middle = range_ / 2, mean = count > 0 ? sum / count : middle;
+    return std::abs(mean - middle) > kFar * range_ && range_ / step < kFewSteps ? mean : middle;
+  }
+
   HeightSteps with(double step) const {
     assert(step > 0);
     HeightSteps out;
     out.step = step;
-    out.base = low_ + step * std::floor(range_ / step / 2);
+    out.base = low_ + step * std::floor(typicalAbove(step) / step);
     if constexpr (std::is_floating_point_v<T>) out.base = step * std::round(out.base / step);
     out.steps.resize(count_);
     out.exact = true;
