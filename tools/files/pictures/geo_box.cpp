@@ -10,7 +10,7 @@
 namespace tetrakis::tools {
 namespace {
 
-constexpr std::string_view kSignature("\0\0\0\x0cjP  \r\n\x87\n", 12);
+constexpr std::string_view kJp2Signature("\0\0\0\x0cjP  \r\n\x87\n", 12);
 /// b14bf8bd-083d-4b43-a5ae-8cd7d5a6ce03
 constexpr std::string_view kGeoJp2(
     "\xb1\x4b\xf8\xbd\x08\x3d\x4b\x43\xa5\xae\x8c\xd7\xd5\xa6\xce\x03", 16);
@@ -48,7 +48,7 @@ Box firstBox(std::string_view bytes) {
 GeoBox geoBoxOf(std::span<const std::byte> bytes) {
   std::string_view rest(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   GeoBox found;
-  if (!rest.starts_with(kSignature)) return found;
+  if (!rest.starts_with(kJp2Signature)) return found;
   for (Box box = firstBox(rest); !box.type.empty(); box = firstBox(box.behind)) {
     if (box.type == "asoc" && box.content.find(kGml) != std::string_view::npos) found.gml = true;
     if (box.type != "uuid" || !box.content.starts_with(kGeoJp2) || !found.tiff.empty()) continue;
