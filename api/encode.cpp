@@ -37,7 +37,7 @@ Status checkTexts(const std::string& whose, std::initializer_list<const char*> t
                     " bytes; each takes at most " + std::to_string(kMost) + ".");
     }
     if (text != nullptr && !isUtf8(text))
-      return misuse("A text about the " + whose + " is no UTF-8.");
+      return misuse("A text about the " + whose + " is not UTF-8.");
   }
   return {};
 }

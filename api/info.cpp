@@ -29,7 +29,7 @@ Status verify(const tks_decoder& decoder) {
     return wrongIndex();
   const std::span<const uint8_t> payload = decoder.data.subspan(decoder.parsed.bytes);
   if (header.payload_crc && *header.payload_crc != crc32(payload))
-    return {TKS_CORRUPT, "The stream is damaged: what follows its header has another checksum."};
+    return {TKS_CORRUPT, "The stream is damaged: the checksum of its payload does not match."};
   return {};
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Textures of 16 bits often use few of them: reflectances end near 3000, cameras at 4095. Their
-// white level is the value that pictures show as white, as WhiteLevel of DNG is and as the range is
-// that viewers of satellite images stretch.
+// white level is the value that pictures show as white. DNG states it as WhiteLevel; viewers of
+// satellite images find one when they stretch the range of an image.
 #pragma once
 
 #include <algorithm>

@@ -229,7 +229,7 @@ TEST_F(GeoreferenceTest, TextsAreUtf8) {
           &heights_.geo_keys, &image_.crs, &image_.geo_keys}) {
       const char* const before = std::exchange(*field, text);
       EXPECT_EQ(encode(true), TKS_USAGE);
-      EXPECT_NE(message_.find("is no UTF-8."), std::string::npos) << message_;
+      EXPECT_NE(message_.find("is not UTF-8."), std::string::npos) << message_;
       *field = before;
     }
   }

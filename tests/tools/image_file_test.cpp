@@ -388,7 +388,7 @@ TEST_F(ImageFiles, WhatATiffMeansOtherwiseIsTold) {
   EXPECT_NE(noteOn(tiff).find("nodata"), std::string::npos);
 }
 
-/// Texels that have it in all channels, as GDAL hides them; not such as have it in some.
+/// Of texels that have the nodata value in all channels, which GDAL hides, not of others.
 TEST_F(ImageFiles, NodataBecomesAlpha) {
   constexpr uint16_t kNodata = 42113;
   const std::vector<uint8_t> samples{0, 0, 0, 0, 9, 0, 7, 7, 7, 0, 0, 0};

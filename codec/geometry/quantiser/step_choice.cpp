@@ -74,9 +74,9 @@ class Stepper {
     setRange(core);
   }
 
-  /// How far above the lowest sample a plane is that stands for all, until more of them is known:
-  /// in the middle, where steps take the fewest bits, or at the mean, if most samples lie far from
-  /// that, as open ground does among trees.
+  /// How far the base lies above the lowest sample. Decoders show it until they know more, so that
+  /// it is the mean where that is far from the middle of the range, as on open ground among trees;
+  /// elsewhere it is the middle, where steps take the fewest bits.
   double typicalAbove(double step) const {
     constexpr double kFar = 0.25, kFewSteps = 1 << 24;
     double sum = 0, count = 0;

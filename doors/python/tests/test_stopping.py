@@ -15,7 +15,7 @@ LONG = """
 import os, signal, sys, threading, time
 import numpy as np, tetrakis
 
-signal.signal(signal.SIGINT, signal.default_int_handler)  # shells leave it out of background jobs
+signal.signal(signal.SIGINT, signal.default_int_handler)  # which background jobs ignore
 random = np.random.default_rng(1)
 heights = random.standard_normal((2000, 2000)).cumsum(0).cumsum(1).astype("f4")
 small = np.arange(90000.0, dtype="f4").reshape(300, 300)

@@ -16,7 +16,7 @@ void forEachPixel(std::span<T> samples, uint32_t channels, const Visit& visit) {
   for (; !samples.empty(); samples = samples.subspan(channels)) visit(samples.first(channels));
 }
 
-/// Image: const or not, and so are the samples.
+/// The samples are const where the image is.
 template <class Image, class Visit>
 void forEachPixel(Image& image, const Visit& visit) {
   const size_t count = image.data.size() / tks_sample_bytes(image.sample);
