@@ -13,6 +13,7 @@
 #include "api/proof.hpp"
 #include "api/sized.hpp"
 #include "base/utf8.hpp"
+#include "base/watch.hpp"
 #include "base/white_level.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/georeference.hpp"
@@ -157,12 +158,18 @@ Status encodeAndProve(const tks_heights* heights, const tks_image* image,
   if (Status status = takeArguments(heights, image, options, known); !status.ok()) return status;
   const tks_heights* known_heights = heights != nullptr ? &known.heights : nullptr;
   const tks_image* known_image = image != nullptr ? &known.image : nullptr;
+  Watch watch([&](double done) {
+    const tks_encode_options& o = known.options;
+    return o.progress == nullptr || o.progress(o.user, done) == 0;
+  });
+  const Watched watched(&watch);
   Result<std::vector<uint8_t>> stream =
       encodeStream({.heights = known_heights, .image = known_image, .options = known.options});
   if (!stream.ok()) return stream.status();
+  watch.stage(1);
   Status proved = prove(*stream, known_heights, known_image, known.options);
   if (!proved.ok()) return proved;
-  if (Status status = reportProgress(known.options, 1); !status.ok()) return status;
+  watch.stage(1);
   out->data = static_cast<uint8_t*>(std::malloc(stream->size()));
   if (out->data == nullptr) throw std::bad_alloc();
   std::memcpy(out->data, stream->data(), stream->size());
@@ -179,8 +186,13 @@ tks_status tks_encode(const tks_heights* heights, const tks_image* image,
                       size_t message_size) {
   if (out == nullptr) return tetrakis::report(tetrakis::outputMissing(), message, message_size);
   *out = {nullptr, 0};
-  const tetrakis::Status status =
-      tetrakis::guarded([&] { return tetrakis::encodeAndProve(heights, image, options, out); });
+  const tetrakis::Status status = tetrakis::guarded([&]() -> tetrakis::Status {
+    try {
+      return tetrakis::encodeAndProve(heights, image, options, out);
+    } catch (const tetrakis::Stopped&) {
+      return tetrakis::misuse("Encoding was stopped by the caller.");
+    }
+  });
   return tetrakis::report(status, message, message_size);
 }
 

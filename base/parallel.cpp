@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/watch.hpp"
+
 namespace tetrakis::inline base {
 
 namespace {
@@ -20,12 +22,20 @@ class Queue {
 
   void run() noexcept {
     try {
-      for (size_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) work_(i);
+      for (size_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) {
+        work_(i);
+        passPiece(count_);
+      }
     } catch (...) {
       next_ = count_;
       const std::lock_guard lock(mutex_);
       if (!error_) error_ = std::current_exception();
     }
+  }
+  /// The same under the watch of the thread that waits for all.
+  void runFor(Watch* watch) noexcept {
+    const Watched watched(watch);
+    run();
   }
   void rethrow() const {
     if (error_) std::rethrow_exception(error_);
@@ -44,14 +54,18 @@ class Queue {
 void parallelFor(uint32_t threads, size_t count, const std::function<void(size_t)>& work) {
   const size_t helpers = std::min<size_t>(threads, count) - (std::min<size_t>(threads, count) > 0);
   if (helpers == 0) {
-    for (size_t i = 0; i < count; ++i) work(i);
+    for (size_t i = 0; i < count; ++i) {
+      work(i);
+      passPiece(count);
+    }
     return;
   }
   Queue queue(count, work);
   std::vector<std::thread> started;
   started.reserve(helpers);
   try {
-    while (started.size() < helpers) started.emplace_back([&] { queue.run(); });
+    while (started.size() < helpers)
+      started.emplace_back([&, watch = currentWatch()] { queue.runFor(watch); });
   } catch (const std::system_error&) {
     // Those that have started, and this one, do the work.
   }

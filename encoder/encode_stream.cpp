@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/watch.hpp"
 #include "encoder/heights/height_lines.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "encoder/heights/ways/heights_for_target.hpp"
@@ -21,6 +22,9 @@
 namespace tetrakis::inline encoder {
 
 namespace {
+
+// What is done of all when stages end; the rest is what proves the stream.
+constexpr double kHeightsCoded = 0.4, kTextureCoded = 0.8, kSelected = 0.9, kWritten = 0.95;
 
 /// Both components before they are coded; null: there is none.
 struct Quantised {
@@ -58,13 +62,14 @@ Result<Coded> code(const EncodeInputs& inputs, Quantised quantised) {
           codeTextureForTarget(inputs, std::move(quantised.texture)));
   };
   if (inputs.options.threads > 1) {
+    beginStage(kTextureCoded);
     parallelFor(2, 2, [&](size_t i) { i == 0 ? code_texture() : code_heights(); });
   } else {
+    beginStage(kHeightsCoded);
     code_heights();
-    if (Status status = reportProgress(inputs.options, 0.4); !status.ok()) return status;
+    beginStage(kTextureCoded);
     code_texture();
   }
-  if (Status status = reportProgress(inputs.options, 0.8); !status.ok()) return status;
   return coded;
 }
 
@@ -74,6 +79,7 @@ Result<Selection> codeForTarget(const EncodeInputs& inputs) {
   if (!quantised.ok()) return quantised.status();
   Result<Coded> coded = code(inputs, *std::move(quantised));
   if (!coded.ok()) return coded.status();
+  beginStage(kSelected);
   return meetTarget(inputs, std::move(coded->heights), std::move(coded->texture));
 }
 
@@ -90,9 +96,7 @@ Result<Selection> codeWithPriorities(const EncodeInputs& inputs) {
   const ViewPriorities priorities = prioritiesOf(inputs);
   Result<Selection> with = codeForTarget(inputs.with(inputs.options, &priorities));
   if (!with.ok() || !mapsAreInDoubt(inputs, *with)) return with;
-  tks_encode_options options = inputs.options;
-  options.progress = nullptr;  // it has been told of all this
-  Result<Selection> without = codeForTarget(inputs.with(options, nullptr));
+  Result<Selection> without = codeForTarget(inputs.with(inputs.options, nullptr));
   if (without.ok() && !mapsPay(inputs, *with, *without)) return without;
   return with;
 }
@@ -101,7 +105,6 @@ Result<Selection> codeWithPriorities(const EncodeInputs& inputs) {
 
 Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& given) {
   assert(given.heights != nullptr || given.image != nullptr);
-  if (Status status = reportProgress(given.options, 0); !status.ok()) return status;
   if (Status status = checkCameras(given); !status.ok()) return status;
   const CodedLines height_lines = heightLines(given), texel_lines = texelLines(given);
   tks_heights coded_heights = {};
@@ -110,10 +113,8 @@ Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& given) {
       given.ofLines(height_lines, coded_heights).ofLines(texel_lines, coded_image);
   const Result<Selection> selection = codeWithPriorities(inputs);
   if (!selection.ok()) return selection.status();
-  if (Status status = reportProgress(inputs.options, 0.9); !status.ok()) return status;
-  Result<std::vector<uint8_t>> stream = writeStream(inputs, *selection);
-  if (Status status = reportProgress(inputs.options, 0.95); !status.ok()) return status;
-  return stream;
+  beginStage(kWritten);
+  return writeStream(inputs, *selection);
 }
 
 }  // namespace tetrakis::inline encoder

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/watch.hpp"
 #include "bitstream/track/encoding_io.hpp"
 #include "bitstream/track/pass_queue.hpp"
 
@@ -101,6 +102,7 @@ class TrackCoder {
       state_.run(source_.plan, pass, io_);
       passes_.pop(state_.bands[pass.band]);
       append(track_.points, io_.point());
+      passPiece(mostPasses());
     }
   }
 
@@ -129,6 +131,13 @@ class TrackCoder {
         nothing_to_say_(nothing.squares() == 0),
         io_(nothing),
         track_{{}, {nothing}, planes} {}
+
+  /// Three in each bit-plane of every tier.
+  size_t mostPasses() const {
+    size_t tiers = 0;
+    for (const auto& band : occupancy_) tiers += band.size();
+    return tiers * 3 * static_cast<size_t>(track_.planes);
+  }
 
   const TrackSource& source_;
   std::vector<std::vector<Occupancy>> occupancy_;  ///< of each band and tier

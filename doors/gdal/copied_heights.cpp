@@ -12,10 +12,16 @@
 namespace tetrakis::gdal {
 namespace {
 
+/// A grid of a building site, say: straight axes that lie nowhere on Earth. Their unit may be any.
+bool isLocalGrid(const OGRSpatialReference& system) {
+  constexpr double kDegree = std::numbers::pi / 180, kAlike = 1e-9;
+  return system.IsLocal() && std::abs(system.GetLinearUnits() - kDegree) > kAlike;
+}
+
 /// States how many metres lie between samples. A degree has as many as it has on WGS 84 at the
 /// latitude of the raster's middle (tools/files/place/earth.hpp).
 void groundSpacing(const OGRSpatialReference* system, tks_heights& heights) {
-  if (system == nullptr || !heights.has_geotransform || system->IsLocal()) return;
+  if (system == nullptr || !heights.has_geotransform) return;
   const double* const t = heights.geotransform;
   double east = system->GetLinearUnits(), north = east;
   if (system->IsGeographic()) {
@@ -28,7 +34,7 @@ void groundSpacing(const OGRSpatialReference* system, tks_heights& heights) {
     const double w = std::sqrt(1 - kE2 * std::sin(latitude) * std::sin(latitude));
     east = radians * kAxis / w * std::cos(latitude);
     north = radians * kAxis * (1 - kE2) / (w * w * w);
-  } else if (!system->IsProjected()) {
+  } else if (!system->IsProjected() && !isLocalGrid(*system)) {
     return;
   }
   const double x = std::hypot(t[1] * east, t[4] * north), y = std::hypot(t[2] * east, t[5] * north);

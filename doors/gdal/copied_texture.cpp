@@ -2,8 +2,10 @@
 // A dataset of GDAL as the texture of a stream.
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "doors/gdal/copied_raster.hpp"
@@ -22,16 +24,47 @@ bool isMasked(GDALDataset& dataset) {
   return dataset.GetRasterBand(1)->GetMaskFlags() == GMF_PER_DATASET;
 }
 
-/// Texels that a mask of the dataset leaves out have alpha 0.
-bool addsAlpha(GDALDataset& dataset) {
-  return dataset.GetRasterCount() % 2 == 1 && isMasked(dataset);
+/// A value that GDAL hides.
+bool hasNodata(GDALDataset& dataset) {
+  for (GDALRasterBand* const band : dataset.GetBands())
+    if ((band->GetMaskFlags() & GMF_NODATA) != 0) return true;
+  return false;
+}
+
+/// Which texels any band shows: not 0. Nothing after a reported error.
+std::optional<std::vector<uint8_t>> readShown(GDALDataset& dataset) {
+  const int width = dataset.GetRasterXSize(), height = dataset.GetRasterYSize();
+  std::vector<uint8_t> shown(size_t(width) * height), of_band(shown.size());
+  for (GDALRasterBand* const band : dataset.GetBands()) {
+    if (band->GetMaskBand()->RasterIO(GF_Read, 0, 0, width, height, of_band.data(), width, height,
+                                      GDT_Byte, 0, 0, nullptr) != CE_None)
+      return std::nullopt;
+    std::transform(shown.begin(), shown.end(), of_band.begin(), shown.begin(), std::bit_or<>());
+  }
+  return shown;
+}
+
+/// What becomes of a nodata value, of which a texture has none.
+enum class Nodata { kKeptBeside, kAsAlpha };
+
+/// The texels that are not hidden, where an alpha will say so; empty: it will not. A mask always
+/// does; a nodata value does where some texels have it in all bands and others do not.
+std::optional<std::vector<uint8_t>> readAlpha(GDALDataset& dataset, Nodata nodata) {
+  const bool masked = isMasked(dataset);
+  const bool cut = masked || (nodata == Nodata::kAsAlpha && hasNodata(dataset));
+  if (dataset.GetRasterCount() % 2 == 0 || !cut) return std::vector<uint8_t>();
+  std::optional<std::vector<uint8_t>> shown = readShown(dataset);
+  if (!shown || masked) return shown;
+  const size_t hidden = std::count(shown->begin(), shown->end(), 0);
+  if (hidden == 0 || hidden == shown->size()) shown->clear();
+  return shown;
 }
 
 struct DatasetCloser {
   void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
 };
 
-bool readTexels(GDALDataset& dataset, CopiedTexture& copy) {
+bool readTexels(GDALDataset& dataset, const std::vector<uint8_t>& shown, CopiedTexture& copy) {
   const tks_image& image = copy.image;
   const int width = dataset.GetRasterXSize(), height = dataset.GetRasterYSize();
   const auto sample = static_cast<GSpacing>(tks_sample_bytes(image.sample));
@@ -42,32 +75,28 @@ bool readTexels(GDALDataset& dataset, CopiedTexture& copy) {
   if (dataset.RasterIO(GF_Read, 0, 0, width, height, copy.texels.data(), width, height, type, bands,
                        textureBands(dataset).data(), pixel, line, sample, nullptr) != CE_None)
     return false;
-  if (static_cast<int>(image.channels) == bands) return true;
-  std::byte* const alpha = copy.texels.data() + (bands * sample);
-  if (dataset.GetRasterBand(1)->GetMaskBand()->RasterIO(GF_Read, 0, 0, width, height, alpha, width,
-                                                        height, type, pixel, line,
-                                                        nullptr) != CE_None)
-    return false;
-  for (size_t i = 0; i < copy.texels.size() - bands * sample; i += pixel) {
-    const bool shown = std::any_of(alpha + i, alpha + i + sample,
-                                   [](std::byte byte) { return byte != std::byte{0}; });
-    std::fill_n(alpha + i, sample, shown ? std::byte{255} : std::byte{0});
+  std::byte* alpha = copy.texels.data() + (bands * sample);
+  for (const uint8_t texel : shown) {
+    std::fill_n(alpha, sample, texel != 0 ? std::byte{255} : std::byte{0});
+    alpha += pixel;
   }
   return true;
 }
 
-std::unique_ptr<CopiedTexture> copyTexels(GDALDataset& dataset) {
+std::unique_ptr<CopiedTexture> copyTexels(GDALDataset& dataset, Nodata nodata) {
+  const std::optional<std::vector<uint8_t>> shown = readAlpha(dataset, nodata);
+  if (!shown) return nullptr;
   auto copy = std::make_unique<CopiedTexture>();
   tks_image& image = copy->image;
   image.size = sizeof image;
   image.width = static_cast<uint32_t>(dataset.GetRasterXSize());
   image.height = static_cast<uint32_t>(dataset.GetRasterYSize());
-  image.channels = static_cast<uint32_t>(dataset.GetRasterCount() + addsAlpha(dataset));
+  image.channels = static_cast<uint32_t>(dataset.GetRasterCount() + !shown->empty());
   image.sample = dataset.GetRasterBand(1)->GetRasterDataType() == GDT_Byte ? TKS_U8 : TKS_U16;
-  image.opaque = !addsAlpha(dataset) && !hasAlpha(dataset);
+  image.opaque = shown->empty() && !hasAlpha(dataset);
   if (const char* const white = dataset.GetMetadataItem("WHITE_LEVEL", "TKS"))
     image.white_level = static_cast<uint32_t>(std::strtoul(white, nullptr, 10));
-  if (!readTexels(dataset, *copy)) return nullptr;
+  if (!readTexels(dataset, *shown, *copy)) return nullptr;
   if (const OGRSpatialReference* const system = dataset.GetSpatialRef())
     copy->crs = crsTexts(*system);
   const Place place = placeOf(dataset);
@@ -77,13 +106,6 @@ std::unique_ptr<CopiedTexture> copyTexels(GDALDataset& dataset) {
   image.crs = copy->crs.crs.c_str();
   image.data = copy->texels.data();
   return copy;
-}
-
-/// A value that GDAL hides, of which an image has none.
-bool hasNodata(GDALDataset& dataset) {
-  for (GDALRasterBand* const band : dataset.GetBands())
-    if ((band->GetMaskFlags() & GMF_NODATA) != 0) return true;
-  return false;
 }
 
 }  // namespace
@@ -146,10 +168,11 @@ std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::s
   const auto warn = [&](const char* what) {
     CPLError(CE_Warning, CPLE_AppDefined, "%s: TEXTURE=%s %s.", name.c_str(), file.c_str(), what);
   };
-  if (hasNodata(*dataset)) warn("has a nodata value, which is not applied and not kept");
+  if (dataset->GetRasterCount() % 2 == 0 && hasNodata(*dataset))
+    warn("has a nodata value beside its last band, which is not applied and not kept");
   if (liesBeside(*dataset, heights))
     warn("lies beside the ground of the heights, which get its border");
-  return copyTexels(*dataset);
+  return copyTexels(*dataset, Nodata::kAsAlpha);
 }
 
 std::unique_ptr<CopiedTexture> copyPicture(const std::string& name, GDALDataset& dataset) {
@@ -159,7 +182,7 @@ std::unique_ptr<CopiedTexture> copyPicture(const std::string& name, GDALDataset&
              "choose one (gdal_translate -b 1).",
              name.c_str());
   }
-  return copyTexels(dataset);
+  return copyTexels(dataset, Nodata::kKeptBeside);
 }
 
 }  // namespace tetrakis::gdal

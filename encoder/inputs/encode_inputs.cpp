@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/inputs/encode_inputs.hpp"
 
-#include <cassert>
 #include <cmath>
 
 namespace tetrakis::inline inputs {
@@ -20,12 +19,6 @@ uint64_t limitOf(const EncodeInputs& inputs) {
 
 double worstMeanSquare(double peak, double psnr) {
   return peak * peak / std::pow(10, psnr / 10);
-}
-
-Status reportProgress(const tks_encode_options& options, double done) {
-  assert(done >= 0 && done <= 1);
-  if (options.progress == nullptr || options.progress(options.user, done) == 0) return {};
-  return {TKS_USAGE, "Encoding was stopped by the caller."};
 }
 
 }  // namespace tetrakis::inline inputs

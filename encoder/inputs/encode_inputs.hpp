@@ -90,7 +90,4 @@ uint64_t limitOf(const EncodeInputs& inputs);
 /// The mean squared error that is a PSNR in dB. peak: the range that it refers to.
 double worstMeanSquare(double peak, double psnr);
 
-/// done: from 0 to 1. TKS_USAGE if the caller wants no more.
-Status reportProgress(const tks_encode_options& options, double done);
-
 }  // namespace tetrakis::inline inputs

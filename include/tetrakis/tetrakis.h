@@ -38,8 +38,16 @@ extern "C" {
 #pragma GCC visibility push(default) /* the library is compiled with hidden symbols */
 #endif
 
+/* Enumerations take the values of an int, of which calls refuse those that have no name. In C they
+ * do so by themselves. */
+#if defined(__cplusplus) && (__cplusplus >= 201103L || defined(_MSC_VER))
+#define TKS_INT : int
+#else
+#define TKS_INT
+#endif
+
 /* Stable numbers; the command line returns them as its exit codes. */
-typedef enum tks_status {
+typedef enum tks_status TKS_INT {
   TKS_OK = 0,
   TKS_USAGE = 1,       /* an argument makes no sense: fix the call */
   TKS_IO = 2,          /* a file cannot be read or written (command line only) */
@@ -52,7 +60,7 @@ typedef enum tks_status {
   TKS_NO_MEMORY = 8
 } tks_status;
 
-typedef enum tks_sample {
+typedef enum tks_sample TKS_INT {
   TKS_U8 = 0,
   TKS_I8 = 1,
   TKS_U16 = 2,
@@ -66,7 +74,7 @@ typedef enum tks_sample {
 size_t tks_sample_bytes(tks_sample sample);
 
 /* What samples are to the ground, as GDAL's AREA_OR_POINT. A geotransform does not depend on it. */
-typedef enum tks_registration {
+typedef enum tks_registration TKS_INT {
   TKS_REGISTRATION_UNKNOWN = 0,
   TKS_REGISTRATION_AREA = 1, /* a sample is the mean of its cell */
   TKS_REGISTRATION_POINT = 2 /* a sample is the value at the middle of its cell */
@@ -147,12 +155,14 @@ typedef struct tks_image {
  * alpha of more than two values. 0: image is NULL, or tks_encode would refuse it. */
 uint32_t tks_find_white_level(const tks_image* image);
 
-/* Returns 0 to continue, anything else to stop with TKS_USAGE. done is in [0, 1]. */
+/* Returns 0 to continue, anything else to stop with TKS_USAGE. done is in [0, 1] and never falls;
+ * its steps are not of equal time. Comes on any thread of the call, never twice at a time, and
+ * every tenth of a second or so: only where one filter or one entropy coder runs, later. */
 typedef int (*tks_progress)(void* user, double done);
 
 /* How errors of a texture's wavelet are weighed: what counts most comes first, and is kept where
  * bytes are few. The complete stream holds the same. */
-typedef enum tks_weights {
+typedef enum tks_weights TKS_INT {
   TKS_WEIGHTS_PSNR = 0,  /* their squares */
   TKS_WEIGHTS_VISUAL = 1 /* what an eye sees that has 64 samples in a degree: fine detail counts
                             less, in colour differences much less; costs up to 1.2 dB of PSNR */
@@ -178,7 +188,7 @@ typedef int (*tks_picture_error)(void* user, const void* heights, const void* te
                                  double* squares, double* values);
 
 /* The front index of a stream, by which windows of regions are fetched without the rest. */
-typedef enum tks_index {
+typedef enum tks_index TKS_INT {
   TKS_INDEX_NONE = 0,
   TKS_INDEX_PACKETS = 1, /* an index; packets lie by half octaves of what a byte is worth, and
                             region by region within one */
@@ -421,7 +431,7 @@ tks_status tks_decode_texture_window(tks_decoder* decoder, const tks_window* win
                                      size_t bytes);
 
 /* What a call decodes. */
-typedef enum tks_part {
+typedef enum tks_part TKS_INT {
   TKS_PART_HEIGHTS = 0,     /* tks_decode_heights, tks_decode_surface, and their windows */
   TKS_PART_VALIDITY = 1,    /* tks_decode_validity */
   TKS_PART_TEXTURE = 2,     /* tks_decode_texture, and its window */
@@ -462,7 +472,7 @@ tks_status tks_set_threads(tks_decoder* decoder, uint32_t threads);
  * largest error have; TKS_TRUNCATED if it is a prefix. */
 tks_status tks_verify(tks_decoder* decoder);
 
-typedef enum tks_mesh_kind {
+typedef enum tks_mesh_kind TKS_INT {
   TKS_MESH_CODED = 0, /* closure of the significant vertices under the parent relation */
   TKS_MESH_BUDGET = 1 /* best mesh of the decoded surface with at most max_triangles: heights of its
                          vertices are fitted (least squares) to all samples, or to those of a mip
@@ -592,6 +602,7 @@ tks_status tks_decode_mesh_tree(tks_decoder* decoder, tks_mesh_kind kind, uint32
 tks_status tks_view_mesh(const tks_mesh_tree* tree, const double clip[16], tks_mesh* out);
 void tks_free_mesh_tree(tks_mesh_tree* tree);
 
+#undef TKS_INT
 #ifdef __GNUC__
 #pragma GCC visibility pop
 #endif

@@ -51,6 +51,9 @@ TEST_F(Arguments, Heights) {
       [](Call& c) { c.heights.width = 0; },
       [](Call& c) { c.heights.height = 0; },
       [](Call& c) { c.heights.sample = static_cast<tks_sample>(7); },
+      [](Call& c) { c.heights.sample = static_cast<tks_sample>(-1); },
+      [](Call& c) { c.heights.sample = static_cast<tks_sample>(1 << 30); },
+      [](Call& c) { c.heights.registration = static_cast<tks_registration>(-1); },
       [](Call& c) { c.heights.data = nullptr; },
       [](Call& c) { c.heights.scale = 0; },
       [](Call& c) { c.heights.scale = kNan; },
@@ -89,6 +92,9 @@ TEST_F(Arguments, Options) {
       [](Call& c) { c.options.lossless = 0, c.options.max_error = kInfinity; },
       [](Call& c) { c.options.lossless = 0, c.options.bytes = 5; },
       [](Call& c) { c.options.camera_count = 1; },
+      [](Call& c) { c.options.weights = static_cast<tks_weights>(-1); },
+      [](Call& c) { c.options.weights = static_cast<tks_weights>(2); },
+      [](Call& c) { c.options.index = 3; },
       [](Call& c) { c.options.progress = [](void*, double) { return 1; }; },
   };
   for (size_t i = 0; i < std::size(spoils); ++i) {

@@ -420,21 +420,5 @@ TEST(StreamRate, RenderersShareTheBytes) {
   EXPECT_FALSE(encode(&heights, &image, options).empty());
 }
 
-TEST(StreamRate, ProgressRisesFromZeroToOne) {
-  const Raster raster = terrain();
-  tks_encode_options options = lossless();
-  std::vector<double> seen;
-  options.user = &seen;
-  options.progress = [](void* user, double done) {
-    static_cast<std::vector<double>*>(user)->push_back(done);
-    return 0;
-  };
-  encode(&raster, nullptr, options);
-  ASSERT_FALSE(seen.empty());
-  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
-  EXPECT_GE(seen.front(), 0);
-  EXPECT_EQ(seen.back(), 1);
-}
-
 }  // namespace
 }  // namespace tetrakis::test

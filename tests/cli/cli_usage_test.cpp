@@ -88,17 +88,17 @@ TEST_F(CliUsage, MessagesAboutNumbersAreShort) {
   makeInputs();
   const std::string encode = "encode height.tif -o b.tks ";
   const std::pair<std::string, const char*> wrong[] = {
-      {encode + "--bytes 0", "'0' is not a number above 0"},
+      {encode + "--bytes 0", "'0' is not a finite number above 0"},
       {encode + "--bytes=-5", "'-5' is not a number of bytes"},
-      {encode + "--psnr 0", "'0' is not a number above 0"},
+      {encode + "--psnr 0", "'0' is not a finite number above 0"},
       {encode + "--bytes 5q", "64k, 1M or 2G"},
       {encode + "--bytes 99999999999999999999", "more than 2^64"},
       {encode + "--bytes 20000000000G", "more than 2^64"},
       {encode + "--lossless --nodata sea", "'sea' is not a number"},
       {"decode a.tks --height b.tif --window -1,0,4,4", "'-1' is no whole number"},
       {"decode a.tks --height b.tif --level half", "'half' is no whole number"},
-      {"plan a.tks --channel 9k/s --seconds 0", "'0' is not a number above 0"},
-      {"plan a.tks --renderer 9k/s --seconds 1 --fps inf", "'inf' is not a number above 0"}};
+      {"plan a.tks --channel 9k/s --seconds 0", "'0' is not a finite number above 0"},
+      {"plan a.tks --renderer 9k/s --seconds 1 --fps inf", "'inf' is not a finite number above 0"}};
   for (const auto& [command, text] : wrong) {
     const Outcome run = cli(command);
     EXPECT_EQ(run.code, 1) << command;

@@ -15,7 +15,7 @@ inline CLI::Validator positive() {
         double value = 0;
         return CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)
                    ? std::string()
-                   : "'" + text + "' is not a number above 0";
+                   : "'" + text + "' is not a finite number above 0";
       },
       "");
 }

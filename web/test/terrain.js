@@ -18,11 +18,15 @@ export function terrainOf(side) {
   };
 }
 
-/** A TIFF of one strip of samples (int16), little-endian. `tags`: [number, type, count, value] more. */
+/** Bytes of a value of TIFF's types ASCII, SHORT and DOUBLE. */
+const SIZES = {2: 1, 3: 2, 12: 8};
+
+/** A TIFF of one strip of samples (int16), little-endian. `tags`: [number, type, count, value]
+ * more, or instead. */
 export function tiffOf({data, width, height}, tags = []) {
-  const all = [[256, 4, 1, width], [257, 4, 1, height], [258, 3, 1, 16], [259, 3, 1, 1],
+  const all = [...new Map([[256, 4, 1, width], [257, 4, 1, height], [258, 3, 1, 16], [259, 3, 1, 1],
     [262, 3, 1, 1], [273, 4, 1, 8], [277, 3, 1, 1], [278, 4, 1, height], [279, 4, 1, 2 * data.length],
-    [339, 3, 1, 2], ...tags].sort((a, b) => a[0] - b[0]);
+    [339, 3, 1, 2], ...tags].map((tag) => [tag[0], tag])).values()].sort((a, b) => a[0] - b[0]);
   const directory = 8 + 2 * data.length;
   const behind = directory + 2 + 12 * all.length + 4;
   const file = new DataView(new ArrayBuffer(behind + 1024));
@@ -37,12 +41,16 @@ export function tiffOf({data, width, height}, tags = []) {
     file.setUint16(entry + 2, type, true);
     file.setUint32(entry + 4, count, true);
     if (!Array.isArray(value)) return file.setUint32(entry + 8, value, true);
-    file.setUint32(entry + 8, place, true);
+    const inEntry = count * SIZES[type] <= 4;
+    let at = inEntry ? entry + 8 : place;
+    if (!inEntry) file.setUint32(entry + 8, place, true);
     for (const v of value) {
-      if (type === 12) file.setFloat64(place, v, true);
-      else file.setUint16(place, v, true);
-      place += type === 12 ? 8 : 2;
+      if (type === 12) file.setFloat64(at, v, true);
+      else if (type === 2) file.setUint8(at, v);
+      else file.setUint16(at, v, true);
+      at += SIZES[type];
     }
+    if (!inEntry) place = at;
   });
   return new Uint8Array(file.buffer);
 }

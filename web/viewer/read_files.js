@@ -3,6 +3,7 @@
 // other images by the browser. Loaded when the first such file is opened.
 import {fromArrayBuffer} from 'geotiff';
 import {metresPerDegree} from '../src/ground.js';
+import {chosenBands, tagOf, textureOf} from './geotiff_texture.js';
 
 /** EPSG codes of units of length, in metres. */
 const UNITS = {9001: ['m', 1], 9002: ['ft', 0.3048], 9003: ['us-ft', 1200 / 3937]};
@@ -24,9 +25,8 @@ function checkSize(name, width, height) {
 
 /** As GDAL's: of the outer corner of the first sample. */
 function geotransformOf(directory, isPoint) {
-  const value = (tag) => directory.hasTag(tag) && directory.getValue(tag);
-  const matrix = value('ModelTransformation'), tie = value('ModelTiepoint');
-  const scale = value('ModelPixelScale');
+  const matrix = tagOf(directory, 'ModelTransformation');
+  const tie = tagOf(directory, 'ModelTiepoint'), scale = tagOf(directory, 'ModelPixelScale');
   let t;
   if (matrix) t = [matrix[3], matrix[0], matrix[1], matrix[7], matrix[4], matrix[5]];
   else if (scale && tie?.length === 6) {
@@ -62,9 +62,6 @@ function placeOf(image) {
   };
 }
 
-/** Of the tag ExtraSamples (TIFF 6.0): alpha that is multiplied into the colours, or is not. */
-const ALPHAS = [1, 2];
-
 async function readTiff(name, buffer) {
   const image = await (await fromArrayBuffer(buffer)).getImage();
   const width = image.getWidth(), height = image.getHeight();
@@ -77,12 +74,7 @@ async function readTiff(name, buffer) {
     throw new Error(`${name} has ${channels} bands of ${data.constructor.name}: neither heights ` +
       '(one band) nor an image (8 or 16 bits).');
   }
-  if (isImage) {
-    const kept = Math.min(channels, 4);
-    const opaque = !ALPHAS.includes(image.fileDirectory.ExtraSamples?.[0]);
-    return {texture: {...place, width, height, channels: kept, opaque,
-      data: kept === channels ? data : firstBands(data, channels, kept)}};
-  }
+  if (isImage) return {texture: await textureOf(image, data, place)};
   // Samples may be scaled, as GDAL says it.
   const {SCALE = 1, OFFSET = 0, UNITTYPE} = {...(await image.getGDALMetadata(0))};
   const [unit = UNIT_NAMES[UNITTYPE] ?? UNITTYPE] = UNITS[keys.VerticalUnitsGeoKey] ?? [];
@@ -93,14 +85,6 @@ async function readTiff(name, buffer) {
     spacing: spacingOf(place.geotransform, keys, height),
     verticalDatum: crsOf(keys.VerticalCSTypeGeoKey),
   }};
-}
-
-function firstBands(data, channels, kept) {
-  const result = new data.constructor((data.length / channels) * kept);
-  for (let i = 0, out = 0; i < data.length; i += channels) {
-    for (let c = 0; c < kept; ++c) result[out++] = data[i + c];
-  }
-  return result;
 }
 
 /** RGB where nothing is transparent. */
@@ -115,7 +99,7 @@ async function readImage(name, file) {
   let opaque = true;
   for (let i = 3; i < data.length && opaque; i += 4) opaque = data[i] === 255;
   return {texture: opaque
-    ? {width, height, channels: 3, data: firstBands(new Uint8Array(data.buffer), 4, 3)}
+    ? {width, height, channels: 3, data: chosenBands(data, 4, [0, 1, 2])}
     : {width, height, channels: 4, data: new Uint8Array(data.buffer)}};
 }
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What CreateCopy keeps beside samples: place, reference system, nodata values, masks, metadata."""
 
+import struct
+
 import numpy as np
 import pytest
 from conftest import copy, first_band, gdal, memory, refused, system, terrain, warnings_of
@@ -43,6 +45,30 @@ def test_reference_systems_are_kept(tmp_path, crs):
     assert not (tmp_path / "a.tks.aux.xml").exists()
     if crs.startswith("EPSG"):
         assert b"CRS[" not in name.read_bytes()  # a code is enough
+
+
+@pytest.mark.parametrize(
+    "crs, metres",
+    [
+        ("EPSG:32611", 1),
+        ("EPSG:6893", 1),
+        ("EPSG:2222", 0.3048),
+        (LOCAL, 1),
+        ('LOCAL_CS["my grid",UNIT["foot",0.3048]]', 0.3048),
+        ('LOCAL_CS["my sky",UNIT["degree",0.0174532925199433]]', None),
+        (None, None),
+    ],
+)
+def test_spacing_is_in_metres(tmp_path, crs, metres):
+    """The codec weighs heights against texture by it; the stream's header holds it."""
+
+    def f64(value):  # its length, and its bytes without zeros in front
+        held = struct.pack("<d", value).lstrip(b"\0")
+        return bytes([len(held)]) + held
+
+    facts = {"crs": crs} if crs else {}
+    copy(memory(terrain(20, 30), transform=(1, 7, 0, 1, 0, -9), **facts), tmp_path / "a.tks")
+    assert f64(7 * (metres or 0)) + f64(9 * (metres or 0)) in (tmp_path / "a.tks").read_bytes()
 
 
 def test_epoch_goes_beside(tmp_path):

@@ -121,15 +121,42 @@ def test_a_texture_beside_the_ground(tmp_path, place, beside):
 
 
 def test_nodata_of_a_texture(tmp_path):
-    """Beside heights there is no place for it; a picture alone keeps it beside the stream."""
-    image = str(tmp_path / "image.tif")
-    layers = memory(np.stack([terrain(20, 30, "u1")] * 3), colours=RGB, nodata=7)
+    """Beside heights it becomes alpha; a picture alone keeps it beside the stream."""
+    colours = np.stack([terrain(20, 30, "u1", seed) for seed in range(3)])
+    colours[1:, colours[0] == 7] = 200  # there in one band alone is there
+    colours[:, 5:9, 3:20] = 7
+    image, layers = str(tmp_path / "image.tif"), memory(colours, colours=RGB, nodata=7)
     gdal.GetDriverByName("GTiff").CreateCopy(image, layers)
     heard = warnings_of(lambda: copy(terrain(20, 30), tmp_path / "a.tks", "TEXTURE=" + image))[1]
-    assert len(heard) == 1 and "not applied and not kept" in heard[0], heard
+    assert heard == []
+    back = gdal.Open(f'TKS:"{tmp_path}/a.tks":texture').ReadAsArray()
+    hole = np.zeros((20, 30), bool)
+    hole[5:9, 3:20] = True
+    np.testing.assert_array_equal(back[3], np.where(hole, 0, 255))
+    np.testing.assert_array_equal(back[:3][:, ~hole], colours[:, ~hole])
     heard = warnings_of(lambda: copy(layers, tmp_path / "b.tks"))[1]
     assert heard == []
     assert first_band(gdal.Open(str(tmp_path / "b.tks"))).GetNoDataValue() == 7
+
+
+@pytest.mark.parametrize("hidden", [0, 600])
+def test_nodata_that_hides_nothing_or_all(tmp_path, hidden):
+    image = str(tmp_path / "image.tif")
+    colours = np.where(np.arange(600) < hidden, 7, 9).astype("u1").reshape(1, 20, 30)
+    layers = memory(np.repeat(colours, 3, axis=0), colours=RGB, nodata=7)
+    gdal.GetDriverByName("GTiff").CreateCopy(image, layers)
+    heard = warnings_of(lambda: copy(terrain(20, 30), tmp_path / "a.tks", "TEXTURE=" + image))[1]
+    assert heard == []
+    assert gdal.Open(f'TKS:"{tmp_path}/a.tks":texture').RasterCount == 3
+
+
+def test_nodata_beside_alpha(tmp_path):
+    image = str(tmp_path / "image.tif")
+    colours = np.stack([terrain(20, 30, "u1", seed) for seed in range(4)])
+    layers = memory(colours, colours=(*RGB, gdal.GCI_AlphaBand), nodata=7)
+    gdal.GetDriverByName("GTiff").CreateCopy(image, layers)
+    heard = warnings_of(lambda: copy(terrain(20, 30), tmp_path / "a.tks", "TEXTURE=" + image))[1]
+    assert len(heard) == 1 and "not applied and not kept" in heard[0], heard
 
 
 def test_texture_with_a_mask(tmp_path):

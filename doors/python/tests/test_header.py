@@ -100,7 +100,7 @@ def test_numbers_are_those_of_c(header, tmp_path):
         ours[f"TKS_{name}"] = getattr(c, name)
     rows = compiled(tmp_path, [f'printf("{name} %d\\n", (int){name});' for name in ours])
     assert {name: int(number) for name, number in rows} == ours
-    status = re.search(r"typedef enum tks_status \{(.*?)\}", header, re.S).group(1)
+    status = re.search(r"typedef enum tks_status TKS_INT \{(.*?)\}", header, re.S).group(1)
     assert len(re.findall(r"TKS_\w+", status)) == len(_errors.Status)
 
 
