@@ -20,6 +20,7 @@
 #include "bitstream/stream/texture_header.hpp"
 #include "encoder/encode_stream.hpp"
 #include "encoder/outliers.hpp"
+#include "encoder/told_progress.hpp"
 
 namespace tetrakis::inline api {
 
@@ -158,7 +159,7 @@ Status encodeAndProve(const tks_heights* heights, const tks_image* image,
   if (Status status = takeArguments(heights, image, options, known); !status.ok()) return status;
   const tks_heights* known_heights = heights != nullptr ? &known.heights : nullptr;
   const tks_image* known_image = image != nullptr ? &known.image : nullptr;
-  Watch watch([&](double done) {
+  ToldProgress watch([&](double done) {
     const tks_encode_options& o = known.options;
     return o.progress == nullptr || o.progress(o.user, done) == 0;
   });

@@ -15,6 +15,8 @@ namespace tetrakis::inline base {
 
 namespace {
 
+thread_local Watch* watch_of_thread = nullptr;
+
 /// Hands out indices until there are none left, or until a call has thrown.
 class Queue {
  public:
@@ -51,6 +53,10 @@ class Queue {
 
 }  // namespace
 
+Watch*& watchOfThread() {
+  return watch_of_thread;
+}
+
 void parallelFor(uint32_t threads, size_t count, const std::function<void(size_t)>& work) {
   const size_t helpers = std::min<size_t>(threads, count) - (std::min<size_t>(threads, count) > 0);
   if (helpers == 0) {
@@ -65,7 +71,7 @@ void parallelFor(uint32_t threads, size_t count, const std::function<void(size_t
   started.reserve(helpers);
   try {
     while (started.size() < helpers)
-      started.emplace_back([&, watch = currentWatch()] { queue.runFor(watch); });
+      started.emplace_back([&, watch = watchOfThread()] { queue.runFor(watch); });
   } catch (const std::system_error&) {
     // Those that have started, and this one, do the work.
   }

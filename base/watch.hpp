@@ -2,50 +2,38 @@
 // Long work that says how far it is, and ends early when nobody waits for it any more.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
-#include <functional>
-#include <mutex>
-#include <utility>
 
 namespace tetrakis::inline base {
 
 /// Thrown out of work that its watch has ended.
 struct Stopped {};
 
-/// Counts the stages of long work, and the pieces of each. How many pieces a stage has is not
-/// known: each brings the account closer to the end of the stage, and none beyond it.
+/// Is told of the stages of long work, and of the pieces of each, on whatever thread. How many
+/// pieces a stage has nobody knows.
 class Watch {
  public:
-  /// Is told how much of the work is done, from 0 to 1, never less than before: on whatever thread,
-  /// by one at a time. False: the work is to end.
-  using Tell = std::function<bool(double)>;
+  Watch() = default;
+  Watch(const Watch&) = delete;
+  Watch& operator=(const Watch&) = delete;
+  virtual ~Watch() = default;
 
-  explicit Watch(Tell tell) : tell_(std::move(tell)) {}
-
-  /// The stage before has ended; this one ends where `until` of all work is done. Throws Stopped.
-  void stage(double until);
-  /// One of so many pieces of some work has ended. Throws Stopped.
-  void pass(size_t pieces);
-
- private:
-  void tell();
-
-  Tell tell_;
-  std::mutex mutex_;
-  double done_ = 0, until_ = 0;
-  bool stopped_ = false;
-  std::chrono::steady_clock::time_point told_;
+  /// The stage before has ended; this one ends where `until` of all work is done, from 0 to 1. May
+  /// throw Stopped.
+  virtual void stage(double until) = 0;
+  /// One of so many pieces of some work has ended. May throw Stopped.
+  virtual void pass(size_t pieces) = 0;
 };
 
-/// The watch of what this thread does; null: none.
-Watch* currentWatch();
+/// What watches the work of this thread; null: nothing. It is where parallelFor() is, which hands
+/// it on to its threads.
+Watch*& watchOfThread();
 
 /// Sets the watch of this thread for as long as it lives.
 class Watched {
  public:
-  explicit Watched(Watch* watch);
-  ~Watched();
+  explicit Watched(Watch* watch) : before_(watchOfThread()) { watchOfThread() = watch; }
+  ~Watched() { watchOfThread() = before_; }
   Watched(const Watched&) = delete;
   Watched& operator=(const Watched&) = delete;
 
@@ -54,7 +42,11 @@ class Watched {
 };
 
 /// The same as Watch::stage() and Watch::pass() of this thread's watch, if it has one.
-void beginStage(double until);
-void passPiece(size_t pieces);
+inline void beginStage(double until) {
+  if (Watch* const watch = watchOfThread()) watch->stage(until);
+}
+inline void passPiece(size_t pieces) {
+  if (Watch* const watch = watchOfThread()) watch->pass(pieces);
+}
 
 }  // namespace tetrakis::inline base

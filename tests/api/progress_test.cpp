@@ -9,6 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "base/watch.hpp"
+#include "encoder/told_progress.hpp"
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {
@@ -20,10 +21,10 @@ using samples::Pattern;
 using samples::Raster;
 
 /// Work of many pieces tells how far it is while it goes on, not only when it has ended.
-TEST(Watch, IsToldBetweenPieces) {
+TEST(ToldProgress, IsToldBetweenPieces) {
   for (const uint32_t threads : {1u, 3u}) {
     std::vector<double> told;
-    Watch watch([&](double done) {
+    ToldProgress watch([&](double done) {
       told.push_back(done);
       return true;
     });
@@ -40,9 +41,9 @@ TEST(Watch, IsToldBetweenPieces) {
 }
 
 /// No piece begins behind the one that was the last, on any thread.
-TEST(Watch, EndsWork) {
+TEST(ToldProgress, EndsWork) {
   for (const uint32_t threads : {1u, 3u}) {
-    Watch watch([](double done) { return done == 0; });
+    ToldProgress watch([](double done) { return done == 0; });
     const Watched watched(&watch);
     beginStage(1);
     std::atomic<size_t> pieces = 0;
@@ -57,9 +58,9 @@ TEST(Watch, EndsWork) {
 }
 
 /// What is told may use the library, which then watches nothing.
-TEST(Watch, DoesNotWatchWhatItTells) {
+TEST(ToldProgress, DoesNotWatchWhatItTells) {
   size_t told = 0;
-  Watch watch([&](double) {
+  ToldProgress watch([&](double) {
     ++told;
     beginStage(1);
     parallelFor(2, 4, [](size_t) { passPiece(1); });

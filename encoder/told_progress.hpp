@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an encoder's caller is told of its progress, and how the caller ends it.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <utility>
+
+#include "base/watch.hpp"
+
+namespace tetrakis::inline encoder {
+
+/// Every piece of work brings the account closer to the end of its stage, and none beyond it.
+class ToldProgress : public Watch {
+ public:
+  /// Is told how much of the work is done, from 0 to 1, never less than before: on whatever thread,
+  /// by one at a time, at each stage and every 50 ms or so. False: the work is to end.
+  using Tell = std::function<bool(double)>;
+
+  explicit ToldProgress(Tell tell) : tell_(std::move(tell)) {}
+
+  void stage(double until) override;
+  void pass(size_t pieces) override;
+
+ private:
+  void tell();
+
+  Tell tell_;
+  std::mutex mutex_;
+  double done_ = 0, until_ = 0;
+  bool stopped_ = false;
+  std::chrono::steady_clock::time_point told_;
+};
+
+}  // namespace tetrakis::inline encoder
