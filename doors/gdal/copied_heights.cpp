@@ -1,47 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// A band of GDAL as heights. Their spacing follows the command line (tools/files).
+// A band of GDAL as heights.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "doors/gdal/copied_raster.hpp"
 #include "doors/gdal/copied_samples.hpp"
 #include "doors/gdal/copied_voids.hpp"
+#include "doors/gdal/ground_spacing.hpp"
 #include "doors/gdal/source.hpp"
 
 namespace tetrakis::gdal {
 namespace {
-
-/// A grid of a building site, say: straight axes that lie nowhere on Earth. Their unit may be any.
-bool isLocalGrid(const OGRSpatialReference& system) {
-  constexpr double kDegree = std::numbers::pi / 180, kAlike = 1e-9;
-  return system.IsLocal() && std::abs(system.GetLinearUnits() - kDegree) > kAlike;
-}
-
-/// States how many metres lie between samples. A degree has as many as it has on WGS 84 at the
-/// latitude of the raster's middle (tools/files/place/earth.hpp).
-void groundSpacing(const OGRSpatialReference* system, tks_heights& heights) {
-  if (system == nullptr || !heights.has_geotransform) return;
-  const double* const t = heights.geotransform;
-  double east = system->GetLinearUnits(), north = east;
-  if (system->IsGeographic()) {
-    constexpr double kAxis = 6378137.0, kFlattening = 1 / 298.257223563;
-    constexpr double kE2 = kFlattening * (2 - kFlattening);
-    const double radians = system->GetAngularUnits();
-    const double latitude =
-        (t[3] + heights.width / 2.0 * t[4] + heights.height / 2.0 * t[5]) * radians;
-    if (!(std::abs(latitude) < std::numbers::pi / 2)) return;
-    const double w = std::sqrt(1 - kE2 * std::sin(latitude) * std::sin(latitude));
-    east = radians * kAxis / w * std::cos(latitude);
-    north = radians * kAxis * (1 - kE2) / (w * w * w);
-  } else if (!system->IsProjected() && !isLocalGrid(*system)) {
-    return;
-  }
-  const double x = std::hypot(t[1] * east, t[4] * north), y = std::hypot(t[2] * east, t[5] * north);
-  if (!std::isfinite(x) || !std::isfinite(y) || x <= 0 || y <= 0) return;
-  heights.spacing_x = x;
-  heights.spacing_y = y;
-}
 
 /// A scale of 0 would make all heights one.
 double scaleOf(const std::string& name, GDALRasterBand& band) {
@@ -66,7 +35,7 @@ void takeFacts(const std::string& name, GDALDataset& dataset, CopiedHeights& cop
   std::copy_n(place.geotransform, 6, heights.geotransform);
   heights.has_geotransform = place.has_geotransform;
   heights.registration = place.registration;
-  groundSpacing(dataset.GetSpatialRef(), heights);
+  setGroundSpacing(dataset.GetSpatialRef(), heights);
   heights.unit = copy.unit.c_str();
   heights.description = copy.description.c_str();
   heights.crs = copy.crs.crs.c_str();

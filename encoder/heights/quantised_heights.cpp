@@ -29,13 +29,13 @@ struct ChosenSteps {
   bool restore = false;
 };
 
-Result<ChosenSteps> chooseSteps(const EncodeInputs& inputs) {
+Result<ChosenSteps> chooseSteps(const EncodeInputs& inputs, bool table) {
   const tks_heights& heights = *inputs.heights;
   const double error = inputs.options.max_error / std::abs(heights.scale);
   const bool lossless = inputs.options.lossless != 0;
   Result<HeightSteps> steps = toSteps(heights, {.given = heights.step,
                                                 .lossless = lossless,
-                                                .table = lossless,
+                                                .table = table && lossless,
                                                 .error = error,
                                                 .leave_outliers = inputs.budgeted()});
   if (!steps.ok()) return steps.status();
@@ -113,6 +113,23 @@ QuantisedHeights withTable(QuantisedHeights heights) {
   return heights;
 }
 
+/// table: whether a table of their values may take the place of multiples.
+Result<std::shared_ptr<const QuantisedHeights>> quantise(const EncodeInputs& inputs, bool table) {
+  assert(inputs.heights != nullptr);
+  Result<ChosenSteps> chosen = chooseSteps(inputs, table);
+  if (!chosen.ok()) return chosen.status();
+  const BridgeTarget bridges = bridgeTarget(inputs, chosen->steps);
+  QuantisedHeights heights = withTable(withoutTable(inputs, std::move(chosen->steps), bridges));
+  if (chosen->restore && !heights.steps.exact) {
+    const int region_log2 = heightOptions(inputs).region_log2;
+    SampleCorrections corrections =
+        correctionsBehind(heights, heights.steps, region_log2, inputs.options.threads);
+    heights = withCorrections(std::move(heights), std::move(corrections));
+  }
+  assert(heights.restored() || heights.corrections.empty());
+  return std::make_shared<const QuantisedHeights>(std::move(heights));
+}
+
 }  // namespace
 
 double QuantisedHeights::counted() const {
@@ -144,19 +161,11 @@ double QuantisedHeights::squaresOf(DecodedHeights decoded,
 }
 
 Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInputs& inputs) {
-  assert(inputs.heights != nullptr);
-  Result<ChosenSteps> chosen = chooseSteps(inputs);
-  if (!chosen.ok()) return chosen.status();
-  const BridgeTarget bridges = bridgeTarget(inputs, chosen->steps);
-  QuantisedHeights heights = withTable(withoutTable(inputs, std::move(chosen->steps), bridges));
-  if (chosen->restore && !heights.steps.exact) {
-    const int region_log2 = heightOptions(inputs).region_log2;
-    SampleCorrections corrections =
-        correctionsBehind(heights, heights.steps, region_log2, inputs.options.threads);
-    heights = withCorrections(std::move(heights), std::move(corrections));
-  }
-  assert(heights.restored() || heights.corrections.empty());
-  return std::make_shared<const QuantisedHeights>(std::move(heights));
+  return quantise(inputs, true);
+}
+
+Result<std::shared_ptr<const QuantisedHeights>> quantiseInMultiples(const EncodeInputs& inputs) {
+  return quantise(inputs, false);
 }
 
 double relativeStepOf(const QuantisedHeights& heights) {

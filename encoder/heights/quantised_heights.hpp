@@ -74,6 +74,9 @@ struct QuantisedHeights {
 /// heights.
 Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInputs& inputs);
 
+/// The same in multiples of a step, whatever a table of the values would do.
+Result<std::shared_ptr<const QuantisedHeights>> quantiseInMultiples(const EncodeInputs& inputs);
+
 /// The relative step of the samples (codec/geometry/relative/), in their units; 0: there is none,
 /// or the steps are exact and not much finer.
 double relativeStepOf(const QuantisedHeights& heights);

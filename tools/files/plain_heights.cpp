@@ -141,8 +141,8 @@ Result<HeightFile> readHgt(const std::string& path) {
   const auto corner = hgtCorner(path);
   if (!corner) return heights;
   heights.geotransform = tileAt(*corner, heights.width, heights.height);
-  if (const auto spacing =
-          groundSpacing(*heights.geotransform, heights.width, heights.height, {true, 0})) {
+  if (const auto spacing = groundSpacing(*heights.geotransform, heights.width, heights.height,
+                                         {true, 0}, heights.crs)) {
     heights.spacing_x = (*spacing)[0];
     heights.spacing_y = (*spacing)[1];
   }

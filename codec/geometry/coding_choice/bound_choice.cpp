@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cassert>
 #include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
+#include "codec/geometry/coding_choice/exact_cut.hpp"
 #include "codec/geometry/coefficients_encoder.hpp"
 #include "wavelet/choice/filter_choice.hpp"
 #include "wavelet/choice/typical_parts.hpp"
@@ -44,12 +46,15 @@ class PartTrial {
 
   uint64_t corrected(double mean_square) { return cut_.total(cut_.bytesFor(mean_square)); }
 
+  /// As it is, or as a cut with exact corrections, where these are estimated to take fewer bytes.
   uint64_t rounded() const {
     std::vector<int32_t> steps = steps_.steps;
     for (int32_t& q : steps) q = nearestMultiple(q, largest_);
-    const WaveletHeader wavelet =
-        chooseWavelet({steps, header_.extent(), lifted()}, steps_.range_bits, Purpose::kLossless);
-    return coded(steps, wavelet).codeword.size();
+    const PlaneView<const int32_t> plane(steps, header_.extent(), lifted());
+    const uint64_t whole =
+        coded(steps, chooseWavelet(plane, steps_.range_bits, Purpose::kLossless)).codeword.size();
+    const std::optional<ExactCut> cut = chooseExactCut(plane, steps_.range_bits, whole);
+    return cut ? static_cast<uint64_t>(cut->bytes) : whole;
   }
 
  private:

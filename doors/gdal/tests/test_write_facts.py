@@ -47,28 +47,49 @@ def test_reference_systems_are_kept(tmp_path, crs):
         assert b"CRS[" not in name.read_bytes()  # a code is enough
 
 
+def spacing_of(stream):
+    """Of a stream whose heights have a scale of 1 and an offset of 0 (FORMAT.md, Metadata). A
+    number is its length, and its bytes without zeros in front. Nothing is said of no place."""
+    at = stream.find(b"\x02\xf0\x3f\x00") + 4
+    if at < 4:
+        return [0, 0]
+
+    def number():
+        nonlocal at
+        size = stream[at]
+        held = stream[at + 1 : at + 1 + size]
+        at += 1 + size
+        return struct.unpack("<d", held.rjust(8, b"\0"))[0]
+
+    return [number(), number()]
+
+
 @pytest.mark.parametrize(
-    "crs, metres",
+    "crs, place, metres",
     [
-        ("EPSG:32611", 1),
-        ("EPSG:6893", 1),
-        ("EPSG:2222", 0.3048),
-        (LOCAL, 1),
-        ('LOCAL_CS["my grid",UNIT["foot",0.3048]]', 0.3048),
-        ('LOCAL_CS["my sky",UNIT["degree",0.0174532925199433]]', None),
-        (None, None),
+        ("EPSG:32611", (5e5, 4e6), (7, 9)),
+        ("EPSG:6893", (-9e6, 0), (7, 9)),
+        ("EPSG:2263", (1e6, 2e5), (7 * 1200 / 3937, 9 * 1200 / 3937)),
+        (LOCAL, (1, 1), (7, 9)),
+        ('LOCAL_CS["my grid",UNIT["foot",0.3048]]', (1, 1), (7 * 0.3048, 9 * 0.3048)),
+        ('LOCAL_CS["my sky",UNIT["degree",0.0174532925199433]]', (1, 1), (0, 0)),
+        (None, (1, 1), (0, 0)),
+        # At 60 degrees a map by Mercator is twice as large as the ground.
+        ("EPSG:3857", (1e6, 8399738), (7 * 0.50125, 9 * 0.50042)),
+        # A degree of the Moon has 30 km.
+        ("+proj=longlat +R=1737400", (20, 60), (7 * 15161.68, 9 * 30323.35)),
+        ("+proj=merc +R=1737400", (1e6, 2288079), (7 * 0.5, 9 * 0.5)),
     ],
 )
-def test_spacing_is_in_metres(tmp_path, crs, metres):
-    """The codec weighs heights against texture by it; the stream's header holds it."""
-
-    def f64(value):  # its length, and its bytes without zeros in front
-        held = struct.pack("<d", value).lstrip(b"\0")
-        return bytes([len(held)]) + held
-
+def test_spacing_is_in_metres_of_the_ground(tmp_path, crs, place, metres):
+    """The codec weighs heights against texture by it."""
     facts = {"crs": crs} if crs else {}
-    copy(memory(terrain(20, 30), transform=(1, 7, 0, 1, 0, -9), **facts), tmp_path / "a.tks")
-    assert f64(7 * (metres or 0)) + f64(9 * (metres or 0)) in (tmp_path / "a.tks").read_bytes()
+    step = 1 if crs is None or "longlat" not in crs else 1e-4
+    transform = (place[0] - 15 * 7 * step, 7 * step, 0, place[1] + 10 * 9 * step, 0, -9 * step)
+    copy(memory(terrain(20, 30), transform=transform, **facts), tmp_path / "a.tks")
+    np.testing.assert_allclose(
+        spacing_of((tmp_path / "a.tks").read_bytes()), np.multiply(metres, step), rtol=2e-4
+    )
 
 
 def test_epoch_goes_beside(tmp_path):

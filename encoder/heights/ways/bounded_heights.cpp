@@ -29,6 +29,7 @@ using Quantised = std::shared_ptr<const QuantisedHeights>;
 
 /// What all attempts have in common.
 struct Bound {
+  const EncodeInputs& inputs;
   Quantised quantised;
   Purpose purpose;        ///< of coefficients that will be cut
   WaveletHeader wavelet;  ///< that suits them where nothing is flat
@@ -44,8 +45,8 @@ double floatSpacing(const QuantisedHeights& heights) {
   return std::ldexp(1.0, spacingExponent(static_cast<float>(largest)));
 }
 
-/// The same heights in other steps, coded to the last bit.
-CodedHeights codeRounded(const Bound& bound, HeightSteps steps) {
+/// The same heights in other steps, all of which come back.
+Candidate<CodedHeights> codeRounded(const Bound& bound, HeightSteps steps) {
   assert(!bound.quantised->restored());
   const QuantisedHeights& quantised = *bound.quantised;
   const tks_heights& samples = *quantised.samples;
@@ -57,13 +58,13 @@ CodedHeights codeRounded(const Bound& bound, HeightSteps steps) {
                            .late = quantised.late,
                            .shown_by = quantised.shown_by};
   if (!rounded.steps.exact) rounded.left = rounded.squaresOf(rounded.steps);
-  return tryHeights(std::make_shared<const QuantisedHeights>(std::move(rounded)),
-                    Purpose::kLossless, bound.options);
+  return {
+      codeEveryStep(bound.inputs, std::make_shared<const QuantisedHeights>(std::move(rounded)))};
 }
 
 /// Floats whose step is not given, rounded to the widest step that the bound allows; nothing if
 /// there is none wider than the exact one, or multiples of that are clearly wider.
-std::optional<CodedHeights> widen(const Bound& bound, int32_t largest) {
+std::optional<Candidate<CodedHeights>> widen(const Bound& bound, int32_t largest) {
   constexpr double kClearly = 1.02;
   const tks_heights& samples = *bound.quantised->samples;
   const double widest = 2 * bound.error, exact = bound.quantised->steps.step;
@@ -75,7 +76,7 @@ std::optional<CodedHeights> widen(const Bound& bound, int32_t largest) {
 }
 
 /// Rounds to multiples of the exact step.
-CodedHeights round(const Bound& bound, int32_t largest) {
+Candidate<CodedHeights> round(const Bound& bound, int32_t largest) {
   HeightSteps steps = bound.quantised->steps;
   if (largest > 0) {
     for (int32_t& q : steps.steps) q = nearestMultiple(q, largest);
@@ -99,9 +100,8 @@ std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t larges
       boundWays(bound.quantised->steps, extentOf(samples), bound.wavelet, largest);
   std::vector<Candidate<CodedHeights>> made;
   if (ways.round) {
-    if (std::optional<CodedHeights> wide = widen(bound, largest))
-      made.push_back(candidateOf(*std::move(wide)));
-    made.push_back(candidateOf(round(bound, largest)));
+    std::optional<Candidate<CodedHeights>> wide = widen(bound, largest);
+    made.push_back(wide ? *std::move(wide) : round(bound, largest));
   }
   if (ways.correct)
     made.push_back(
@@ -133,8 +133,9 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& input
   const double finest = quantised->steps.step * std::abs(inputs.heights->scale);
   const bool fine = inputs.options.max_error < 2 * finest;
   const Purpose purpose = fine ? Purpose::kLossless : Purpose::kLossy;
-  const Bound bound{quantised, purpose, chooseHeightFilters(*quantised, purpose), options,
-                    wanted - floatSpacing(*quantised) / 2};
+  const Bound bound{inputs,  quantised,
+                    purpose, chooseHeightFilters(*quantised, purpose),
+                    options, wanted - floatSpacing(*quantised) / 2};
   const double room =
       (wanted - errorsOf(*inputs.heights, quantised->steps).largest) / quantised->steps.step;
   constexpr double kMost = 1 << 24;

@@ -3,6 +3,7 @@
 
 #include <cassert>
 
+#include "codec/geometry/coding_choice/exact_cut.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_estimate.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "encoder/heights/ways/facet_heights.hpp"
@@ -13,8 +14,14 @@ namespace tetrakis::inline ways {
 
 bool mayTakeNoMore(const HeightSteps& steps, Extent extent, uint64_t bytes) {
   constexpr double kClearly = 1.4;  // 14 DEMs take 0.88 to 1.15 of what is estimated
-  const double estimated = typicalCost(steps.lifting(extent), steps.range_bits, 0).bits / 8;
-  return estimated <= kClearly * static_cast<double>(bytes);
+  constexpr double kMostByCut = 4;  // squares of distances take a quarter by a cut
+  const PlaneView<const int32_t> plane = steps.lifting(extent);
+  const double whole = typicalCost(plane, steps.range_bits, 0).bits / 8;
+  const double most = kClearly * static_cast<double>(bytes);
+  if (whole <= most) return true;
+  if (whole > kMostByCut * most || !steps.table.empty()) return false;
+  const auto cut = chooseExactCut(plane, steps.range_bits, static_cast<uint64_t>(whole));
+  return cut && cut->bytes <= most;
 }
 
 std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, double error,

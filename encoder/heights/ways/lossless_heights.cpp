@@ -58,14 +58,14 @@ double worthOf(const CodedHeights& corrected) {
                     static_cast<double>(cut - corrected.correction_bytes));
 }
 
-/// Codes heights to the last bit by wavelet: all of their coefficients, or a cut of lossy ones with
+/// Codes steps to the last bit by wavelet: all of their coefficients, or a cut of lossy ones with
 /// corrections behind it.
 std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
                                                      const Quantised& quantised) {
   CoefficientOptions options = heightOptions(inputs);
   auto whole = candidateOf(codeHeights(quantised, Purpose::kLossless, options));
   const HeightSteps& steps = quantised->steps;
-  if (!steps.exact || !steps.table.empty()) return whole.coded;
+  if (quantised->restored() || !steps.table.empty()) return whole.coded;
   const std::optional<ExactCut> cut = exactCutFor(*whole.coded);
   if (!cut) return whole.coded;
   options.limit = whole.bytes();
@@ -104,19 +104,13 @@ std::shared_ptr<const CodedHeights> codeFromNeighbours(const EncodeInputs& input
   return ways.empty() ? nullptr : fewestBytes<CodedHeights>(std::move(ways)).coded;
 }
 
-}  // namespace
-
-/// A drawing shows shapes and slopes between them, and no roughness: its prefixes suit only heights
-/// of few values, of which it takes clearly fewer bytes than the wavelet. So it has to save a
-/// sixteenth. It is tried where the estimate, which is often off by a twentieth, says that it is
-/// the shorter one.
-std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inputs,
-                                                        const Quantised& quantised) {
+/// The steps as a drawing, or what there is of them by wavelet. A drawing shows shapes and slopes
+/// between them, and no roughness: its prefixes suit only heights of few values, of which it takes
+/// clearly fewer bytes than the wavelet. So it has to save a sixteenth. It is tried where the
+/// estimate, which is often off by a twentieth, says that it is the shorter one.
+std::shared_ptr<const CodedHeights> drawnIfShorter(const Quantised& quantised,
+                                                   std::shared_ptr<const CodedHeights> whole) {
   constexpr double kEstimateOff = 1.05, kMostOfWavelet = 15. / 16;
-  const std::shared_ptr<const CodedHeights> near = codeFromNeighbours(inputs, *quantised);
-  if (near && takesMore(*quantised, bytesOf(near->tracks))) return near;
-  std::shared_ptr<const CodedHeights> whole = codeToTheLastBit(inputs, quantised);
-  if (near) whole = fewestBytes<CodedHeights>({{std::move(whole)}, {near}}).coded;
   if (whole->tracks.size() > 1) return whole;
   const HeightSteps& steps = quantised->steps;
   const auto bytes = static_cast<double>(bytesOf(whole->tracks));
@@ -126,6 +120,33 @@ std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inpu
   std::optional<CodedHeights> drawn = drawHeights(quantised);
   if (!drawn || static_cast<double>(bytesOf(drawn->tracks)) > kMostOfWavelet * bytes) return whole;
   return std::make_shared<const CodedHeights>(*std::move(drawn));
+}
+
+std::shared_ptr<const CodedHeights> codeInItsSteps(const EncodeInputs& inputs,
+                                                   const Quantised& quantised) {
+  const std::shared_ptr<const CodedHeights> near = codeFromNeighbours(inputs, *quantised);
+  if (near && takesMore(*quantised, bytesOf(near->tracks))) return near;
+  std::shared_ptr<const CodedHeights> whole = codeToTheLastBit(inputs, quantised);
+  if (near) whole = fewestBytes<CodedHeights>({{std::move(whole)}, {near}}).coded;
+  return drawnIfShorter(quantised, std::move(whole));
+}
+
+}  // namespace
+
+std::shared_ptr<const CodedHeights> codeEveryStep(const EncodeInputs& inputs,
+                                                  const Quantised& quantised) {
+  return drawnIfShorter(quantised, codeToTheLastBit(inputs, quantised));
+}
+
+/// A table is chosen by estimates, which miss what is smooth in multiples and not in places of the
+/// table, such as squares of distances.
+std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inputs,
+                                                        const Quantised& quantised) {
+  std::shared_ptr<const CodedHeights> coded = codeInItsSteps(inputs, quantised);
+  if (quantised->steps.table.empty()) return coded;
+  const Result<Quantised> multiples = quantiseInMultiples(inputs);
+  if (!multiples.ok() || takesMore(**multiples, bytesOf(coded->tracks))) return coded;
+  return fewestBytes<CodedHeights>({{coded}, {codeInItsSteps(inputs, *multiples)}}).coded;
 }
 
 }  // namespace tetrakis::inline ways

@@ -11,6 +11,11 @@
 
 namespace tetrakis::inline ways {
 
+/// Steps that all come back, whatever samples they are of: coefficients, corrections behind a cut,
+/// or a drawing.
+std::shared_ptr<const CodedHeights> codeEveryStep(
+    const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& quantised);
+
 /// quantised: from quantiseHeights(inputs).
 std::shared_ptr<const CodedHeights> codeLosslessHeights(
     const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& quantised);

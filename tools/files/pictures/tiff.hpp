@@ -34,6 +34,7 @@ enum GeoKey : uint16_t {
   kGeodeticCitationGeoKey = 2049,
   kGeogAngularUnitsGeoKey = 2054,
   kGeogSemiMajorAxisGeoKey = 2057,
+  kGeogSemiMinorAxisGeoKey = 2058,
   kGeogInvFlatteningGeoKey = 2059,
   kProjectedCrsGeoKey = 3072,
   kProjectedCitationGeoKey = 3073,

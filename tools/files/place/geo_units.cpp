@@ -60,6 +60,15 @@ std::optional<double> gridUnit(const GeoKeys& keys) {
   return stated || namesGridUnit(keys) ? stated : gridUnitOfCrs(keys);
 }
 
+Ellipsoid statedEllipsoid(const GeoKeys& keys) {
+  const double major = keys.number(kGeogSemiMajorAxisGeoKey);
+  const double minor = keys.number(kGeogSemiMinorAxisGeoKey);
+  const double inverse_flattening = keys.number(kGeogInvFlatteningGeoKey);
+  if (!(major > 0)) return {};
+  if (inverse_flattening > 0) return {major, 1 / inverse_flattening};
+  return {major, minor > 0 ? 1 - minor / major : 0};
+}
+
 std::string wktIn(const GeoKeys& keys) {
   constexpr std::string_view kEsri = "ESRI PE String = ";
   const uint16_t model = keys.code(kGtModelTypeGeoKey);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "tools/files/place/earth.hpp"
 #include "tools/files/place/geo_keys.hpp"
 
 namespace tetrakis::tools {
@@ -15,6 +16,9 @@ std::optional<double> gridUnit(const GeoKeys& keys);
 
 /// Of a grid that need not be projected, as of a building site: as the unit keys say, or nothing.
 std::optional<double> statedGridUnit(const GeoKeys& keys);
+
+/// That of the Earth where no axis is stated, as beside a code.
+Ellipsoid statedEllipsoid(const GeoKeys& keys);
 
 /// Where the model is neither projected nor geographic, Esri and GDAL write WKT; "" if none.
 std::string wktIn(const GeoKeys& keys);

@@ -34,7 +34,7 @@ void setSpacing(HeightFile& heights, const GeoKeys& keys,
         {"the unit of the grid is not stated, so its spacing is unknown: give --spacing",
          "--spacing"});
   }
-  const auto spacing = groundSpacing(*transform, heights.width, heights.height, unit);
+  const auto spacing = groundSpacing(*transform, heights.width, heights.height, unit, heights.crs);
   if (!spacing) return;
   heights.spacing_x = (*spacing)[0];
   heights.spacing_y = (*spacing)[1];
@@ -129,8 +129,8 @@ Status readGeoTags(const std::string& path, HeightFile& heights, Notes& notes) {
   TIFF* const tiff = file->get();
   const GeoKeys keys = readGeoKeys(tiff);
   const auto transform = readTransform(tiff, speaksOfPoints(keys), notes);
-  setSpacing(heights, keys, transform, notes);
   setPlace(heights, keys, transform);
+  setSpacing(heights, keys, transform, notes);
   setVerticalDatum(heights, keys);
   setGdalMetadata(heights, tagText(tiff, kGdalMetadataTag), notes);
   setUnit(heights, keys, notes);

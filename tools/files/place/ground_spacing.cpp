@@ -6,18 +6,21 @@
 #include "tools/files/place/crs_units.hpp"
 #include "tools/files/place/earth.hpp"
 #include "tools/files/place/geo_units.hpp"
+#include "tools/files/place/map_scale.hpp"
 
 namespace tetrakis::tools {
 
 std::optional<std::array<double, 2>> groundSpacing(const GeoTransform& t, uint32_t width,
-                                                   uint32_t height, const GridUnit& unit) {
+                                                   uint32_t height, const GridUnit& unit,
+                                                   const std::string& crs) {
   const double middle = t[3] + width / 2.0 * t[4] + height / 2.0 * t[5];
-  const MetresPerDegree metres =
-      unit.degrees ? metresPerDegree(middle) : MetresPerDegree{unit.metres, unit.metres};
+  const MetresPerDegree metres = unit.degrees ? metresPerDegree(middle, unit.ellipsoid)
+                                              : MetresPerDegree{unit.metres, unit.metres};
   const double x = std::hypot(t[1] * metres.east, t[4] * metres.north);
   const double y = std::hypot(t[2] * metres.east, t[5] * metres.north);
   if (!std::isfinite(x) || !std::isfinite(y) || x <= 0 || y <= 0) return std::nullopt;
-  return std::array<double, 2>{x, y};
+  const std::array<double, 2> spacing = {x, y};
+  return unit.degrees || crs.empty() ? spacing : groundUnderMap(spacing, crs, t, width, height);
 }
 
 GridUnit gridUnitOf(const GeoKeys& keys) {
@@ -25,7 +28,7 @@ GridUnit gridUnitOf(const GeoKeys& keys) {
   if (model == kModelTypeGeographic) {
     constexpr uint16_t kWholeDegree = 9102;
     const uint16_t unit = keys.code(kGeogAngularUnitsGeoKey);
-    return {unit == 0 || unit == kWholeDegree, 0};
+    return {unit == 0 || unit == kWholeDegree, 0, statedEllipsoid(keys)};
   }
   if (model == kModelTypeGeocentric) return {};
   if (model == kModelTypeProjected) return {false, gridUnit(keys).value_or(0)};
@@ -36,7 +39,7 @@ GridUnit gridUnitOf(const GeoKeys& keys) {
 
 GridUnit gridUnitOf(const std::string& crs) {
   if (crs.empty()) return {};
-  if (isInDegrees(crs)) return {true, 0};
+  if (isInDegrees(crs)) return {true, 0, ellipsoidOf(crs)};
   const auto unit = crsUnit(crs, CrsAxis::kHorizontal);
   return {false, unit ? unit->metres : 0};
 }
@@ -46,14 +49,14 @@ std::array<double, 2> spacingOf(const tks_info& info) {
   if (stated[0] > 0 || stated[1] > 0 || !info.has_geotransform) return stated;
   GridUnit unit = gridUnitOf(parseGeoKeys(info.geo_keys).value_or(GeoKeys{}));
   if (!unit.known()) unit = gridUnitOf(info.crs);
-  return groundSpacing(std::to_array(info.geotransform), info.width, info.height, unit)
+  return groundSpacing(std::to_array(info.geotransform), info.width, info.height, unit, info.crs)
       .value_or(stated);
 }
 
 void setGroundSpacing(HeightFile& heights) {
   if (!heights.geotransform) return;
-  const auto spacing =
-      groundSpacing(*heights.geotransform, heights.width, heights.height, gridUnitOf(heights.crs));
+  const auto spacing = groundSpacing(*heights.geotransform, heights.width, heights.height,
+                                     gridUnitOf(heights.crs), heights.crs);
   if (!spacing) return;
   heights.spacing_x = (*spacing)[0];
   heights.spacing_y = (*spacing)[1];

@@ -10,6 +10,7 @@
 #include "tetrakis/tetrakis.h"
 
 #include "tools/files/files.hpp"
+#include "tools/files/place/earth.hpp"
 #include "tools/files/place/geo_keys.hpp"
 
 namespace tetrakis::tools {
@@ -17,15 +18,18 @@ namespace tetrakis::tools {
 /// Of the coordinates of a grid.
 struct GridUnit {
   bool degrees = false;
-  double metres = 0;  ///< in one unit of a length; 0: unknown
+  double metres = 0;      ///< in one unit of a length; 0: unknown
+  Ellipsoid ellipsoid{};  ///< of degrees
 
   bool known() const { return degrees || metres > 0; }
 };
 
-/// Along rows and columns, of degrees at the middle of the raster (earth.hpp); nothing if the unit
-/// is unknown, the middle is no latitude, or a distance is none.
+/// Along rows and columns, of degrees at the middle of the raster (earth.hpp), of maps on the
+/// ground below it (map_scale.hpp); nothing if the unit is unknown, the middle is no latitude, or a
+/// distance is none. crs: empty where it is unknown.
 std::optional<std::array<double, 2>> groundSpacing(const GeoTransform& transform, uint32_t width,
-                                                   uint32_t height, const GridUnit& unit);
+                                                   uint32_t height, const GridUnit& unit,
+                                                   const std::string& crs);
 
 /// As the keys of a GeoTIFF say: of any grid in a unit that they state, else in that of the CRS.
 GridUnit gridUnitOf(const GeoKeys& keys);

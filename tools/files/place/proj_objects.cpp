@@ -84,4 +84,9 @@ ProjObject verticalPart(PJ_CONTEXT* context, ProjObject crs) {
   return crs;
 }
 
+ProjObject transformation(PJ_CONTEXT* context, const PJ* from, const PJ* to) {
+  const ProjObject raw(proj_create_crs_to_crs_from_pj(context, from, to, nullptr, nullptr));
+  return raw ? ProjObject(proj_normalize_for_visualization(context, raw.get())) : nullptr;
+}
+
 }  // namespace tetrakis::tools

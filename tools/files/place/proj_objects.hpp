@@ -30,4 +30,8 @@ ProjObject findCrs(PJ_CONTEXT* context, std::string text);
 ProjObject horizontalPart(PJ_CONTEXT* context, ProjObject crs);
 ProjObject verticalPart(PJ_CONTEXT* context, ProjObject crs);
 
+/// From coordinates of one CRS to those of another: x or longitude first, degrees where they are
+/// angles. Null if PROJ knows no way, as between worlds.
+ProjObject transformation(PJ_CONTEXT* context, const PJ* from, const PJ* to);
+
 }  // namespace tetrakis::tools

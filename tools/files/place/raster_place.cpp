@@ -25,10 +25,7 @@ std::optional<GeoTransform> inverseOf(const GeoTransform& t) {
 ProjObject toLongitudeLatitude(PJ_CONTEXT* context, const std::string& crs) {
   const ProjObject from = horizontalPart(context, findCrs(context, kLongitudeLatitude));
   const ProjObject to = horizontalPart(context, findCrs(context, crs));
-  if (!from || !to) return nullptr;
-  const ProjObject raw(
-      proj_create_crs_to_crs_from_pj(context, from.get(), to.get(), nullptr, nullptr));
-  return raw ? ProjObject(proj_normalize_for_visualization(context, raw.get())) : nullptr;
+  return from && to ? transformation(context, from.get(), to.get()) : nullptr;
 }
 
 std::array<double, 2> applied(const GeoTransform& t, double a, double b) {
