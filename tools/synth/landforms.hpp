@@ -2,7 +2,7 @@
 // Kinds whose ground is another one than that of the mountains: its seas, lakes, plains and houses.
 #pragma once
 
-#include "tools/synth/synth_kind_task.hpp"
+#include "tools/synth/kind_task.hpp"
 
 namespace tetrakis::tools::synth {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Layers from the bare rock up: scree, grass, fields, wood, snow, sand, water. Each covers the one
 // below by a share that depends on the site and frays with noise.
-#include "tools/synth/synth_ground.hpp"
+#include "tools/synth/ground.hpp"
 
-#include "tools/synth/synth_parcels.hpp"
+#include "tools/synth/parcels.hpp"
 
 namespace tetrakis::tools::synth {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tools/synth/synth_grid.hpp"
+#include "tools/synth/grid.hpp"
 
 namespace tetrakis::tools::synth {
 

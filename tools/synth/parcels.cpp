@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Districts are Voronoi cells of jittered points; parcels are bricks in turned coordinates.
-#include "tools/synth/synth_parcels.hpp"
+#include "tools/synth/parcels.hpp"
 
 #include <array>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "tools/files/files.hpp"
-#include "tools/synth/synth_rivers.hpp"
+#include "tools/synth/rivers.hpp"
 
 namespace tetrakis::tools::synth {
 

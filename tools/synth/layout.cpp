@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Belts across the terrain, bent by noise.
-#include "tools/synth/synth_layout.hpp"
+#include "tools/synth/layout.hpp"
 
 namespace tetrakis::tools::synth {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "tools/synth/synth_grid.hpp"
+#include "tools/synth/grid.hpp"
 
 namespace tetrakis::tools::synth {
 

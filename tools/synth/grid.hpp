@@ -9,7 +9,7 @@
 #include <functional>
 #include <vector>
 
-#include "tools/synth/synth_noise.hpp"
+#include "tools/synth/noise.hpp"
 
 namespace tetrakis::tools::synth {
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "tools/synth/synth_noise.hpp"
+#include "tools/synth/noise.hpp"
 
 namespace tetrakis::tools::synth {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "tools/synth/synth_noise.hpp"
+#include "tools/synth/noise.hpp"
 
 namespace tetrakis::tools::synth {
 

@@ -3,7 +3,7 @@
 // formats make of it.
 #pragma once
 
-#include "tools/synth/synth_kind_task.hpp"
+#include "tools/synth/kind_task.hpp"
 
 namespace tetrakis::tools::synth {
 

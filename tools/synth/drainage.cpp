@@ -2,14 +2,14 @@
 // Water takes the steepest way down between the levels to which depressions fill. Level ground is
 // flooded from the cells that drain (Barnes, Lehman, Mulla, "Priority-flood", Computers &
 // Geosciences 62, 2014), so that each cell there is reached.
-#include "tools/synth/synth_drainage.hpp"
+#include "tools/synth/drainage.hpp"
 
 #include <functional>
 #include <limits>
 #include <queue>
 #include <tuple>
 
-#include "tools/synth/synth_basins.hpp"
+#include "tools/synth/basins.hpp"
 
 namespace tetrakis::tools::synth {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/synth/synth_landforms.hpp"
+#include "tools/synth/landforms.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "tools/synth/synth_parcels.hpp"
+#include "tools/synth/parcels.hpp"
 
 namespace tetrakis::tools::synth {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Work on rows by all processors; smoothing by running sums.
-#include "tools/synth/synth_grid.hpp"
+#include "tools/synth/grid.hpp"
 
 #include <thread>
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "tools/synth/synth_relief.hpp"
+#include "tools/synth/relief.hpp"
 
 namespace tetrakis::tools::synth {
 

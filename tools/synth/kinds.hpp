@@ -3,8 +3,8 @@
 // terrain models.
 #pragma once
 
+#include "tools/synth/kind_task.hpp"
 #include "tools/synth/synth.hpp"
-#include "tools/synth/synth_kind_task.hpp"
 
 namespace tetrakis::tools::synth {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "tetrakis/tetrakis.h"
-#include "tools/synth/synth_noise.hpp"
-#include "tools/synth/synth_relief.hpp"
+#include "tools/synth/noise.hpp"
+#include "tools/synth/relief.hpp"
 
 namespace tetrakis::tools::synth {
 

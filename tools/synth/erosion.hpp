@@ -2,7 +2,7 @@
 // The work of rivers and slopes on a raster of heights.
 #pragma once
 
-#include "tools/synth/synth_drainage.hpp"
+#include "tools/synth/drainage.hpp"
 
 namespace tetrakis::tools::synth {
 

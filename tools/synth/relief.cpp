@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // From coarse to fine: mountains rise against erosion on a coarse raster until they are dissected;
 // each finer raster adds detail and lets the rivers work again.
-#include "tools/synth/synth_relief.hpp"
+#include "tools/synth/relief.hpp"
 
 #include <map>
 
-#include "tools/synth/synth_erosion.hpp"
-#include "tools/synth/synth_layout.hpp"
+#include "tools/synth/erosion.hpp"
+#include "tools/synth/layout.hpp"
 
 namespace tetrakis::tools::synth {
 namespace {

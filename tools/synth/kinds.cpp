@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/synth/synth_kinds.hpp"
+#include "tools/synth/kinds.hpp"
 
-#include "tools/synth/synth_artefacts.hpp"
-#include "tools/synth/synth_landforms.hpp"
+#include "tools/synth/artefacts.hpp"
+#include "tools/synth/landforms.hpp"
 
 namespace tetrakis::tools::synth {
 

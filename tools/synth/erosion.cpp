@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Stream-power incision, hillslope creep, talus.
-#include "tools/synth/synth_erosion.hpp"
+#include "tools/synth/erosion.hpp"
 
 #include <array>
 

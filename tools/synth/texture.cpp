@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ground colours under the sun, seen through air, lens and sensor.
-#include "tools/synth/synth_texture.hpp"
+#include "tools/synth/texture.hpp"
 
-#include "tools/synth/synth_ground.hpp"
+#include "tools/synth/ground.hpp"
 
 namespace tetrakis::tools::synth {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/synth/synth_map.hpp"
+#include "tools/synth/map.hpp"
 
 #include <algorithm>
 #include <array>

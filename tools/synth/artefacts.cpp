@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/synth/synth_artefacts.hpp"
+#include "tools/synth/artefacts.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,12 +4,12 @@
 // Braun, "A versatile, linear complexity algorithm for flow routing in topographies with
 // depressions", Earth Surface Dynamics 7, 2019), here by Kruskal: everything but the passes is
 // visited row by row.
-#include "tools/synth/synth_basins.hpp"
+#include "tools/synth/basins.hpp"
 
 #include <array>
 #include <numeric>
 
-#include "tools/synth/synth_drainage.hpp"
+#include "tools/synth/drainage.hpp"
 
 namespace tetrakis::tools::synth {
 namespace {

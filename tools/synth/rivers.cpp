@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The drainage tree, smoothed along its branches and drawn segment by segment.
-#include "tools/synth/synth_rivers.hpp"
+#include "tools/synth/rivers.hpp"
 
 #include <limits>
 #include <thread>

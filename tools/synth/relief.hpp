@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "tools/synth/synth_drainage.hpp"
-#include "tools/synth/synth_grid.hpp"
+#include "tools/synth/drainage.hpp"
+#include "tools/synth/grid.hpp"
 
 namespace tetrakis::tools::synth {
 
