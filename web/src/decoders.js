@@ -29,7 +29,8 @@ class RemoteDecoder {
     };
     worker.onerror = (event) => {
       event.preventDefault?.();
-      this.#failAll(new TksError('io', `The worker failed: ${event.message ?? 'it did not start'}.`));
+      const reason = event.message ?? 'it did not start';
+      this.#failAll(new TksError('io', `The worker failed: ${reason}.`));
     };
   }
   #failAll(error) {

@@ -12,7 +12,7 @@ import {cutOf, plannedView} from './view.js';
 
 export {FIRST_FRAME, TksError, groundScale};
 
-/** What a request costs beside its own: 50 ms at 10 Mb/s, shared by the dozen that go out at a time. */
+/** What a request costs beside its own: 50 ms at 10 Mb/s, shared by the dozen sent at a time. */
 const REQUEST_BYTES = 4096;
 
 const DEFAULTS = {

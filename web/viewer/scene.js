@@ -180,8 +180,10 @@ export class Picture {
     const pixel = Math.tan(MathUtils.degToRad(this.camera.fov) / 2) / (innerHeight / 2);
     const {offsetX, offsetY} = this.camera.view;
     const window = {
-      left: (left - innerWidth / 2 + offsetX) * pixel, right: (right - innerWidth / 2 + offsetX) * pixel,
-      low: (innerHeight / 2 - offsetY - bottom) * pixel, high: (innerHeight / 2 - offsetY - top) * pixel,
+      left: (left - innerWidth / 2 + offsetX) * pixel,
+      right: (right - innerWidth / 2 + offsetX) * pixel,
+      low: (innerHeight / 2 - offsetY - bottom) * pixel,
+      high: (innerHeight / 2 - offsetY - top) * pixel,
     };
     const axes = {ahead, right: across, up: new Vector3().crossVectors(across, ahead)};
     const {matrixWorld, geometry} = this.#object, places = geometry.getAttribute('position');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page: opens a stream (of start.js, a drop, a file), refines it, and lets its bytes and triangles
-// be chosen.
+// The page: opens a stream (of start.js, a drop, a file), refines it, and lets its bytes and
+// triangles be chosen.
 import {encode} from '../src/encode.js';
 import {open} from '../src/index.js';
 import {FIRST_FRAME, TksTerrain, textureOf} from '../src/three.js';
@@ -74,7 +74,8 @@ function readOut(frame, triangles) {
   const [most, least] = scattered ? ['≤ ', '≥ '] : ['', ''];
   const rmse = info.heightsRmse;
   $('rmse').textContent =
-    rmse < 0 ? '–' : rmse === 0 ? 'exact' : `${most}${Number(rmse.toPrecision(2))} ${info.unit}`.trim();
+    rmse < 0 ? '–' : rmse === 0 ? 'exact'
+    : `${most}${Number(rmse.toPrecision(2))} ${info.unit}`.trim();
   $('psnr').textContent = info.texturePsnr < 0 ? '–'
     : isFinite(info.texturePsnr) ? `${least}${info.texturePsnr.toFixed(1)} dB` : 'exact';
   const share = (bytes) => `${(100 * bytes) / info.streamBytes}%`;
@@ -85,7 +86,8 @@ function readOut(frame, triangles) {
   $('heights-share').hidden = !info.hasHeights;
   $('texture-share').hidden = !info.hasTexture;
   const {requests, bytes} = terrain.loaded;
-  const how = requests ? `fetched in ${requests === 1 ? '1 request' : `${requests} requests`}` : 'read';
+  const plural = requests === 1 ? '' : 's';
+  const how = requests ? `fetched in ${requests} request${plural}` : 'read';
   const where = $('ground').hidden ? '' : ', and for which ground';
   $('fetched-text').textContent = `${formatBytes(bytes)} ${how}${where}`;
   map.draw();
@@ -94,7 +96,9 @@ function readOut(frame, triangles) {
 /** What leaves the picture empty, if anything does. */
 function emptiness({info, mesh, texture, complete}) {
   if (!complete) return '';
-  if (info.hasHeights && mesh?.triangles.length === 0) return 'All heights of this stream are voids';
+  if (info.hasHeights && mesh?.triangles.length === 0) {
+    return 'All heights of this stream are voids';
+  }
   if (!info.textureCutout || !texture) return '';
   for (let i = 3; i < texture.data.length; i += 4) if (texture.data[i] > 0) return '';
   return 'The cut-out of this stream hides all texels';
@@ -235,14 +239,17 @@ function replan() {
 }
 /** Of the header alone there is a surface too. */
 const leastBytes = () => Math.min(terrain.info.headerBytes, terrain.info.streamBytes - 1);
-const mostTriangles = () =>
-  Math.max(2 * LEAST_TRIANGLES, Math.min(MOST_TRIANGLES, 2 * terrain.info.width * terrain.info.height));
+const mostTriangles = () => {
+  const {width, height} = terrain.info;
+  return Math.max(2 * LEAST_TRIANGLES, Math.min(MOST_TRIANGLES, 2 * width * height));
+};
 
 /** Sliders and switches for what was opened. */
 function prepareControls(info) {
   $('panel').hidden = false;
   picture.resize();
-  $('bytes').value = toSlider(Math.min(info.streamBytes, FREE_BYTES), leastBytes(), info.streamBytes);
+  $('bytes').value =
+    toSlider(Math.min(info.streamBytes, FREE_BYTES), leastBytes(), info.streamBytes);
   $('triangles').value = toSlider(Math.min(USUAL_TRIANGLES, mostTriangles()), LEAST_TRIANGLES,
     mostTriangles());
   for (const control of document.querySelectorAll('.of-heights')) control.hidden = !info.hasHeights;
@@ -348,7 +355,7 @@ function place(name) {
   return numbers.length === 3 && numbers.every(isFinite) ? numbers : null;
 }
 
-/** What is higher than wide, often because nothing states how far its samples lie apart, is flattened. */
+/** Flattens what is higher than wide, often because no spacing of its samples is stated. */
 function exaggerate() {
   if (!object?.frame) return;
   const {tallness} = picture, usual = tallness > 1 ? 1 / (8 * tallness) : 1;
