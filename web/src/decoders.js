@@ -5,7 +5,7 @@ import {abortable} from './abort.js';
 import {compile} from './compile.js';
 import {TksError} from './error.js';
 import {Operations} from './operations.js';
-import {threadOf} from './thread.js';
+import {onFailure, threadOf} from './thread.js';
 
 /** What one decoding may take. */
 const MEMORY = 2 ** 30;
@@ -27,11 +27,7 @@ class RemoteDecoder {
       if (!error) return resolve(result);
       reject(Object.assign(new TksError(error.code, error.message), {needed: error.needed}));
     };
-    worker.onerror = (event) => {
-      event.preventDefault?.();
-      const reason = event.message ?? 'it did not start';
-      this.#failAll(new TksError('io', `The worker failed: ${reason}.`));
-    };
+    onFailure(worker, (error) => this.#failAll(error));
   }
   #failAll(error) {
     for (const {reject} of this.#waiting.values()) reject(error);
