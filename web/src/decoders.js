@@ -80,3 +80,9 @@ export function startDecoder({worker, wasm, memory = MEMORY} = {}) {
   decoder.ready.catch(() => {});
   return decoder;
 }
+
+/** What a call of a decoder gives, once that is ready: the first bytes are fetched meanwhile. */
+export async function askDecoder(decoder, operation, argument, signal) {
+  await abortable(decoder.ready, signal);
+  return decoder.call(operation, argument, signal);
+}
