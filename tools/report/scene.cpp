@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/length_unit.hpp"
+#include "base/samples.hpp"
 #include "ground/preset_cameras.hpp"
 #include "ground/vec3.hpp"
 
@@ -111,29 +112,7 @@ Surface samplesOf(uint32_t width, uint32_t height, tks_sample sample,
                   std::span<const std::byte> data) {
   Surface surface{width, height, {}};
   surface.values.reserve(size_t{width} * height);
-  switch (sample) {
-    case TKS_U8:
-      appendSamples<uint8_t>(data, surface.values);
-      break;
-    case TKS_I8:
-      appendSamples<int8_t>(data, surface.values);
-      break;
-    case TKS_U16:
-      appendSamples<uint16_t>(data, surface.values);
-      break;
-    case TKS_I16:
-      appendSamples<int16_t>(data, surface.values);
-      break;
-    case TKS_U32:
-      appendSamples<uint32_t>(data, surface.values);
-      break;
-    case TKS_I32:
-      appendSamples<int32_t>(data, surface.values);
-      break;
-    case TKS_F32:
-      appendSamples<float>(data, surface.values);
-      break;
-  }
+  withSampleType(sample, [&]<class T>(T) { appendSamples<T>(data, surface.values); });
   return surface;
 }
 
