@@ -17,7 +17,7 @@
 #include "tools/files/positive.hpp"
 #include "tools/files/stream.hpp"
 #include "tools/files/units.hpp"
-#include "tools/report/scene.hpp"
+#include "tools/report/camera_choice.hpp"
 
 namespace tetrakis::tools {
 
