@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/commands/command.hpp"
+#include "tools/commands/options.hpp"
 
 namespace tetrakis::tools {
 
