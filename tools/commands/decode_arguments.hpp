@@ -24,6 +24,11 @@ struct DecodeArguments {
   bool force = false;
 };
 
+/// For a file of its own, or on the mesh.
+inline bool wantsTexture(const DecodeArguments& arguments) {
+  return !arguments.texture.empty() || !arguments.mesh.empty();
+}
+
 void addArguments(CLI::App& verb, DecodeArguments& arguments);
 
 /// TKS_USAGE if the outputs do not go together, or there is none.
