@@ -3,8 +3,9 @@
 
 export const $ = (id) => document.getElementById(id);
 
-/** As in style.css. */
-const SMALL_SCREEN = '(max-width: 640px), (max-height: 520px)';
+/** Up to this width, in pixels, the panel lies below the terrain: as in style.css. */
+export const NARROW = 640;
+const SMALL_SCREEN = `(max-width: ${NARROW}px), (max-height: 520px)`;
 export const isSmallScreen = () => matchMedia(SMALL_SCREEN).matches;
 
 /** What neither the name nor the panel lies over. */
