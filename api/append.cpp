@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "api/decoder.hpp"
-#include "api/message.hpp"
 #include "base/describe_bytes.hpp"
 
 namespace tetrakis::inline api {
@@ -156,17 +155,4 @@ tks_status tks_put_ranges(tks_decoder* decoder, const tks_range* ranges, const u
     }
     return tetrakis::put(*decoder, runs);
   });
-}
-
-tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes) {
-  if (bytes == nullptr || (data == nullptr && size != 0)) return TKS_USAGE;
-  *bytes = 0;
-  const tetrakis::Status status = tetrakis::guarded([&]() -> tetrakis::Status {
-    const auto needed = tetrakis::headerBytes({data, size});
-    if (!needed.ok()) return needed.status();
-    *bytes = *needed;
-    if (*needed > size) return {TKS_TRUNCATED, "The header is cut short."};
-    return {};
-  });
-  return status.code();
 }

@@ -146,9 +146,8 @@ tks_status tks_decode_screen_mesh(tks_decoder* decoder, const tks_screen* screen
   if (out == nullptr) return tetrakis::keeping(decoder, tetrakis::outputMissing);
   if (decoder == nullptr) return TKS_USAGE;
   *out = {};
-  const tetrakis::Status status = tetrakis::guarded(
-      [&] { return tetrakis::ScreenMeshCall(*decoder, max_triangles).run(screen, *out); });
-  if (!status.ok()) tks_free_mesh(out);
-  decoder->message = status.message();
-  return status.code();
+  const tks_status status = tetrakis::keeping(
+      decoder, [&] { return tetrakis::ScreenMeshCall(*decoder, max_triangles).run(screen, *out); });
+  if (status != TKS_OK) tks_free_mesh(out);
+  return status;
 }

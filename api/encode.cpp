@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoding half of the C interface (include/tetrakis/tetrakis.h): arguments, and memory handed
-// to the caller.
+// The encoding half of the C interface (include/tetrakis/tetrakis.h): arguments are checked, and a
+// stream is proved before it is handed over.
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <cstring>
 #include <initializer_list>
 
+#include "api/buffer.hpp"
 #include "api/message.hpp"
 #include "api/proof.hpp"
 #include "api/sized.hpp"
@@ -171,10 +171,7 @@ Status encodeAndProve(const tks_heights* heights, const tks_image* image,
   Status proved = prove(*stream, known_heights, known_image, known.options);
   if (!proved.ok()) return proved;
   watch.stage(1);
-  out->data = static_cast<uint8_t*>(std::malloc(stream->size()));
-  if (out->data == nullptr) throw std::bad_alloc();
-  std::memcpy(out->data, stream->data(), stream->size());
-  out->size = stream->size();
+  giveBytes(*stream, *out);
   return {};
 }
 
@@ -218,10 +215,4 @@ tks_status tks_find_outliers(const tks_heights* heights, tks_outliers* out) {
       tetrakis::guarded([&] { return tetrakis::takeHeights(*heights, known); });
   if (status.ok()) tetrakis::giveSized(tetrakis::findOutliers(known), *out);
   return status.code();
-}
-
-void tks_free_buffer(tks_buffer* buffer) {
-  if (buffer == nullptr) return;
-  std::free(buffer->data);
-  *buffer = {nullptr, 0};
 }

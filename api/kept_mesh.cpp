@@ -47,10 +47,8 @@ tks_status tks_decode_mesh_tree(tks_decoder* decoder, tks_mesh_kind kind, uint32
   if (out == nullptr) return tetrakis::keeping(decoder, tetrakis::outputMissing);
   if (decoder == nullptr) return TKS_USAGE;
   *out = nullptr;
-  const tetrakis::Status status =
-      tetrakis::guarded([&] { return tetrakis::decodeTree(*decoder, kind, max_triangles, *out); });
-  decoder->message = status.message();
-  return status.code();
+  return tetrakis::keeping(
+      decoder, [&] { return tetrakis::decodeTree(*decoder, kind, max_triangles, *out); });
 }
 
 tks_status tks_view_mesh(const tks_mesh_tree* tree, const double clip[16], tks_mesh* out) {

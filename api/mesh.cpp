@@ -153,11 +153,10 @@ tks_status tks_decode_mesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t ma
   if (out == nullptr) return tetrakis::keeping(decoder, tetrakis::outputMissing);
   if (decoder == nullptr) return TKS_USAGE;
   *out = {};
-  const tetrakis::Status status =
-      tetrakis::guarded([&] { return tetrakis::decodeMesh(*decoder, kind, max_triangles, *out); });
-  if (!status.ok()) tks_free_mesh(out);
-  decoder->message = status.message();
-  return status.code();
+  const tks_status status = tetrakis::keeping(
+      decoder, [&] { return tetrakis::decodeMesh(*decoder, kind, max_triangles, *out); });
+  if (status != TKS_OK) tks_free_mesh(out);
+  return status;
 }
 
 void tks_free_mesh(tks_mesh* mesh) {

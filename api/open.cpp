@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens any bytes as a stream: header, limits, packets. Nothing is decoded yet.
+// Opens any bytes as a stream: header, limits, packets. Nothing is decoded yet. How many bytes that
+// takes can be asked for first.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -140,6 +141,19 @@ Status takeMorePackets(tks_decoder& decoder) {
 }
 
 }  // namespace tetrakis::inline api
+
+tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes) {
+  if (bytes == nullptr || (data == nullptr && size != 0)) return TKS_USAGE;
+  *bytes = 0;
+  const tetrakis::Status status = tetrakis::guarded([&]() -> tetrakis::Status {
+    const auto needed = tetrakis::headerBytes({data, size});
+    if (!needed.ok()) return needed.status();
+    *bytes = *needed;
+    if (*needed > size) return {TKS_TRUNCATED, "The header is cut short."};
+    return {};
+  });
+  return status.code();
+}
 
 tks_status tks_open(const uint8_t* data, size_t size, const tks_limits* limits, tks_decoder** out,
                     char* message, size_t message_size) {

@@ -7,12 +7,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <cstring>
-#include <new>
 #include <span>
 #include <vector>
 
+#include "api/buffer.hpp"
 #include "api/outlook.hpp"
 #include "api/screen_camera.hpp"
 #include "bitstream/stream/checksum.hpp"
@@ -167,10 +165,7 @@ Status reorder(tks_decoder& decoder, const std::vector<WeightedSighting>& sighti
   std::vector<uint8_t> stream = writeHeader(reordered);
   stream.insert(stream.end(), payload.begin(), payload.end());
   if (!holdTheSame(decoder.data, stream)) return wrongIndex();
-  out.data = static_cast<uint8_t*>(std::malloc(stream.size()));
-  if (out.data == nullptr) throw std::bad_alloc();
-  std::memcpy(out.data, stream.data(), stream.size());
-  out.size = stream.size();
+  giveBytes(stream, out);
   return {};
 }
 

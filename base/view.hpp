@@ -59,7 +59,7 @@ struct DecodeContext {
 /// Copies the values that a view shows. A plane without values stays empty: masks without bytes
 /// mark every sample of a view as well.
 template <class T>
-std::vector<T> cut(std::span<const T> values, Extent plane, const View& view) {
+std::vector<T> slice(std::span<const T> values, Extent plane, const View& view) {
   std::vector<T> shown;
   if (values.empty()) return shown;
   assert(values.size() == plane.samples());
@@ -83,7 +83,7 @@ class WindowValues {
  public:
   WindowValues(std::span<const T> values, Extent plane, const Window& window) : values_(values) {
     if (values.empty() || window.extent() == plane) return;
-    copy_ = cut(values, plane, {0, window});
+    copy_ = slice(values, plane, {0, window});
     values_ = copy_;
   }
   WindowValues(const WindowValues&) = delete;

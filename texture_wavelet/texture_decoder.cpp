@@ -74,8 +74,8 @@ Texels decodeDirect(const TextureHeader& header, std::span<const uint8_t> codewo
   const Window samples{texel_window.x * channels, texel_window.y, texel_window.width * channels,
                        texel_window.height};
   Texels part = emptyTexels(header, texel_window.extent());
-  part.samples = cut(std::span<const uint16_t>(texels.samples),
-                     {texels.width * channels, texels.height}, {0, samples});
+  part.samples = slice(std::span<const uint16_t>(texels.samples),
+                       {texels.width * channels, texels.height}, {0, samples});
   return part;
 }
 
@@ -116,7 +116,7 @@ class ColourPlanes {
   std::vector<std::vector<int32_t>> restore(uint32_t threads, bool rounds) {
     inverseColourLevels(colourOf(header_), pyramid(), synthesis_);
     const std::vector<uint8_t> shown =
-        cut(std::span<const uint8_t>(opening_.coded), header_.extent(), view_);
+        slice(std::span<const uint8_t>(opening_.coded), header_.extent(), view_);
     std::vector<std::vector<int32_t>> planes(synthesis_.size());
     // A window's inverse transform knows no threads, that of a whole plane does.
     parallelFor(view_.window ? threads : 1, planes.size(), [&](size_t c) {
@@ -168,7 +168,7 @@ Texels decodeLines(const TextureHeader& header, const Codewords& codewords, cons
   std::vector<std::vector<int32_t>> planes = colours.restore(context.threads, precision.rounds);
   Texels texels = emptyTexels(header, view.extentIn(header.extent()));
   finish(header, precision.fraction_bits, planes, context.threads, texels);
-  finishAlpha(cut(std::span<const uint8_t>(opening->seen), header.extent(), view), texels);
+  finishAlpha(slice(std::span<const uint8_t>(opening->seen), header.extent(), view), texels);
   opening->paint(header.extent(), view, texels);
   return texels;
 }

@@ -14,7 +14,9 @@ const {chromium} = require('playwright-core');
 
 const [cli, input, bytes, spacing, folder] = process.argv.slice(2);
 const RUNS = 3;
-const LINK = {latency: 50, downloadThroughput: 10e6 / 8, uploadThroughput: 10e6 / 8, offline: false};
+const LINK = {
+  latency: 50, downloadThroughput: 10e6 / 8, uploadThroughput: 10e6 / 8, offline: false,
+};
 /** Budgets of the GLBs' meshes, least and best quality of their pictures, and our triangles. */
 const TRIANGLES = [20000, 80000];
 const [WORST, BEST] = [5, 98];
@@ -43,7 +45,8 @@ make('encode', heights, '--texture', texture, '--lossless', '-o', `${folder}/who
 make('encode', heights, '--texture', texture, '--bytes', bytes, '-o', `${folder}/ours.tks`);
 const info = JSON.parse(execFileSync(cli, ['info', '--json', `${folder}/whole.tks`]));
 const site = await Site.open(web);
-const browser = await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
+const browser = await chromium.launch(
+  {executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
 
 /** Opens a method's page in a context and gives its marks: [{ms, bytes, dB}]. */
 async function opened(context, method, query, link) {
@@ -77,7 +80,8 @@ const {width, height, geotransform: [, dx, , , , dy]} = info.heights;
 const {computedMin, computedMax} = JSON.parse(execFileSync('gdalinfo', ['-json', '-mm', heights]))
   .bands[0];
 const metres = (value) => value * info.heights.scale + info.heights.offset;
-const ground = [(width - 1) * dx, (height - 1) * -dy, metres((computedMin + computedMax) / 2)].join();
+const middle = metres((computedMin + computedMax) / 2);
+const ground = [(width - 1) * dx, (height - 1) * -dy, middle].join();
 
 const JUDGE = {judge: '/data/judge'};
 const evaluation = await browser.newContext({viewport: {width: 980, height: 560}});
@@ -103,7 +107,7 @@ function pictureOf(ending, level, halvings) {
   return pictures.get(key);
 }
 
-/** The smallest GLB whose picture has `target` dB. `maker(triangles)`: from a picture to the file. */
+/** The smallest GLB whose picture has `target` dB. `maker(triangles)`: from picture to file. */
 async function smallestGlb(method, ending, maker, target) {
   let best = null, nearest = -Infinity;
   const reachesWith = (glb, halvings) => async (level) => {
@@ -162,8 +166,8 @@ const linkSeconds = (rounds, count) =>
 /** Rounds before the data: the page, then its script with what comes beside it. */
 const CODE_ROUNDS = 2;
 
-/** Pairs of seconds, with nothing in the cache and with the page's code there: of the link, and least
- * ones of runs in the browser. */
+/** Pairs of seconds, with nothing in the cache and with the page's code there: of the link, and
+ * least ones of runs in the browser. */
 async function arrival(method, query) {
   const cold = [], warm = [];
   let code;
@@ -203,7 +207,8 @@ const ours = {...DECODER, data: '/data/ours.tks', triangles: OURS};
 const target = await quality('tks', ours);
 console.error(`all are made to reach ${target.toFixed(2)} dB`);
 
-console.log(`${width} x ${height} heights, ${info.texture.width} x ${info.texture.height} texels; ` +
+console.log(
+  `${width} x ${height} heights, ${info.texture.width} x ${info.texture.height} texels; ` +
   `10 Mb/s, 50 ms. Seconds: nothing in the cache / the page's code in it; least of ${RUNS} runs.`);
 const parts = ['first', '95 %', 'last'].map((name) => `${name} kB | dB | s of the link | s`);
 console.log(`| | | code kB | ${parts.join(' | ')} |\n| --- | --- |${' --- |'.repeat(13)}`);

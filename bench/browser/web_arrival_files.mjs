@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files of bench/web_arrival: GLBs without normals, which unlit ground does not need, and sets of
-// tiles.
+// The files of bench/web_arrival: GLBs without normals, which unlit ground does not need, and sets
+// of tiles.
 import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync, readdirSync} from 'node:fs';
 import {createRequire} from 'node:module';
@@ -26,7 +26,8 @@ function parsed(glb) {
 function written(json, parts) {
   const padded = (bytes, filler) =>
     Buffer.concat([bytes, Buffer.alloc(-bytes.length & 3, filler)]);
-  const binary = padded(Buffer.concat(parts), 0), text = padded(Buffer.from(JSON.stringify(json)), 32);
+  const binary = padded(Buffer.concat(parts), 0);
+  const text = padded(Buffer.from(JSON.stringify(json)), 32);
   const words = (...values) => Buffer.from(Uint32Array.from(values).buffer);
   return Buffer.concat([
     words(MAGIC, 2, 28 + text.length + binary.length), words(text.length, JSON_CHUNK), text,
@@ -76,7 +77,8 @@ async function dracoMesh(glb) {
   const places = values(attributes.TEXCOORD_0, Float32Array);
   const triangles = Uint32Array.from(values(indices, wide ? Uint32Array : Uint16Array));
   const module = await draco3d.createEncoderModule({});
-  const encoder = new module.Encoder(), builder = new module.MeshBuilder(), mesh = new module.Mesh();
+  const encoder = new module.Encoder();
+  const builder = new module.MeshBuilder(), mesh = new module.Mesh();
   builder.AddFacesToMesh(mesh, triangles.length / 3, triangles);
   builder.AddFloatAttributeToMesh(mesh, module.POSITION, positions.length / 3, 3, positions);
   builder.AddFloatAttributeToMesh(mesh, module.TEX_COORD, places.length / 2, 2, places);

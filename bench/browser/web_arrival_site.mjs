@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The server of bench/web_arrival: pages with their code, bundled, gzipped and cached as sites do, and
-// data, which no browser keeps.
+// The server of bench/web_arrival: pages with their code, bundled, gzipped and cached as sites do,
+// and data, which no browser keeps.
 import {readFileSync} from 'node:fs';
 import {createServer} from 'node:http';
 import {createRequire} from 'node:module';
@@ -49,7 +49,9 @@ export class Site {
     const early = Object.fromEntries(METHODS.map((name) => [name, EARLY[name] ?? []]));
     // What draws comes behind the decoder, which has work to do meanwhile.
     const ahead = parted.filter(({path}) => path !== '/tks_scene.js');
-    early.tks = [...early.tks, ...ahead.map(({path}) => `<link rel="modulepreload" href="${path}">`)];
+    early.tks = [
+      ...early.tks, ...ahead.map(({path}) => `<link rel="modulepreload" href="${path}">`),
+    ];
     for (const method of METHODS) site.#code(`/${method}.html`, pageOf(method, early[method]));
     site.#code('/tetrakis.wasm', readFileSync(web + 'dist/tetrakis.wasm'));
     const draco = web + 'node_modules/three/examples/jsm/libs/draco/gltf/';

@@ -23,7 +23,8 @@ for (const [name, share] of [['quarter', 1 / 2], ['all', 1]]) {
     const frames = terrain.refine({view, mesh: false, texture: false});
     while (!(await frames.next()).done);
     console.log(name.padEnd(8), String(requestBytes).padStart(15),
-      String(server.requests.length - before).padStart(9), String(terrain.loaded.bytes).padStart(7));
+      String(server.requests.length - before).padStart(9),
+      String(terrain.loaded.bytes).padStart(7));
     terrain.dispose();
   }
 }

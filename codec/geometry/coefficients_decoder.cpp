@@ -80,7 +80,7 @@ DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords
   out.heights = synthesis.run(context.threads, precision.rounds);
   out.fraction_bits = precision.fraction_bits;
   out.valid = view.isWhole() ? std::move(known.valid)
-                             : cut(std::span<const uint8_t>(known.valid), header.extent(), view);
+                             : slice(std::span<const uint8_t>(known.valid), header.extent(), view);
   clearUnmarked(std::span(out.heights), out.valid);
   significance.giveTo(out);
   clearUnmarked(std::span(out.significant), out.valid);

@@ -119,7 +119,7 @@ std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const Geo
   if (layers.late_mask) lifted = lateLifted(taken);
   const std::vector<uint8_t> valid = validityOf(taken, lifted);
   const ShownLines lines(header, view);
-  return lines.shown(cut(std::span<const uint8_t>(valid), header.extent(), lines.coded()));
+  return lines.shown(slice(std::span<const uint8_t>(valid), header.extent(), lines.coded()));
 }
 
 View decodedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view) {

@@ -174,7 +174,7 @@ DecodedHeights corrected(DecodedHeights decoded, const TakenLayers& taken, const
 DecodedHeights windowOf(const DecodedHeights& decoded, const Window& window) {
   const DecodedGeometry& geometry = decoded.geometry;
   const auto cut_out = [&]<class T>(const std::vector<T>& values) {
-    return cut(std::span<const T>(values), geometry.extent(), {0, window});
+    return slice(std::span<const T>(values), geometry.extent(), {0, window});
   };
   DecodedHeights part;
   part.geometry.width = window.width;

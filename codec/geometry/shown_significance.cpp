@@ -6,6 +6,8 @@
 #include <cassert>
 #include <utility>
 
+#include "wavelet/synthesis/plane_synthesis.hpp"
+
 namespace tetrakis::inline geometry {
 
 ShownSignificance::ShownSignificance(const Pyramid& pyramid, const View& view, size_t tracks)

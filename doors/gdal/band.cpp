@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "doors/gdal/block_strips.hpp"
 #include "doors/gdal/pixels.hpp"
 
 namespace tetrakis::gdal {
@@ -38,6 +39,12 @@ GDALDataType typeOf(tks_sample sample) {
   }
   return GDT_Float32;
 }
+
+/// Pixels that were decoded, channels interleaved.
+struct DecodedWindow {
+  tks_window window;
+  std::vector<std::byte> pixels;
+};
 
 class Band final : public GDALPamRasterBand {
  public:
@@ -180,25 +187,13 @@ class Band final : public GDALPamRasterBand {
     return static_cast<int>(std::clamp<GIntBig>(GDALGetCacheMax64() / 4 / row, 1, 1 << 20));
   }
 
-  /// What to decode where blocks are asked for. Who reads one after the other decodes the regions
-  /// around them again and again: once that has cost half of what a strip of all columns costs, the
-  /// strip is decoded, and so is the next one below it. It is all of the raster where a quarter of
-  /// GDAL's cache holds that, which then has cost one and a half times what it must. (Renting skis,
-  /// and then buying them.)
+  /// What to decode where blocks are asked for.
   tks_window grown(const tks_window& blocks) {
     if (!dataset().readsWindows()) return blocks;
     const auto across = static_cast<uint32_t>(DIV_ROUND_UP(nRasterXSize, nBlockXSize));
     const auto down = static_cast<uint32_t>(DIV_ROUND_UP(nRasterYSize, nBlockYSize));
-    const uint32_t rows = std::min(static_cast<uint32_t>(rowsOfStrip(nRasterXSize)), down);
-    const bool next = strip_end_ != 0 && blocks.y == strip_end_;
-    spent_ += std::min(uint64_t{blocks.width} + around(nBlockXSize), uint64_t{across}) *
-              std::min(uint64_t{blocks.height} + around(nBlockYSize), uint64_t{down});
-    const uint64_t price = uint64_t{across} * std::min(rows + around(nBlockYSize), down);
-    if (blocks.height > rows || (!next && 2 * spent_ < price)) return blocks;
-    spent_ = 0;
-    const uint32_t top = std::min(blocks.y, down - rows);
-    strip_end_ = top + rows;
-    return {0, top, across, rows};
+    const auto rows = static_cast<uint32_t>(rowsOfStrip(nRasterXSize));
+    return strips_.grown(blocks, {across, down, rows, around(nBlockXSize), around(nBlockYSize)});
   }
 
   bool cached(int x, int y) {
@@ -230,10 +225,10 @@ class Band final : public GDALPamRasterBand {
   /// that is given, everything else into the cache.
   CPLErr readBlocks(const tks_window& blocks, const tks_window& asked, std::byte* out) {
     const uint32_t x = blocks.x * nBlockXSize, y = blocks.y * nBlockYSize;
-    const tks_window window{x, y, std::min<uint32_t>(blocks.width * nBlockXSize, nRasterXSize - x),
-                            std::min<uint32_t>(blocks.height * nBlockYSize, nRasterYSize - y)};
-    std::vector<std::byte> pixels;
-    if (!dataset().read(window, pixels)) return CE_Failure;
+    DecodedWindow decoded{{x, y, std::min<uint32_t>(blocks.width * nBlockXSize, nRasterXSize - x),
+                           std::min<uint32_t>(blocks.height * nBlockYSize, nRasterYSize - y)},
+                          {}};
+    if (!dataset().read(decoded.window, decoded.pixels)) return CE_Failure;
     const auto own = [&](int band, uint32_t bx, uint32_t by) {
       return out != nullptr && band == nBand && bx == asked.x && by == asked.y;
     };
@@ -241,8 +236,8 @@ class Band final : public GDALPamRasterBand {
       for (uint32_t by = blocks.y; by < blocks.y + blocks.height; ++by) {
         for (uint32_t bx = blocks.x; bx < blocks.x + blocks.width; ++bx) {
           if (own(band, bx, by)) {
-            spread(pixels, window, band, bx, by, out);
-          } else if (!intoCache(pixels, window, band, bx, by)) {
+            spread(decoded, band, bx, by, out);
+          } else if (!intoCache(decoded, band, bx, by)) {
             return CE_Failure;
           }
         }
@@ -251,26 +246,26 @@ class Band final : public GDALPamRasterBand {
     return CE_None;
   }
 
-  bool intoCache(const std::vector<std::byte>& pixels, const tks_window& window, int band,
-                 uint32_t bx, uint32_t by) {
+  bool intoCache(const DecodedWindow& decoded, int band, uint32_t bx, uint32_t by) {
     Band& other = static_cast<Band&>(*poDS->GetRasterBand(band));
     const int x = static_cast<int>(bx), y = static_cast<int>(by);
     if (other.cached(x, y)) return true;
     GDALRasterBlock* const block = other.GetLockedBlockRef(x, y, TRUE);
     if (block == nullptr) return false;
-    spread(pixels, window, band, bx, by, static_cast<std::byte*>(block->GetDataRef()));
+    spread(decoded, band, bx, by, static_cast<std::byte*>(block->GetDataRef()));
     block->DropLock();
     return true;
   }
 
   /// One block of one channel out of the pixels of a window.
-  void spread(const std::vector<std::byte>& pixels, const tks_window& window, int band, uint32_t bx,
-              uint32_t by, std::byte* to) const {
+  void spread(const DecodedWindow& decoded, int band, uint32_t bx, uint32_t by,
+              std::byte* to) const {
+    const tks_window& window = decoded.window;
     const size_t sample = tks_sample_bytes(dataset().source().sample());
     const size_t pixel = dataset().source().pixelBytes();
     const uint32_t x = bx * nBlockXSize - window.x, y = by * nBlockYSize - window.y;
     const size_t row = window.width * pixel;
-    const Pixels from{pixels.data() + y * row + x * pixel + (band - 1) * sample, row, pixel,
+    const Pixels from{decoded.pixels.data() + y * row + x * pixel + (band - 1) * sample, row, pixel,
                       std::min<uint32_t>(nBlockXSize, window.width - x),
                       std::min<uint32_t>(nBlockYSize, window.height - y)};
     copySamples(from, sample, to, nBlockXSize * sample);
@@ -286,8 +281,7 @@ class Band final : public GDALPamRasterBand {
   }
 
   BandFacts facts_;
-  uint64_t spent_ = 0;      ///< blocks that were decoded since the last strip
-  uint32_t strip_end_ = 0;  ///< the row of blocks below that strip
+  BlockStrips strips_;
 };
 
 }  // namespace

@@ -154,7 +154,7 @@ void expectCodedWindows(Random& random, const Coded& coded, const Size& size,
         decodeCoefficients(coded.header, coded.spans(), valid, {0, window}, {threads});
     ASSERT_EQ(part.fraction_bits, whole.fraction_bits);
     ASSERT_EQ(part.heights,
-              cut(std::span<const int32_t>(whole.heights), size.extent(), {0, window}))
+              slice(std::span<const int32_t>(whole.heights), size.extent(), {0, window}))
         << size << ": " << window.x << " " << window.y << " " << window.width << " "
         << window.height;
   }
@@ -223,8 +223,8 @@ TEST(Windows, OfTextures) {
           const auto threads = static_cast<uint32_t>(1 + i);
           const Texels part = decodeTexture(coded.header, codewords, {0, w}, {threads});
           const Window samples{w.x * channels, w.y, w.width * channels, w.height};
-          ASSERT_EQ(part.samples, cut(std::span<const uint16_t>(whole.samples),
-                                      {size.width * channels, size.height}, {0, samples}));
+          ASSERT_EQ(part.samples, slice(std::span<const uint16_t>(whole.samples),
+                                        {size.width * channels, size.height}, {0, samples}));
         }
       }
     }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a folder of quantized-mesh tiles by @here/quantized-mesh-decoder, which is looked for in the
-// working folder: each tile has a normal a vertex, availability on every tenth level, and triangles
-// that fill it and turn the right way.
+// Reads a folder of quantized-mesh tiles by @here/quantized-mesh-decoder, which is looked for in
+// the working folder: each tile has a normal a vertex, availability on every tenth level, and
+// triangles that fill it and turn the right way.
 import assert from 'node:assert/strict';
 import { readFileSync, readdirSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 
 const kSide = 32767;
-const decode = createRequire(join(process.cwd(), 'index.js'))('@here/quantized-mesh-decoder').default;
+const requireHere = createRequire(join(process.cwd(), 'index.js'));
+const decode = requireHere('@here/quantized-mesh-decoder').default;
 
 function twiceArea({ triangleIndices, vertexData }) {
   const count = vertexData.length / 3;

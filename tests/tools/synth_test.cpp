@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "tests/support/synth_digest.hpp"
-#include "tools/synth/synth_drainage.hpp"
-#include "tools/synth/synth_parcels.hpp"
+#include "tools/synth/drainage.hpp"
+#include "tools/synth/parcels.hpp"
 
 namespace tetrakis::tools {
 namespace {

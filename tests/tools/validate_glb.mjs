@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the Khronos glTF validator over the files named as arguments; exit code 1 if one of them has an
-// error or a warning, 2 if the validator (npm: gltf-validator) is not installed or a file is missing.
-// The validator is looked for beside this script, in the working folder, and in $NODE_PATH.
+// Runs the Khronos glTF validator over the files named as arguments; exit code 1 if one of them has
+// an error or a warning, 2 if a file is missing or the validator (npm: gltf-validator) is not
+// installed. It is looked for beside this script, in the working folder, and in $NODE_PATH.
 import { readFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';

@@ -132,7 +132,7 @@ TEST(HeldWavelet, WindowsAreThoseOfThePlane) {
       } else {
         const std::vector<int32_t> shown = synthesis.run(1, true);
         const std::vector<uint16_t> numbers =
-            cut(std::span<const uint16_t>(plane.numbers), size.extent(), View{0, window});
+            slice(std::span<const uint16_t>(plane.numbers), size.extent(), View{0, window});
         for (size_t i = 0; i < shown.size(); ++i) {
           if (numbers[i] == 0) continue;
           ASSERT_EQ(shown[i], plane.levels[numbers[i] - 1u]) << spec;

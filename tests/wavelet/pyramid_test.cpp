@@ -127,10 +127,10 @@ TEST(View, CutsWhatItShows) {
   std::vector<int> values(plane.samples());
   std::iota(values.begin(), values.end(), 0);
   const std::span<const int> all(values);
-  EXPECT_EQ(cut(all, plane, {}), values);
-  EXPECT_EQ(cut(all, plane, {1, {}}), (std::vector{0, 2, 4, 6, 14, 16, 18, 20, 28, 30, 32, 34}));
-  EXPECT_EQ(cut(all, plane, {0, Window{5, 3, 2, 2}}), (std::vector{26, 27, 33, 34}));
-  EXPECT_TRUE(cut(std::span<const int>(), plane, {1, {}}).empty());
+  EXPECT_EQ(slice(all, plane, {}), values);
+  EXPECT_EQ(slice(all, plane, {1, {}}), (std::vector{0, 2, 4, 6, 14, 16, 18, 20, 28, 30, 32, 34}));
+  EXPECT_EQ(slice(all, plane, {0, Window{5, 3, 2, 2}}), (std::vector{26, 27, 33, 34}));
+  EXPECT_TRUE(slice(std::span<const int>(), plane, {1, {}}).empty());
   EXPECT_FALSE((Window{5, 3, 3, 2}.isInside(plane)));
   EXPECT_FALSE((Window{UINT32_MAX, 0, 1, 1}.isInside(plane)));
   EXPECT_FALSE((Window{0, 0, 0, 1}.isInside(plane)));

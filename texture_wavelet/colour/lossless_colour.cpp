@@ -34,7 +34,7 @@ struct Sample {
 Sample sampleOf(const Window& part, std::span<const int32_t* const> planes, Extent whole) {
   Sample sample{part.extent(), {}};
   for (const int32_t* plane : planes)
-    sample.planes.push_back(cut(std::span(plane, whole.samples()), whole, {0, part}));
+    sample.planes.push_back(slice(std::span(plane, whole.samples()), whole, {0, part}));
   return sample;
 }
 

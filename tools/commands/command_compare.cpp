@@ -8,6 +8,8 @@
 
 #include "tools/commands/camera_pictures.hpp"
 #include "tools/commands/command.hpp"
+#include "tools/commands/notes.hpp"
+#include "tools/commands/options.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/text.hpp"
 #include "tools/output/json.hpp"

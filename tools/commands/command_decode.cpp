@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "base/length_unit.hpp"
+#include "tools/commands/command.hpp"
 #include "tools/commands/decode_arguments.hpp"
 #include "tools/commands/decode_memory.hpp"
 #include "tools/commands/decode_outputs.hpp"
 #include "tools/commands/decode_windows.hpp"
 #include "tools/commands/decoded_texture.hpp"
 #include "tools/commands/engine_output.hpp"
+#include "tools/commands/notes.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/place/ground_spacing.hpp"
 #include "tools/files/plain_heights.hpp"

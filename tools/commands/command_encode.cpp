@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "base/length_unit.hpp"
+#include "tools/commands/command.hpp"
 #include "tools/commands/encode_memory.hpp"
 #include "tools/commands/encode_notes.hpp"
+#include "tools/commands/notes.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/place/given_crs.hpp"
 #include "tools/files/units.hpp"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tools/commands/command.hpp"
+#include "tools/commands/options.hpp"
 #include "tools/files/plain_heights.hpp"
 #include "tools/output/json.hpp"
 

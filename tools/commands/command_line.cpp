@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tools/commands/command.hpp"
+#include "tools/commands/options.hpp"
 #include "tools/files/memory_limit.hpp"
 
 namespace tetrakis::tools {

@@ -5,7 +5,10 @@
 #include <utility>
 
 #include "tools/commands/command.hpp"
+#include "tools/commands/notes.hpp"
+#include "tools/commands/options.hpp"
 #include "tools/commands/receiver_plan.hpp"
+#include "tools/files/positive.hpp"
 #include "tools/output/json.hpp"
 #include "tools/report/comparison.hpp"
 

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "tools/commands/command.hpp"
+#include "tools/commands/notes.hpp"
+#include "tools/commands/options.hpp"
 #include "tools/files/text.hpp"
 #include "tools/output/json.hpp"
 #include "tools/profile/best_profile.hpp"

@@ -12,6 +12,7 @@
 
 #include "base/parallel.hpp"
 #include "tools/commands/command.hpp"
+#include "tools/commands/options.hpp"
 #include "tools/output/output.hpp"
 #include "tools/synth/synth.hpp"
 

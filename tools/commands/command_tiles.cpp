@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "tools/commands/command.hpp"
+#include "tools/commands/notes.hpp"
+#include "tools/commands/options.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/temporary.hpp"
 #include "tools/output/progress.hpp"

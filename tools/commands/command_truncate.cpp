@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "tools/commands/command.hpp"
+#include "tools/commands/options.hpp"
 #include "tools/output/output.hpp"
 #include "tools/output/output_names.hpp"
 

@@ -7,7 +7,9 @@
 
 #include "conformance/runner.hpp"
 #include "tools/commands/command.hpp"
+#include "tools/commands/options.hpp"
 #include "tools/files/file_bytes.hpp"
+#include "tools/files/text.hpp"
 #include "tools/output/json.hpp"
 
 namespace tetrakis::tools {

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "tools/commands/command.hpp"
+#include "tools/commands/options.hpp"
 #include "tools/files/file_bytes.hpp"
 
 namespace tetrakis::tools {

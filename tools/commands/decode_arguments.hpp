@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/commands/command.hpp"
+#include "tools/commands/options.hpp"
 
 namespace tetrakis::tools {
 
@@ -23,6 +23,11 @@ struct DecodeArguments {
   uint32_t threads = hardwareThreads();
   bool force = false;
 };
+
+/// For a file of its own, or on the mesh.
+inline bool wantsTexture(const DecodeArguments& arguments) {
+  return !arguments.texture.empty() || !arguments.mesh.empty();
+}
 
 void addArguments(CLI::App& verb, DecodeArguments& arguments);
 

@@ -10,10 +10,6 @@
 
 namespace tetrakis::tools {
 
-inline bool wantsTexture(const DecodeArguments& arguments) {
-  return !arguments.texture.empty() || !arguments.mesh.empty();
-}
-
 /// Both arguments outlive it.
 class DecodeMemory {
  public:

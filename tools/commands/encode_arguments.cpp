@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/commands/encode_arguments.hpp"
+#include "tools/files/positive.hpp"
 
 #include <charconv>
 #include <system_error>

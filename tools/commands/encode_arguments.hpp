@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "tools/commands/command.hpp"
+#include "tools/commands/options.hpp"
 
 namespace tetrakis::tools {
 

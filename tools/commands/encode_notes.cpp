@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "base/length_unit.hpp"
+#include "tools/files/file_bytes.hpp"
 #include "tools/files/place/crs_units.hpp"
 #include "tools/files/place/texture_place.hpp"
 #include "tools/files/text.hpp"

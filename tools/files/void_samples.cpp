@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/samples.hpp"
 #include "tools/files/sample_types.hpp"
 #include "tools/files/text.hpp"
 
@@ -85,23 +86,10 @@ bool meetsNodata(double sample, double nodata) {
 }
 
 std::optional<double> asSample(double nodata, tks_sample sample) {
-  switch (sample) {
-    case TKS_U8:
-      return asInteger<uint8_t>(nodata);
-    case TKS_I8:
-      return asInteger<int8_t>(nodata);
-    case TKS_U16:
-      return asInteger<uint16_t>(nodata);
-    case TKS_I16:
-      return asInteger<int16_t>(nodata);
-    case TKS_U32:
-      return asInteger<uint32_t>(nodata);
-    case TKS_I32:
-      return asInteger<int32_t>(nodata);
-    case TKS_F32:
-      break;
-  }
-  return asFloat(nodata);
+  return withSampleType(sample, [nodata]<class T>(T) {
+    if constexpr (std::is_integral_v<T>) return asInteger<T>(nodata);
+    return asFloat(nodata);
+  });
 }
 
 void matchNodata(HeightFile& heights) {

@@ -12,6 +12,7 @@
 #include "base/status.hpp"
 #include "tools/files/files.hpp"
 #include "tools/render/render.hpp"
+#include "tools/report/camera_choice.hpp"
 #include "tools/report/scene.hpp"
 
 namespace tetrakis::tools {

@@ -1,32 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// From samples and 4-8 meshes to scenes. The grid's diagonals are those of the tiling [4.8^2]
+// From surfaces and 4-8 meshes to scenes. The grid's diagonals are those of the tiling [4.8^2]
 // (thesis, chapter 3): all four diagonals of a square of side 2 meet in its centre.
 #include "tools/report/scene.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 
 #include "base/length_unit.hpp"
-#include "ground/preset_cameras.hpp"
-#include "ground/vec3.hpp"
-
 #include "tools/files/place/ground_spacing.hpp"
 
 namespace tetrakis::tools {
 namespace {
-
-template <class T>
-void appendSamples(std::span<const std::byte> data, std::vector<double>& values) {
-  for (size_t i = 0; i + sizeof(T) <= data.size(); i += sizeof(T)) {
-    T sample;
-    std::memcpy(&sample, data.data() + i, sizeof(T));
-    values.push_back(static_cast<double>(sample));
-  }
-}
 
 void appendVertex(const PlacedFrame& frame, uint32_t grid_index, double height, MeshFile& mesh) {
   const double column = grid_index % frame.width, row = grid_index / frame.width;
@@ -55,35 +42,6 @@ void appendTriangle(const Surface& heights, const std::array<uint32_t, 3>& corne
   mesh.triangles.insert(mesh.triangles.end(), corners.begin(), corners.end());
 }
 
-struct Corner {
-  int64_t x, y;
-  double height;
-};
-
-/// Twice the signed area of (a, b, (x, y)).
-int64_t doubleArea(const Corner& a, const Corner& b, int64_t x, int64_t y) {
-  return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
-}
-
-void rasterizeTriangle(const Corner& a, const Corner& b, const Corner& c, Surface& surface) {
-  const int64_t area = doubleArea(a, b, c.x, c.y);
-  if (area == 0) return;
-  const auto [left, right] = std::minmax({a.x, b.x, c.x});
-  const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
-  const int64_t sign = area < 0 ? -1 : 1;
-  for (int64_t y = top; y <= bottom; ++y)
-    for (int64_t x = left; x <= right; ++x) {
-      const int64_t wa = sign * doubleArea(b, c, x, y);
-      const int64_t wb = sign * doubleArea(c, a, x, y);
-      const int64_t wc = sign * doubleArea(a, b, x, y);
-      if (wa < 0 || wb < 0 || wc < 0) continue;
-      const double sum = static_cast<double>(wa) * a.height + static_cast<double>(wb) * b.height +
-                         static_cast<double>(wc) * c.height;
-      surface.values[static_cast<size_t>(y) * surface.width + static_cast<size_t>(x)] =
-          sum / static_cast<double>(sign * area);
-    }
-}
-
 }  // namespace
 
 PlacedFrame frameOf(const HeightFile& heights) {
@@ -105,59 +63,6 @@ PlacedFrame frameOf(const tks_info& info) {
 
 PlacedFrame frameOf(const ImageFile& image) {
   return GroundFrame{2, 2, static_cast<double>(image.width), static_cast<double>(image.height), 1};
-}
-
-Surface samplesOf(uint32_t width, uint32_t height, tks_sample sample,
-                  std::span<const std::byte> data) {
-  Surface surface{width, height, {}};
-  surface.values.reserve(size_t{width} * height);
-  switch (sample) {
-    case TKS_U8:
-      appendSamples<uint8_t>(data, surface.values);
-      break;
-    case TKS_I8:
-      appendSamples<int8_t>(data, surface.values);
-      break;
-    case TKS_U16:
-      appendSamples<uint16_t>(data, surface.values);
-      break;
-    case TKS_I16:
-      appendSamples<int16_t>(data, surface.values);
-      break;
-    case TKS_U32:
-      appendSamples<uint32_t>(data, surface.values);
-      break;
-    case TKS_I32:
-      appendSamples<int32_t>(data, surface.values);
-      break;
-    case TKS_F32:
-      appendSamples<float>(data, surface.values);
-      break;
-  }
-  return surface;
-}
-
-Surface heightsOf(const HeightFile& file) {
-  Surface surface = samplesOf(file.width, file.height, file.sample, file.data);
-  for (double& value : surface.values) {
-    const bool is_void = file.nodata && value == *file.nodata;
-    value = is_void ? std::numeric_limits<double>::quiet_NaN() : value * file.scale + file.offset;
-  }
-  return surface;
-}
-
-Surface rasterize(const Mesh& mesh, uint32_t width, uint32_t height) {
-  constexpr double kVoid = std::numeric_limits<double>::quiet_NaN();
-  Surface surface{width, height, std::vector<double>(size_t{width} * height, kVoid)};
-  const auto corner = [&](uint32_t vertex) {
-    const uint32_t index = mesh.gridIndices()[vertex];
-    return Corner{index % width, index / width, mesh.heights()[vertex]};
-  };
-  const std::span<const uint32_t> triangles = mesh.triangles();
-  for (size_t t = 0; t < triangles.size(); t += 3)
-    rasterizeTriangle(corner(triangles[t]), corner(triangles[t + 1]), corner(triangles[t + 2]),
-                      surface);
-  return surface;
 }
 
 MeshFile fullGrid(const Surface& heights, const PlacedFrame& frame) {
@@ -213,33 +118,6 @@ Bounds boundsOf(const Surface& heights, const PlacedFrame& frame) {
   };
   const double x = reach(0), z = reach(1);
   return {{-x, low * frame.metres_per_unit, -z}, {x, high * frame.metres_per_unit, z}};
-}
-
-std::vector<tks_camera> toldCameras(const std::vector<Camera>& cameras, const GroundAxes& axes) {
-  const auto tell = [&axes](const Vec3& from, double* to) {
-    const auto [along, down] = axes.unplaced(from[0], from[2]);
-    to[0] = along;
-    to[1] = from[1];
-    to[2] = down;
-  };
-  std::vector<tks_camera> told;
-  for (const Camera& camera : cameras) {
-    tks_camera& c = told.emplace_back();
-    c.name = camera.name.c_str();
-    tell(camera.eye, c.eye);
-    tell(camera.target, c.target);
-    tell(camera.up, c.up);
-    c.fov_y = camera.fov_y;
-    c.width = camera.width;
-    c.height = camera.height;
-    c.weight = camera.weight;
-  }
-  return told;
-}
-
-Result<std::vector<Camera>> chooseCameras(const CameraChoice& choice, const Bounds& bounds) {
-  if (!choice.file.empty()) return readCameras(choice.file);
-  return presetCameras(choice.view.empty() ? "oblique" : choice.view, bounds);
 }
 
 }  // namespace tetrakis::tools

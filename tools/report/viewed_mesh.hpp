@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "tools/report/camera_choice.hpp"
 #include "tools/report/scene.hpp"
 
 namespace tetrakis::tools {

@@ -5,9 +5,9 @@
 #include <cassert>
 #include <cstring>
 
-#include "tools/synth/synth_kinds.hpp"
-#include "tools/synth/synth_map.hpp"
-#include "tools/synth/synth_texture.hpp"
+#include "tools/synth/kinds.hpp"
+#include "tools/synth/map.hpp"
+#include "tools/synth/texture.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -78,9 +78,9 @@ PlanePart partOf(const PlaneView<const int32_t>& plane, const HeldSamples& held,
                  const Window& window) {
   const View view{0, window};
   PlanePart part{window.extent(),
-                 cut(std::span<const int32_t>(plane.values()), plane.extent(), view),
-                 cut(plane.valid.bytes(), plane.extent(), view),
-                 cut(held.numbers, plane.extent(), view), held.values};
+                 slice(std::span<const int32_t>(plane.values()), plane.extent(), view),
+                 slice(plane.valid.bytes(), plane.extent(), view),
+                 slice(held.numbers, plane.extent(), view), held.values};
   clearUnmarked(std::span(part.values), part.valid);
   return part;
 }

@@ -28,7 +28,7 @@ TypicalPlane::TypicalPlane(const PlaneView<const int32_t>& plane, int bits, Purp
   const Extent extent = plane.extent();
   const IsCoded is_shown = shown.all() ? IsCoded() : [&](size_t i) { return shown[i]; };
   for (const Window& window : typicalParts(extent, kUsualSide, is_shown)) {
-    const std::vector<uint8_t> here = cut(shown.bytes(), extent, {0, window});
+    const std::vector<uint8_t> here = slice(shown.bytes(), extent, {0, window});
     const size_t shown_here = markedIn(window.extent(), here);
     samples += shown_here;
     parts_.emplace_back(partOf(plane, {}, window), header, shown_here);

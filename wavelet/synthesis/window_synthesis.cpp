@@ -169,7 +169,7 @@ std::vector<std::vector<uint8_t>> WindowSynthesis::findFractions() {
     wanted.x -= level.x.low.begin;
     wanted.y -= level.y.low.begin;
     found[static_cast<size_t>(number)] =
-        cut(std::span<const uint8_t>(low), level.low().extent(), {0, wanted});
+        slice(std::span<const uint8_t>(low), level.low().extent(), {0, wanted});
   }
   return found;
 }
@@ -203,7 +203,7 @@ std::vector<int32_t> WindowSynthesis::run(uint32_t, bool rounds) {
     Window wanted = number > 1 ? lowOf(number - 1) : window_;
     wanted.x -= block.x;
     wanted.y -= block.y;
-    low = cut(std::span<const int32_t>(level.values), block.extent(), {0, wanted});
+    low = slice(std::span<const int32_t>(level.values), block.extent(), {0, wanted});
     level.values = std::vector<int32_t>();  // {} would keep its memory
   }
   return low;

@@ -5,7 +5,7 @@ import {abortable} from './abort.js';
 import {compile} from './compile.js';
 import {TksError} from './error.js';
 import {Operations} from './operations.js';
-import {threadOf} from './thread.js';
+import {onFailure, threadOf} from './thread.js';
 
 /** What one decoding may take. */
 const MEMORY = 2 ** 30;
@@ -27,10 +27,7 @@ class RemoteDecoder {
       if (!error) return resolve(result);
       reject(Object.assign(new TksError(error.code, error.message), {needed: error.needed}));
     };
-    worker.onerror = (event) => {
-      event.preventDefault?.();
-      this.#failAll(new TksError('io', `The worker failed: ${event.message ?? 'it did not start'}.`));
-    };
+    onFailure(worker, (error) => this.#failAll(error));
   }
   #failAll(error) {
     for (const {reject} of this.#waiting.values()) reject(error);
@@ -82,4 +79,10 @@ export function startDecoder({worker, wasm, memory = MEMORY} = {}) {
     .then((module) => decoder.start(module, memory));
   decoder.ready.catch(() => {});
   return decoder;
+}
+
+/** What a call of a decoder gives, once that is ready: the first bytes are fetched meanwhile. */
+export async function askDecoder(decoder, operation, argument, signal) {
+  await abortable(decoder.ready, signal);
+  return decoder.call(operation, argument, signal);
 }

@@ -8,7 +8,7 @@ export type Samples =
 export type Registration = 'unknown' | 'area' | 'point';
 
 export interface HeightsInput {
-  /** Row by row. A sample v is the height v * scale + offset in `unit`; NaN and `nodata` are voids. */
+  /** Row by row. A sample v is the height v * scale + offset in `unit`; NaN, `nodata` are voids. */
   data: Samples;
   width: number;
   height: number;
@@ -71,7 +71,7 @@ export interface EncodeInput {
 export interface EncodeOptions extends Pick<OpenOptions, 'signal' | 'wasm'> {
   /** false: on this thread. A URL: where bundlers do not find `tetrakis/encode_worker`. */
   worker?: boolean | string | URL;
-  /** Told how much is done, from 0 to 1. What it throws ends the encoding, which rejects with it. */
+  /** Told how much is done, from 0 to 1. If it throws, the encoding ends and rejects with that. */
   progress?: (done: number) => void;
 }
 

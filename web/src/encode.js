@@ -5,7 +5,7 @@ import {abortable} from './abort.js';
 import {compile} from './compile.js';
 import {encodeWith} from './encoder.js';
 import {TksError} from './error.js';
-import {threadOf} from './thread.js';
+import {onFailure, threadOf} from './thread.js';
 
 export {TksError};
 
@@ -23,10 +23,7 @@ function encodeIn(worker, module, input, progress) {
       else if (stream) resolve(stream);
       else tell(done);
     };
-    worker.onerror = (event) => {
-      event.preventDefault?.();
-      reject(new TksError('io', `The worker failed: ${event.message ?? 'it did not start'}.`));
-    };
+    onFailure(worker, reject);
     worker.postMessage({module, input});
   });
 }

@@ -101,7 +101,8 @@ function fieldsOf({heights, texture, ...options}) {
     ...(heights ? heightsFields(heights) : {}), ...(texture ? textureFields(texture) : {}),
     bytes: Math.min(bytes, MOST_BYTES), psnr, maxError, lossless: Number(lossless),
     triangles: Math.min(triangles, MOST_TRIANGLES), regions,
-    index: oneOf(INDEXES, options.index, 'index'), weights: oneOf(WEIGHTS, options.weights, 'weights'),
+    index: oneOf(INDEXES, options.index, 'index'),
+    weights: oneOf(WEIGHTS, options.weights, 'weights'),
   };
 }
 

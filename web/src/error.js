@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The one kind of error that promises of this package are rejected with, apart from the reason of an
-// AbortSignal. `code` is for programs, `message` one or two sentences for people.
+// The one kind of error that promises of this package are rejected with, apart from the reason of
+// an AbortSignal. `code` is for programs, `message` one or two sentences for people.
 
 // The statuses of tetrakis.h.
 const CODES = [

@@ -85,7 +85,8 @@ export function surfaceUnder(from, to) {
   const positions = to.positions.slice(), normals = to.normals.slice();
   const cells = new Cells(positions), weights = [0, 0, 0];
   const mixed = (values, k, [a, b, c]) =>
-    weights[0] * values[3 * a + k] + weights[1] * values[3 * b + k] + weights[2] * values[3 * c + k];
+    weights[0] * values[3 * a + k] + weights[1] * values[3 * b + k] +
+    weights[2] * values[3 * c + k];
   for (let t = 0; t < from.triangles.length; t += 3) {
     const triangle = new Triangle(from.positions, from.triangles.subarray(t, t + 3));
     if (triangle.area === 0) continue;

@@ -2,7 +2,7 @@
 // Metres on the ground: as a stream states them, or as its place tells. Encoders that know no CRS
 // state a place alone.
 
-/** Of lengths by their names, as base/length_unit.cpp has them: lower case, words apart by blanks. */
+/** Of lengths by their names, those of base/length_unit.cpp: lower case, words apart by blanks. */
 const METRES = new Map([
   [1, 'm metre meter metres meters'],
   [0.01, 'cm centimetre'],
@@ -10,7 +10,8 @@ const METRES = new Map([
   [1000, 'km kilometre'],
   [0.3048, 'ft foot feet international_foot international_feet'],
   [1200 / 3937, 'us-ft ftus foot_us us_survey_foot us_survey_feet'],
-].flatMap(([metres, names]) => names.split(' ').map((name) => [name.replaceAll('_', ' '), metres])));
+].flatMap(([metres, names]) =>
+  names.split(' ').map((name) => [name.replaceAll('_', ' '), metres])));
 /** Of WGS 84: half of its long axis, and the square of its eccentricity. */
 const AXIS = 6378137, ECCENTRICITY = 0.00669437999014;
 const RADIANS = Math.PI / 180;

@@ -21,7 +21,7 @@ export interface OpenOptions {
   /** Of the requests to a URL, as fetch() takes them. */
   request?: Pick<RequestInit, 'headers' | 'credentials'>;
   /** false: decode on this thread. A Worker or its URL: where bundlers do not find
-   * `tetrakis/worker`. A Worker serves one terrain: another is refused it, and dispose() ends it. */
+   * `tetrakis/worker`. A Worker serves one terrain: another is refused it, dispose() ends it. */
   worker?: boolean | Worker | string | URL;
   /** Where bundlers do not find `tetrakis/tetrakis.wasm`: its URL, bytes, or compiled module. */
   wasm?: string | URL | BufferSource | WebAssembly.Module;
@@ -166,17 +166,18 @@ export interface Terrain {
   /** The file ends before the stream does: frames are good, but not complete. */
   readonly truncated: boolean;
   /** Fetches until `bytes` bytes are here, without decoding: the first ones of the stream, or those
-   * that help a view most. Resolves to how many there are. Fewer: the file ends, no other byte helps
-   * the view, or what is left of `bytes` is worth no request (`requestBytes`). Where nothing came,
-   * another call with this view brings nothing either. */
-  load(bytes: number, options?: Pick<FrameOptions, 'signal' | 'view' | 'triangles'>): Promise<number>;
+   * that help a view most. Resolves to how many there are. Fewer: the file ends, no other byte
+   * helps the view, or what is left of `bytes` is worth no request (`requestBytes`). Where nothing
+   * came, another call with this view brings nothing either. */
+  load(bytes: number, options?: Pick<FrameOptions, 'signal' | 'view' | 'triangles'>):
+    Promise<number>;
   /** One frame of `bytes` bytes; fetches those that are missing, as load(). */
   decode(options?: FrameOptions): Promise<Frame>;
-  /** Frames of bytes that grow, from those that are there to `bytes`, or to what the view needs. All
-   * these are fetched meanwhile: each frame takes what is here by then, but at least four times as
-   * many bytes as the one before it. To leave the loop ends the fetching. */
+  /** Frames of bytes that grow, from those that are there to `bytes`, or to what the view needs.
+   * All these are fetched meanwhile: each frame takes what is here by then, but at least four times
+   * as many bytes as the one before it. To leave the loop ends the fetching. */
   refine(options?: RefineOptions): AsyncGenerator<Frame, void, void>;
-  /** Which bytes a window of samples or texels takes, [begin, end) each, of a stream with an index. */
+  /** Which bytes, [begin, end) each, a window of samples or texels takes; needs an index. */
   needed(options: {
     part?: 'heights' | 'texture'; window: {x: number; y: number; width: number; height: number};
   }): Promise<[number, number][]>;

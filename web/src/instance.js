@@ -44,8 +44,8 @@ export class Instance {
     this.calls._initialize?.();
   }
   /**
-   * Anew at each use: growing memory detaches the old buffer. Addresses above 2 GiB, which functions
-   * of the module give as negative numbers, are made whole here.
+   * Anew at each use: growing memory detaches the old buffer. Addresses above 2 GiB, which
+   * functions of the module give as negative numbers, are made whole here.
    */
   view(Type, address, length) {
     return new Type(this.calls.memory.buffer, address >>> 0, length);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {
-  GetResourceResponse, Map, RasterDEMSourceSpecification, RasterSourceSpecification, RequestParameters,
+  GetResourceResponse, Map, RasterDEMSourceSpecification, RasterSourceSpecification,
+  RequestParameters,
 } from 'maplibre-gl';
 import type {OpenOptions, Terrain} from './index.js';
 
@@ -26,8 +27,10 @@ export class TksProtocol {
     Promise<GetResourceResponse<ImageBitmap | ArrayBuffer>>;
   /** `bounds`: west, south, east, north in degrees, for streams that do not say where they lie;
    * across 180° as [170, -10, -170, 10]. The name is taken from the beginning of the call. */
-  add(name: string, input: Input, options?: OpenOptions & {bounds?: [number, number, number, number]}):
-    Promise<TksMapSource>;
+  add(
+    name: string, input: Input,
+    options?: OpenOptions & {bounds?: [number, number, number, number]},
+  ): Promise<TksMapSource>;
   /** Disposes the stream, or ends its opening. */
   remove(name: string): void;
 }

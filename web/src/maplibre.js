@@ -156,7 +156,8 @@ export class TksProtocol {
     // An empty answer is a tile without content.
     if (!rgba) return {data: new ArrayBuffer(0)};
     // Colour management or premultiplication would change heights.
+    const premultiplyAlpha = part === 'texture' ? 'premultiply' : 'none';
     return {data: await createImageBitmap(new ImageData(rgba, TILE, TILE),
-      {premultiplyAlpha: part === 'texture' ? 'premultiply' : 'none', colorSpaceConversion: 'none'})};
+      {premultiplyAlpha, colorSpaceConversion: 'none'})};
   };
 }

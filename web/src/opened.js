@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stream that the decoder's module has open: what it holds, and the calls that decode parts of it.
+// A stream that the decoder's module has open: what it holds, and the calls that decode its parts.
 import {TksError} from './error.js';
 import {MESSAGE_BYTES, SAMPLES} from './instance.js';
 
@@ -92,7 +92,8 @@ export class Opened {
   }
   check(status) {
     if (status === 0) return;
-    throw TksError.ofStatus(status, this.instance.text(this.instance.calls.tks_message(this.decoder)));
+    const message = this.instance.calls.tks_message(this.decoder);
+    throw TksError.ofStatus(status, this.instance.text(message));
   }
   setLevels(heights, texture) {
     this.check(this.instance.calls.tks_set_levels(this.decoder, heights, texture));

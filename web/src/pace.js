@@ -13,7 +13,7 @@ export const GROWTH = 4;
 /** So many bytes cost no more than the transform that a frame takes in any case. */
 const CHEAP_BYTES = 2 ** 18;
 
-/** What comes so soon, in ms, is waited for; so is what comes within a quarter of the time so far. */
+/** What comes so soon, in ms, is waited for, as is what comes in a quarter of the time so far. */
 const SOON = 150, NOT_SO_SOON = 1000;
 /** Foretells when the last bytes of a request come, by how fast the first ones did. */
 export class Flow {
@@ -27,8 +27,8 @@ export class Flow {
     else this.#begin = performance.now();
   }
   /**
-   * How many ms to wait for the `rest`, if it comes soon: a frame without it would only delay the last
-   * one. `took`: ms of the last frame.
+   * How many ms to wait for the `rest`, if it comes soon: a frame without it would only delay the
+   * last one. `took`: ms of the last frame.
    */
   patience(rest, took) {
     if (rest <= 0) return 0;

@@ -11,7 +11,8 @@ export class Held {
     const before = this.ranges.filter((range) => range[1] < begin);
     const behind = this.ranges.filter((range) => range[0] > end);
     const met = this.ranges.slice(before.length, this.ranges.length - behind.length);
-    const joined = [Math.min(begin, ...met.map(([b]) => b)), Math.max(end, ...met.map(([, e]) => e))];
+    const joined =
+      [Math.min(begin, ...met.map(([b]) => b)), Math.max(end, ...met.map(([, e]) => e))];
     this.ranges = [...before, joined, ...behind];
     this.bytes = this.ranges.reduce((sum, [b, e]) => sum + e - b, 0);
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoder of one stream, whose bytes come bit by bit. Nothing here waits: it runs in a worker as
-// well.
+// The decoder of one stream, whose bytes come bit by bit. Nothing here waits: workers run it, too.
 import {TksError} from './error.js';
 import {partsOf} from './frame.js';
 import {Instance, failureOf} from './instance.js';

@@ -14,6 +14,15 @@ function workerAt(url) {
   }
 }
 
+/** Tells `hear`, by a TksError, that a worker failed or did not start. */
+export function onFailure(worker, hear) {
+  worker.onerror = (event) => {
+    event.preventDefault?.();
+    const reason = event.message ?? 'it did not start';
+    hear(new TksError('io', `The worker failed: ${reason}.`));
+  };
+}
+
 /** `worker`: as OpenOptions has it. Nothing: the work stays on this thread. */
 export function threadOf(worker, assets) {
   if (worker === false) return null;

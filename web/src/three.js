@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// three.js: a Loader, as DRACOLoader is one, and the mesh that it loads, which refines by the camera.
+// three.js: a Loader, as DRACOLoader is one, and its mesh, which refines by the camera.
 import {Loader} from 'three';
 
 import {startDecoder} from './decoders.js';

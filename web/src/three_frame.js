@@ -30,7 +30,8 @@ export function geometryOf(frame) {
   }
   geometry.setAttribute('position', new BufferAttribute(positions, 3));
   geometry.setAttribute('uv', new BufferAttribute(places, 2));
-  geometry.setIndex(new BufferAttribute(flat ? new Uint32Array([0, 2, 1, 1, 2, 3]) : mesh.triangles, 1));
+  const triangles = flat ? new Uint32Array([0, 2, 1, 1, 2, 3]) : mesh.triangles;
+  geometry.setIndex(new BufferAttribute(triangles, 1));
   if (mesh?.normals) geometry.setAttribute('normal', new BufferAttribute(mesh.normals, 3));
   else geometry.computeVertexNormals();
   return geometry;

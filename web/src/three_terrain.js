@@ -129,7 +129,8 @@ export class TksTerrain extends Mesh {
   /** What this camera looks at, as `view` of terrain.decode(). */
   viewOf(camera, viewportHeight) {
     const {info} = this.terrain, flat = !info.hasHeights;
-    const width = flat ? info.textureWidth : info.width, height = flat ? info.textureHeight : info.height;
+    const width = flat ? info.textureWidth : info.width;
+    const height = flat ? info.textureHeight : info.height;
     const scale = flat
       ? {x: width / Math.max(1, width - 1), y: height / Math.max(1, height - 1), height: 1}
       : groundScale(info);
@@ -151,7 +152,9 @@ export class TksTerrain extends Mesh {
   }
   /** As many bytes as the next frame takes. */
   #nextBytes(more, planned, limit) {
-    if (!planned) return Math.min((more ? GROWTH : 1) * (this.#wanted || this.#firstBytes()), limit);
+    if (!planned) {
+      return Math.min((more ? GROWTH : 1) * (this.#wanted || this.#firstBytes()), limit);
+    }
     const here = this.terrain.loaded.bytes, step = Math.min(Math.max(here, LEAST_STEP), MOST_STEP);
     return more ? Math.min(here + step, limit) : this.#wanted;
   }
@@ -159,8 +162,8 @@ export class TksTerrain extends Mesh {
   /**
    * To be called for each picture: fetches and decodes more where this camera sees the difference.
    * Of a stream with an index that is what helps this view most, until nothing more does. A view
-   * without a picture, as in a hidden tab, waits for one. One decoding runs at a time. Failures go to
-   * the event `error`.
+   * without a picture, as in a hidden tab, waits for one. One decoding runs at a time. Failures go
+   * to the event `error`.
    */
   update(camera, viewportHeight) {
     this.#updated = [performance.now(), this.#updated[0]];
@@ -185,13 +188,14 @@ export class TksTerrain extends Mesh {
       if (isServed) this.#served = key;
     }).finally(() => (this.#reading = null));
   }
-  /** Whether no byte came: where only fewer came than were asked for, others still help the view. */
+  /** Whether no byte came: where only fewer came than were asked for, others still help a view. */
   async #read(bytes, texels, view) {
     try {
       const {triangles} = this, {signal} = this.#stop, here = this.terrain.loaded.bytes;
       const have = await this.terrain.load(bytes, {view, triangles, signal});
       if (have !== this.#wanted || texels !== this.#texels || !this.frame) {
-        const frame = await this.terrain.decode({bytes: have, texels, triangles, normals: true, signal});
+        const frame =
+          await this.terrain.decode({bytes: have, texels, triangles, normals: true, signal});
         if (signal.aborted) return false;
         this.show(frame, {glide: this.#isDrawnSteadily()});
       }

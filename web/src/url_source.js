@@ -49,9 +49,9 @@ export class UrlSource {
     return this.#whole !== null;
   }
   /**
-   * Gives `take` the bytes [begin, end) in pieces as they come, fewer at the end of the file. Nothing
-   * before them is asked for again. The signal ends the request, also that of a whole file, which
-   * then begins anew.
+   * Gives `take` the bytes [begin, end) in pieces as they come, fewer at the end of the file.
+   * Nothing before them is asked for again. The signal ends the request, also that of a whole file,
+   * which then begins anew.
    */
   async next(begin, end, take, signal) {
     if (end <= begin || begin >= this.size) return;
@@ -100,7 +100,9 @@ export class UrlSource {
   async #refusal({signal}) {
     const page = globalThis.document?.baseURI ?? globalThis.location?.href;
     const address = addressOf(this.#url, page);
-    if (!address) return ' is no address. Outside of a page give all of it, or the bytes of a file.';
+    if (!address) {
+      return ' is no address. Outside of a page give all of it, or the bytes of a file.';
+    }
     if (address.protocol === 'file:') {
       return ' is a file, which cannot be fetched. Give its bytes or a Blob.';
     }
@@ -109,8 +111,8 @@ export class UrlSource {
     const answers = origin && address.origin !== origin &&
       (await fetch(this.#url, {method: 'HEAD', mode: 'no-cors', signal}).catch(() => null));
     return answers
-      ? ` cannot be read: its server answers, but does not allow pages of ${origin} to read what it ` +
-        'sends (CORS). It has to send the header Access-Control-Allow-Origin.'
+      ? ` cannot be read: its server answers, but does not allow pages of ${origin} to read what ` +
+        'it sends (CORS). It has to send the header Access-Control-Allow-Origin.'
       : ' cannot be fetched: its server cannot be reached, or broke the connection.';
   }
 
@@ -136,7 +138,8 @@ export class UrlSource {
       return true;
     }
     if (!answer.ok || !answer.body) {  // 204 has no body
-      throw this.#error(`: the server answered ${answer.status} ${answer.statusText}`.trimEnd() + '.');
+      const status = `${answer.status} ${answer.statusText}`.trimEnd();
+      throw this.#error(`: the server answered ${status}.`);
     }
     this.type = answer.headers.get('content-type')?.split(';')[0];
     if (answer.status === 206) {
@@ -171,8 +174,8 @@ export class UrlSource {
       });
       if (!done) length += value.length;
       if (length > most || (done && range && length !== announced)) {
-        throw this.#error(`: the server sent ${length} bytes where ${most} were announced. Does it ` +
-          'compress streams (Content-Encoding)? It should send them as they are.');
+        throw this.#error(`: the server sent ${length} bytes where ${most} were announced. Does ` +
+          'it compress streams (Content-Encoding)? It should send them as they are.');
       }
       if (done) break;
       await take(value);

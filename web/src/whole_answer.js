@@ -14,8 +14,8 @@ export class WholeAnswer {
   }
 
   /**
-   * Gives `take` the bytes [begin, end), piece by piece; those before them are left out. Resolves to
-   * where they end, which is the end of the file if that comes first.
+   * Gives `take` the bytes [begin, end), piece by piece; those before them are left out. Resolves
+   * to where they end, which is the end of the file if that comes first.
    */
   async read(begin, end, take) {
     while (this.#place < end) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The four adapters in headless Chromium: they deliver the heights of the stream and draw the picture
-// that the native renderer draws. It needs a built `tetrakis` (TETRAKIS_CLI).
+// The four adapters in headless Chromium: they deliver the heights of the stream and draw the
+// picture that the native renderer draws. It needs a built `tetrakis` (TETRAKIS_CLI).
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {existsSync} from 'node:fs';
@@ -37,8 +37,8 @@ before(async () => {
   await rm(folder, {recursive: true, force: true});
   await mkdir(folder, {recursive: true});
   execFileSync(CLI, ['synth', '-o', folder + 'sample', '--size', '129', '-q']);
-  execFileSync(CLI, ['encode', sample + 'height.tif', '--texture', sample + 'texture.png', '--bytes',
-    '64k', '-o', folder + 'alps.tks', '-q']);
+  execFileSync(CLI, ['encode', sample + 'height.tif', '--texture', sample + 'texture.png',
+    '--bytes', '64k', '-o', folder + 'alps.tks', '-q']);
   const vectors = new URL('../../conformance/vectors/', import.meta.url);
   await cp(new URL('regions_joint_index_40x33_50x47.tks', vectors), folder + 'nowhere.tks');
   await Promise.all(Object.entries(LIBRARIES).map(([name, contents]) => build({
@@ -86,7 +86,8 @@ async function drawn(adapter) {
 async function nativePicture(camera) {
   await writeFile(folder + 'camera.json', JSON.stringify({cameras: [camera]}));
   execFileSync(CLI, ['compare', folder + 'alps.tks', '--height', sample + 'height.tif', '--texture',
-    sample + 'texture.png', '--cameras', folder + 'camera.json', '--pictures', folder + 'seen', '-f']);
+    sample + 'texture.png', '--cameras', folder + 'camera.json',
+    '--pictures', folder + 'seen', '-f']);
   const picture = await readFile(folder + 'seen/picture-1.png');
   if (PICTURES) await writeFile(`${PICTURES}/native.png`, picture);
   return picture;

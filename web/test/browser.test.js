@@ -45,7 +45,7 @@ const refusal = (page, url) => page.evaluate(async (address) => {
   return error && {code: error.code, message: error.message, known: error instanceof TksError};
 }, url);
 
-test('a server of another origin that lets no page read it is told from one that is away', async () => {
+test('another origin that lets no page read it is told from one that is away', async () => {
   const open = {headers: {'access-control-allow-origin': '*'}};
   await withPage({}, async (page, server) => {
     const refused = await refusal(page, server.url + 'a.tks');
@@ -164,7 +164,8 @@ test('a hundred terrains that are opened and disposed leave nothing', async () =
       const growth = await heap() - before;
       assert.ok(growth < 2000 * count, `${growth} bytes, ${JSON.stringify(options)}`);
       // Those that still end do so soon; of others this is never told.
-      await Promise.all(page.workers().map((worker) => worker.waitForEvent('close', {timeout: 5000})));
+      await Promise.all(
+        page.workers().map((worker) => worker.waitForEvent('close', {timeout: 5000})));
     }
   });
 });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder as a module: its promises, its words, what it refuses; the same bytes as the native one.
+// The encoder as a module: its promises, its words, what it refuses; bytes as of the native one.
 import assert from 'node:assert/strict';
 import {spawnSync} from 'node:child_process';
 import {existsSync} from 'node:fs';
@@ -30,7 +30,8 @@ test('lossless comes back bit for bit, with its place', async () => {
   assert.deepEqual(await samplesOf(stream), {heights: heights.data, texture: texture.data});
   assert.equal(info.lossless, true);
   assert.deepEqual(info.geotransform, heights.geotransform);
-  assert.deepEqual([info.crs, info.unit, info.spacingX, info.nodata], ['EPSG:32611', 'm', 30, -32768]);
+  assert.deepEqual(
+    [info.crs, info.unit, info.spacingX, info.nodata], ['EPSG:32611', 'm', 30, -32768]);
 });
 
 test('undeclared nodata is found where that is asked for', async () => {
@@ -132,7 +133,8 @@ test('what makes no sense is refused by code and sentence', async () => {
 test('what progress throws comes back', async () => {
   const {heights} = terrainOf(48);
   const own = new RangeError('the page is wrong');
-  await assert.rejects(encode({heights}, {progress: () => { throw own; }}), (error) => error === own);
+  await assert.rejects(
+    encode({heights}, {progress: () => { throw own; }}), (error) => error === own);
 });
 
 test('the bytes are those of the native encoder', {skip: !existsSync(CLI)}, async () => {

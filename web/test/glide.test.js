@@ -47,7 +47,9 @@ test('where there was no mesh, vertices stay where they are', () => {
     const isOver = positions[i] <= 16 && positions[i + 2] <= 16;
     assert.equal(positions[i + 1], isOver ? -7 : fine.positions[i + 1]);
   }
-  const empty = {positions: new Float32Array(), normals: new Float32Array(), triangles: new Uint32Array()};
+  const empty = {
+    positions: new Float32Array(), normals: new Float32Array(), triangles: new Uint32Array(),
+  };
   assert.deepEqual(surfaceUnder(empty, fine), {positions: fine.positions, normals: fine.normals});
   assert.equal(surfaceUnder(fine, empty).positions.length, 0);
 });

@@ -83,7 +83,8 @@ test('without a CRS, an area or a latitude, nothing is known', async () => {
 });
 
 test('a unit of heights is as long as for the command line, by any of its names', () => {
-  const table = readFileSync(new URL('../../tests/tools/length_names.txt', import.meta.url), 'utf8');
+  const names = new URL('../../tests/tools/length_names.txt', import.meta.url);
+  const table = readFileSync(names, 'utf8');
   const lines = table.trim().split('\n').filter((line) => !line.startsWith('#'));
   assert.ok(lines.length > 25);
   for (const line of lines) {

@@ -14,7 +14,8 @@ const STREAM = 'dist/map-test.tks';
 test('a map drapes the picture over the terrain and refines both', async () => {
   await cp(vectors + 'regions_joint_index_40x33_50x47.tks', web + STREAM);
   const server = await serve(web);
-  const browser = await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
+  const browser = await chromium.launch(
+    {executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
   try {
     const page = await browser.newPage();
     const errors = [];

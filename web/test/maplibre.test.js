@@ -68,7 +68,8 @@ test('tiles hold the heights of the surface and its colours', async () => {
     const got = r * 256 + g + b / 256 - 32768;
     const at = (dx, dy) => surface.data[(Math.floor(row) + dy) * 40 + Math.floor(column) + dx];
     const u = column % 1, v = row % 1;
-    const wanted = (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) + v * ((1 - u) * at(0, 1) + u * at(1, 1));
+    const wanted = (1 - v) * ((1 - u) * at(0, 0) + u * at(1, 0)) +
+      v * ((1 - u) * at(0, 1) + u * at(1, 1));
     assert.ok(Math.abs(got - wanted) < 0.01, `${got} is not ${wanted}`);
     ++checked;
   }

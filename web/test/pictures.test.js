@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The viewer draws what the native renderer draws of the same stream from the same places. It needs a
-// built `tetrakis` (TETRAKIS_CLI).
+// The viewer draws what the native renderer draws of the same stream from the same places. It needs
+// a built `tetrakis` (TETRAKIS_CLI).
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {existsSync} from 'node:fs';
@@ -38,12 +38,14 @@ before(async () => {
   const sample = join(folder, 'sample'), stream = join(folder, 'a.tks');
   const original = ['--texture', sample + '/texture.png'];
   execFileSync(CLI, ['synth', '-o', sample, '--size', '129', '-q']);
-  execFileSync(CLI, ['encode', sample + '/height.tif', ...original, '--bytes', '64k', '-o', stream, '-q']);
+  execFileSync(CLI,
+    ['encode', sample + '/height.tif', ...original, '--bytes', '64k', '-o', stream, '-q']);
   const cameras = PLACES.map((place) => ({...place, fov_y: FIELD, width: WIDTH, height: HEIGHT}));
   await writeFile(join(folder, 'cameras.json'), JSON.stringify({cameras}));
   execFileSync(CLI, ['compare', stream, '--height', sample + '/height.tif', ...original,
     '--cameras', join(folder, 'cameras.json'), '--pictures', join(folder, 'seen')]);
-  native = await Promise.all(PLACES.map((_, i) => readFile(join(folder, `seen/picture-${i + 1}.png`))));
+  native = await Promise.all(
+    PLACES.map((_, i) => readFile(join(folder, `seen/picture-${i + 1}.png`))));
   browser = await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
 });
 after(async () => {

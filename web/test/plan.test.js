@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams with an index: what is fetched for a view, by how many requests, and what then is decoded.
+// Streams with an index: what is fetched for a view, by how many requests, and what is decoded.
 import assert from 'node:assert/strict';
 import {mkdtemp, rm, writeFile} from 'node:fs/promises';
 import {tmpdir} from 'node:os';
@@ -127,7 +127,7 @@ test('two requests before the first picture; then what the view needs, and no mo
   });
 });
 
-test('a header longer than the first request takes a second one, which brings a picture', async () => {
+test('a header longer than the first request takes another, which brings a picture', async () => {
   for (const side of [129, 225]) {
     const long = await encode({...terrainOf(side), bytes: 60000, index: true, regions: 16});
     const {headerBytes} = (await open(long)).info;
@@ -143,7 +143,8 @@ test('a header longer than the first request takes a second one, which brings a 
         const {value: frame} = await terrain.refine({view: CORNER}).next();
         assert.ok(frame.info.texturePsnr > 10 && frame.bytes > headerBytes, `${frame.bytes}`);
         if (faults.noRanges) assert.equal(server.requests.length, asked);
-        assert.deepEqual((await terrain.decode()).texture, (await (await open(long)).decode()).texture);
+        assert.deepEqual(
+          (await terrain.decode()).texture, (await (await open(long)).decode()).texture);
         await assert.rejects(open(url.replace('a.tks', 'longer.tks')),
           {code: 'truncated', message: /ends after \d+ bytes, inside the header/});
         terrain.dispose();
@@ -223,7 +224,7 @@ async function settle(object, camera) {
   }
 }
 
-test('a terrain of three.js goes on to what its camera needs, though that stays still', async () => {
+test('a terrain of three.js goes on to what its camera needs, though it stays still', async () => {
   const terrain = await open(bytes, {requestBytes: 2 ** 14});
   const object = new TksTerrain(terrain, {triangles: 2000});
   const camera = new PerspectiveCamera(40, 1.6, 1, 1e6);

@@ -54,7 +54,8 @@ test('bands of an image become RGB, then alpha or a further colour', async () =>
 });
 
 test('pixels that have the nodata value in all bands are cut out', async () => {
-  const first = [7, 7, 3, 4, 5, 6], second = [7, 8, 7, 4, 5, 6], alpha = [0, ...Array(5).fill(65535)];
+  const first = [7, 7, 3, 4, 5, 6], second = [7, 8, 7, 4, 5, 6];
+  const alpha = [0, ...Array(5).fill(65535)];
   const read = (...bands) => textureOf(bands, RGB, bands.length > 3 ? [ALPHA] : [], nodata(7));
   assert.deepEqual(await read(first, second, first),
     {bands: [first, second, first, alpha], opaque: false});

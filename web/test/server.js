@@ -22,8 +22,8 @@ async function sendInTwo(response, file, [start, end], [bytes, ms]) {
  * Serves `folder`. Of `faults`: noRanges (200 and the whole file), etag (called for each answer),
  * gzip (claims to compress what it sends as it is), headers (of each answer), missing (404 always),
  * types (content types by the ends of names), overstated (ranges are said to end where they were
- * asked to), most (the bytes of an answer to a range, at most), stall (so many bytes of an answer go
- * out, the others never do), pause ([bytes, ms]: behind so many of a part's bytes the server
+ * asked to), most (the bytes of an answer to a range, at most), stall (so many bytes of an answer
+ * go out, the others never do), pause ([bytes, ms]: behind so many of a part's bytes the server
  * rests), empty (204 always), fail ([n, ms]: the n-th request is answered 500 after so long).
  * A request's `ended` resolves to whether all of its answer went out.
  */

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A terrain made of waves and roughness, for tests that need one larger than the conformance vectors.
+// A terrain made of waves and roughness, for tests that need more than the conformance vectors.
 
 /** {heights, texture} of `side` x `side` samples. */
 export function terrainOf(side) {
@@ -9,7 +9,8 @@ export function terrainOf(side) {
     const wave = (n) => Math.sin(n * x + 3 * Math.cos(n * y)) / n;
     const rough = (Math.imul(i + 1, 0x9e3779b1) >>> 24) / 8;
     heights[i] = 900 * wave(5) + 900 * wave(17) + 400 * wave(61) + rough;
-    texels.set([110 + 600 * wave(43) + rough, 110 + 900 * wave(29) + rough, 128 + 500 * wave(7)], 3 * i);
+    texels.set(
+      [110 + 600 * wave(43) + rough, 110 + 900 * wave(29) + rough, 128 + 500 * wave(7)], 3 * i);
   }
   return {
     heights: {data: heights, width: side, height: side, spacing: 30, unit: 'm', crs: 'EPSG:32611',
@@ -25,8 +26,9 @@ const SIZES = {2: 1, 3: 2, 12: 8};
  * more, or instead. */
 export function tiffOf({data, width, height}, tags = []) {
   const all = [...new Map([[256, 4, 1, width], [257, 4, 1, height], [258, 3, 1, 16], [259, 3, 1, 1],
-    [262, 3, 1, 1], [273, 4, 1, 8], [277, 3, 1, 1], [278, 4, 1, height], [279, 4, 1, 2 * data.length],
-    [339, 3, 1, 2], ...tags].map((tag) => [tag[0], tag])).values()].sort((a, b) => a[0] - b[0]);
+    [262, 3, 1, 1], [273, 4, 1, 8], [277, 3, 1, 1], [278, 4, 1, height],
+    [279, 4, 1, 2 * data.length], [339, 3, 1, 2],
+    ...tags].map((tag) => [tag[0], tag])).values()].sort((a, b) => a[0] - b[0]);
   const directory = 8 + 2 * data.length;
   const behind = directory + 2 + 12 * all.length + 4;
   const file = new DataView(new ArrayBuffer(behind + 1024));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles that the command line writes, in Cesium in headless Chromium: all load without an error, and
-// the ground is in sight from near and far. It needs a built `tetrakis` (TETRAKIS_CLI).
+// Tiles that the command line writes, in Cesium in headless Chromium: all load without an error,
+// and the ground is in sight from near and far. It needs a built `tetrakis` (TETRAKIS_CLI).
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {existsSync} from 'node:fs';
@@ -28,8 +28,8 @@ before(async () => {
   await mkdir(folder, {recursive: true});
   tetrakis('synth', '-o', 'sample', '--size', '257');
   tetrakis('encode', 'sample/height.tif', '--bytes', '64k', '-o', 'bare.tks');
-  tetrakis('encode', 'sample/height.tif', '--texture', 'sample/texture.png', '--bytes', '128k', '-o',
-    'both.tks');
+  tetrakis('encode', 'sample/height.tif', '--texture', 'sample/texture.png', '--bytes', '128k',
+    '-o', 'both.tks');
   tetrakis('tiles', 'bare.tks', '--format', '3dtiles', '-o', 'bare');
   tetrakis('tiles', 'both.tks', '--format', '3dtiles', '-o', 'both');
   tetrakis('tiles', 'both.tks', '--format', 'quantized-mesh', '-o', 'terrain');
@@ -56,7 +56,8 @@ async function shown(tiles, format, look) {
     const errors = [];
     page.on('pageerror', (error) => errors.push(error.message));
     const first = server.requests.length;
-    await page.goto(`${server.url}test/tiles.html?tiles=/dist/tiles-test/${tiles}&format=${format}`);
+    const query = `tiles=/dist/tiles-test/${tiles}&format=${format}`;
+    await page.goto(`${server.url}test/tiles.html?${query}`);
     await page.waitForFunction(() => document.body.dataset.state === 'done', null, {timeout: 60000})
       .catch((error) => assert.fail(`${error.message} ${errors}`));
     await look(page);
@@ -87,7 +88,8 @@ async function litFrom(page, times, error, name) {
 }
 
 /** The square of ground, as wide as the sphere around it over √2, seen from `times` that width. */
-const shareFrom = (times) => Math.min(1, (1 / Math.SQRT2 / (2 * times * Math.tan(Math.PI / 9))) ** 2);
+const shareFrom = (times) =>
+  Math.min(1, (1 / Math.SQRT2 / (2 * times * Math.tan(Math.PI / 9))) ** 2);
 
 for (const [tiles, format, cesiums] of [
   ['bare', '3dtiles', 16], ['both', '3dtiles', 16], ['terrain', 'quantized-mesh', 2],
@@ -103,7 +105,8 @@ for (const [tiles, format, cesiums] of [
           `from ${times} times its width the ground takes ${lit} of the picture, not ${wanted}`);
       }
     });
-    const levels = new Set(paths.map((path) => /\/(\d+)\/\d+\/\d+\.(glb|terrain)$/.exec(path)?.[1]));
+    const levels =
+      new Set(paths.map((path) => /\/(\d+)\/\d+\/\d+\.(glb|terrain)$/.exec(path)?.[1]));
     assert.ok(levels.size > 2, `few levels were asked for: ${[...levels]}`);
   });
 }

@@ -45,6 +45,10 @@ after(async () => {
 const ended = (page) =>
   page.waitForFunction(() => ['done', 'failed'].includes(document.body.dataset.state));
 
+/** Waits until all of `stream` is drawn. */
+const shows = (page, stream) => page.waitForFunction(
+  (size) => document.body.dataset.bytes === size, String(stream.length));
+
 /** Opens the viewer and calls `use` once it has ended with what it was told to show. */
 async function withPage(query, use, faults = {}, options = {}) {
   const server = await serve(folder, faults);
@@ -68,10 +72,12 @@ const text = (page, selector) => page.locator(selector).textContent();
 
 /** Distinct colours of the canvas, coarsely, and the share of pixels that are not sky. */
 async function colours(page) {
-  const picture = await page.locator('#picture').screenshot({style: 'aside, header { display: none }'});
+  const picture =
+    await page.locator('#picture').screenshot({style: 'aside, header { display: none }'});
   return page.evaluate(async (base64) => {
-    const image = await createImageBitmap(await (await fetch('data:image/png;base64,' + base64)).blob());
-    const canvas = new OffscreenCanvas(image.width, image.height), context = canvas.getContext('2d');
+    const answer = await fetch('data:image/png;base64,' + base64);
+    const image = await createImageBitmap(await answer.blob());
+    const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
     context.drawImage(image, 0, 0);
     const {data} = context.getImageData(0, 0, image.width, image.height), seen = new Set();
     let ground = 0;
@@ -120,9 +126,12 @@ test('sliders go back without requests; wireframe, texture, light and flight dra
     await page.locator('#triangles').fill('100');
     await page.waitForFunction(() => Number(document.body.dataset.bytes) < 1000);
     await ended(page);
-    await page.waitForFunction(() => Number(document.querySelector('#triangles-here').textContent) < 300);
+    await page.waitForFunction(
+      () => Number(document.querySelector('#triangles-here').textContent) < 300);
     assert.equal(server.requests.length, before);
-    for (const name of ['wireframe', 'textured', 'shaded', 'fly']) await page.locator('#' + name).click();
+    for (const name of ['wireframe', 'textured', 'shaded', 'fly']) {
+      await page.locator('#' + name).click();
+    }
     await page.keyboard.down('w');
     await page.waitForTimeout(200);
     await page.keyboard.up('w');
@@ -150,7 +159,7 @@ test('files that cannot be shown say why, and others can be opened', async () =>
       assert.equal(await page.locator('#panel').isVisible(), false);
     }
     await page.locator('#file').setInputFiles(join(folder, 'whole.tks'));
-    await page.waitForFunction((size) => document.body.dataset.bytes === size, String(bytes.length));
+    await shows(page, bytes);
     assert.equal(await page.getByRole('alert').isVisible(), false);
     assert.ok(await page.locator('#panel').isVisible());
   });
@@ -165,7 +174,7 @@ test('a server that lets no other page read its files is named on the page', asy
       assert.match(said, /its server answers, but does not allow pages of/);
       assert.ok(said.includes(new URL(server.url).origin), said);
       await page.locator('#file').setInputFiles(join(folder, 'whole.tks'));
-      await page.waitForFunction((size) => document.body.dataset.bytes === size, String(bytes.length));
+      await shows(page, bytes);
       assert.equal(await page.getByRole('alert').isVisible(), false);
     });
   } finally {
@@ -275,7 +284,8 @@ test('a phone: the controls unfold, nothing is wider than the screen', async () 
     assert.match(await text(page, '#help'), /finger/);
     await page.setViewportSize({width: 844, height: 390});
     const {x, y, width, height} = await page.locator('#panel').boundingBox();
-    assert.ok(x >= 0 && y >= 0 && x + width <= 844 && y + height <= 390, 'the panel is on the screen');
+    assert.ok(
+      x >= 0 && y >= 0 && x + width <= 844 && y + height <= 390, 'the panel is on the screen');
   }, {}, {viewport: {width: 390, height: 844}, isMobile: true, hasTouch: true});
 });
 
@@ -299,7 +309,8 @@ test('what lies high, or is higher than wide, is in the picture, exaggerated or 
   const {heights} = terrainOf(65);
   const high = {...heights, data: heights.data.map((metres) => metres + 20000)};
   await writeFile(join(folder, 'high.tks'), await encode({heights: high}));
-  await writeFile(join(folder, 'tall.tks'), await encode({heights: {...high, spacing: 0, crs: ''}}));
+  const tall = {...high, spacing: 0, crs: ''};
+  await writeFile(join(folder, 'tall.tks'), await encode({heights: tall}));
   for (const [name, least, most] of [['high', 1, 1], ['tall', 0.001, 0.1]]) {
     await withPage(`?tks=${name}.tks`, async (page) => {
       const times = Number(await text(page, '#times'));
@@ -335,7 +346,9 @@ const PLACED = [[33550, 12, 3, [30, 30, 0]], [33922, 12, 6, [0, 0, 0, 5e5, 4e6, 
 
 test('a GeoTIFF and an image over it are coded on the page, and can be saved', async () => {
   const {heights} = terrainOf(65);
-  const height = {name: 'dem.tif', mimeType: 'image/tiff', buffer: Buffer.from(tiffOf(heights, PLACED))};
+  const height = {
+    name: 'dem.tif', mimeType: 'image/tiff', buffer: Buffer.from(tiffOf(heights, PLACED)),
+  };
   const svg = await browser.newPage({viewport: {width: 64, height: 64}});
   await svg.setContent('<body style="background: linear-gradient(90deg, #a52, #4b6)">');
   const image = {name: 'image.png', mimeType: 'image/png', buffer: await svg.screenshot()};

@@ -19,8 +19,8 @@ const bundle = (names, options) => build({
   legalComments: 'linked',
   ...options,
 });
-// What the first script shares with what draws is a file of its own (chunk.js). What reads GeoTIFFs is
-// as large as all the rest, and loaded when such a file is opened.
+// What the first script shares with what draws is a file of its own (chunk.js). What reads GeoTIFFs
+// is as large as all the rest, and loaded when such a file is opened.
 await bundle(['viewer/start', 'viewer/viewer'],
   {splitting: true, chunkNames: '[name]', external: ['./read_files.js']});
 await bundle(['src/worker', 'src/encode_worker']);

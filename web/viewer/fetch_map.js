@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was fetched: the file as a bar, filled where its bytes are here, and of streams in regions the
-// ground, the brighter the more of what it takes is here.
+// What was fetched: the file as a bar, filled where its bytes are here, and of streams in regions
+// the ground, the brighter the more of what it takes is here.
 const LONG_SIDE = 12;  // cells of the ground
 
 /** How many bytes of `ranges` are in `held`. */
@@ -34,7 +34,8 @@ export class FetchMap {
     const width = info.hasTexture ? info.textureWidth : info.width;
     const height = info.hasTexture ? info.textureHeight : info.height;
     const cell = Math.max(width, height) / LONG_SIDE;
-    const columns = Math.max(1, Math.round(width / cell)), rows = Math.max(1, Math.round(height / cell));
+    const columns = Math.max(1, Math.round(width / cell));
+    const rows = Math.max(1, Math.round(height / cell));
     this.#ground.width = columns;
     this.#ground.height = rows;
     try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flying: a drag turns the head, W A S D and the arrows go, Q and E sink and rise, Shift hurries; on a
-// screen that is touched a second finger goes ahead.
+// Flying: a drag turns the head, W A S D and the arrows go, Q and E sink and rise, Shift hurries;
+// on a screen that is touched a second finger goes ahead.
 import {Euler, Vector3} from 'three';
 
 const TURN = 0.0028;  // radians for a pixel

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights and images as the viewer's users have them, as encode() takes them: GeoTIFFs by geotiff.js,
-// other images by the browser. Loaded when the first such file is opened.
+// Heights and images as the viewer's users have them, as encode() takes them: GeoTIFFs by
+// geotiff.js, other images by the browser. Loaded when the first such file is opened.
 import {fromArrayBuffer} from 'geotiff';
 import {metresPerDegree} from '../src/ground.js';
 import {chosenBands, tagOf, textureOf} from './geotiff_texture.js';
@@ -89,7 +89,8 @@ async function readTiff(name, buffer) {
 
 /** RGB where nothing is transparent. */
 async function readImage(name, file) {
-  const bitmap = await createImageBitmap(file, {premultiplyAlpha: 'none', colorSpaceConversion: 'none'});
+  const bitmap = await createImageBitmap(
+    file, {premultiplyAlpha: 'none', colorSpaceConversion: 'none'});
   const {width, height} = bitmap;
   checkSize(name, width, height);
   const context = new OffscreenCanvas(width, height).getContext('2d', {willReadFrequently: true});
@@ -119,10 +120,12 @@ async function readOne(file) {
 export async function readFiles(files) {
   const parts = [];
   for (const file of files) parts.push(await readOne(file));
-  const heights = parts.filter((part) => part.heights), textures = parts.filter((part) => part.texture);
+  const heights = parts.filter((part) => part.heights);
+  const textures = parts.filter((part) => part.texture);
   if (heights.length > 1 || textures.length > 1) {
     const two = heights.length > 1 ? 'hold heights' : 'are images';
-    throw new Error(`Two of these files ${two}. Drop one GeoTIFF of heights and one image over it.`);
+    throw new Error(
+      `Two of these files ${two}. Drop one GeoTIFF of heights and one image over it.`);
   }
   return {...heights[0], ...textures[0]};
 }

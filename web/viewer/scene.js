@@ -8,8 +8,10 @@ import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
 import {placeFor} from './fit.js';
 import {Fly} from './fly.js';
+import {NARROW} from './page.js';
 
 const REST = 150;  // ms
+const PANEL_SHIFT = 150;  // pixels, by which a panel beside the terrain moves its middle
 const TURN = 0.08, NEARER = 0.9;
 /** Keys of the picture while nobody flies. */
 const KEYS = {
@@ -66,7 +68,8 @@ export class Picture {
     this.renderer.setSize(innerWidth, innerHeight, false);
     this.camera.aspect = innerWidth / innerHeight;
     // The middle of the picture is about that of what the panel leaves free.
-    const [right, down] = innerWidth > 640 ? [150, 0] : [0, (innerHeight - this.free().bottom) / 2];
+    const [right, down] = innerWidth > NARROW
+      ? [PANEL_SHIFT, 0] : [0, (innerHeight - this.free().bottom) / 2];
     this.camera.setViewOffset(innerWidth, innerHeight, right, down, innerWidth, innerHeight);
     this.camera.updateProjectionMatrix();
     this.draw();
@@ -180,8 +183,10 @@ export class Picture {
     const pixel = Math.tan(MathUtils.degToRad(this.camera.fov) / 2) / (innerHeight / 2);
     const {offsetX, offsetY} = this.camera.view;
     const window = {
-      left: (left - innerWidth / 2 + offsetX) * pixel, right: (right - innerWidth / 2 + offsetX) * pixel,
-      low: (innerHeight / 2 - offsetY - bottom) * pixel, high: (innerHeight / 2 - offsetY - top) * pixel,
+      left: (left - innerWidth / 2 + offsetX) * pixel,
+      right: (right - innerWidth / 2 + offsetX) * pixel,
+      low: (innerHeight / 2 - offsetY - bottom) * pixel,
+      high: (innerHeight / 2 - offsetY - top) * pixel,
     };
     const axes = {ahead, right: across, up: new Vector3().crossVectors(across, ahead)};
     const {matrixWorld, geometry} = this.#object, places = geometry.getAttribute('position');

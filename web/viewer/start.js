@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first script of the page: asks for the stream (?tks=URL) and decodes a first frame of it while
-// what draws it is still on its way.
+// The first script of the page: asks for the stream (?tks=URL) and decodes a first frame of it
+// while what draws it is still on its way.
 import {FIRST_FRAME, open} from '../src/index.js';
 import {decoder} from './decoder.js';
 

@@ -1,37 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page: opens a stream (of start.js, a drop, a file), refines it, and lets its bytes and triangles
-// be chosen.
-import {encode} from '../src/encode.js';
+// Opens a stream (of start.js, a drop, a file), refines it, and lets its bytes and triangles be
+// chosen.
 import {open} from '../src/index.js';
 import {FIRST_FRAME, TksTerrain, textureOf} from '../src/three.js';
-import {decoder, encoder} from './decoder.js';
+import {nameOf, place} from './address.js';
+import {encodedFile, inputOf, isStream} from './coding.js';
+import {decoder} from './decoder.js';
 import {FetchMap} from './fetch_map.js';
+import {$, entitle, explainMoves, freeArea, isSmallScreen, tell} from './page.js';
+import {emptiness, formatBytes, readOut} from './read_out.js';
 import {Picture} from './scene.js';
 import {tint} from './tint.js';
 
-const $ = (id) => document.getElementById(id);
 const STILL = matchMedia('(prefers-reduced-motion: reduce)');
 /** What is fetched without being asked for. */
 const FREE_BYTES = 8 << 20;
 const LEAST_TRIANGLES = 100, MOST_TRIANGLES = 1e6, USUAL_TRIANGLES = 50000;
 
-/** As in style.css. */
-const SMALL_SCREEN = '(max-width: 640px), (max-height: 520px)';
-
-/** What neither the name nor the panel lies over. */
-function freeArea() {
-  const margin = 24, name = document.querySelector('header').getBoundingClientRect();
-  const panel = $('panel').getBoundingClientRect();
-  const isBelow = panel.width >= innerWidth, isBeside = panel.width > 0 && !isBelow;
-  return {
-    left: margin, right: (isBeside ? panel.left : innerWidth) - margin,
-    top: name.bottom + margin, bottom: (isBelow ? panel.top : innerHeight) - margin,
-  };
-}
 const picture = new Picture($('picture'), freeArea);
 const map = new FetchMap($('fetched'), $('ground'));
-/** What files are coded into: so many bits for each height and texel. */
-const BITS = 1, LEAST_BYTES = 32768;
 
 let terrain = null, object = null;
 let wanted = {};
@@ -48,58 +35,6 @@ let called = null;
 const fromSlider = (slider, least, most) => least * (most / least) ** (slider.value / 1000);
 const toSlider = (value, least, most) => (1000 * Math.log(value / least)) / Math.log(most / least);
 
-function formatBytes(bytes) {
-  if (bytes < 1000) return `${bytes} B`;
-  const [value, unit] = bytes < 1e6 ? [bytes / 1e3, 'kB'] : [bytes / 1e6, 'MB'];
-  return `${value.toFixed(value < 10 ? 1 : 0)} ${unit}`;
-}
-const formatCount = (count) => count.toLocaleString('en').replaceAll(',', '\u2009');
-
-function tell(text, isNote = false) {
-  $('message').textContent = text;
-  $('message').classList.toggle('note', isNote);
-  $('message').hidden = !text;
-}
-
-function readOut(frame, triangles) {
-  const {info} = frame;
-  $('bytes-here').textContent = formatBytes(frame.bytes);
-  $('bytes-of').textContent = `of ${formatBytes(info.streamBytes)}`;
-  $('triangles-here').textContent = formatCount(triangles);
-  $('heights-quality').hidden = !info.hasHeights;
-  $('texture-quality').hidden = !info.hasTexture;
-  // The stream states what its packets in their order bring. Where bytes came for a view, as many
-  // or more are here, and the ground that is looked at is better than that.
-  const scattered = terrain.loaded.ranges.length > 1;
-  const [most, least] = scattered ? ['≤ ', '≥ '] : ['', ''];
-  const rmse = info.heightsRmse;
-  $('rmse').textContent =
-    rmse < 0 ? '–' : rmse === 0 ? 'exact' : `${most}${Number(rmse.toPrecision(2))} ${info.unit}`.trim();
-  $('psnr').textContent = info.texturePsnr < 0 ? '–'
-    : isFinite(info.texturePsnr) ? `${least}${info.texturePsnr.toFixed(1)} dB` : 'exact';
-  const share = (bytes) => `${(100 * bytes) / info.streamBytes}%`;
-  $('split-heights').style.width = share(info.geometryBytes);
-  $('split-texture').style.width = share(info.textureBytes);
-  $('heights-share').textContent = `heights ${formatBytes(info.geometryBytes)}`;
-  $('texture-share').textContent = `texture ${formatBytes(info.textureBytes)}`;
-  $('heights-share').hidden = !info.hasHeights;
-  $('texture-share').hidden = !info.hasTexture;
-  const {requests, bytes} = terrain.loaded;
-  const how = requests ? `fetched in ${requests === 1 ? '1 request' : `${requests} requests`}` : 'read';
-  const where = $('ground').hidden ? '' : ', and for which ground';
-  $('fetched-text').textContent = `${formatBytes(bytes)} ${how}${where}`;
-  map.draw();
-}
-
-/** What leaves the picture empty, if anything does. */
-function emptiness({info, mesh, texture, complete}) {
-  if (!complete) return '';
-  if (info.hasHeights && mesh?.triangles.length === 0) return 'All heights of this stream are voids';
-  if (!info.textureCutout || !texture) return '';
-  for (let i = 3; i < texture.data.length; i += 4) if (texture.data[i] > 0) return '';
-  return 'The cut-out of this stream hides all texels';
-}
-
 function show(frame) {
   const first = object.frame === null;
   object.show(frame, {glide: !STILL.matches});
@@ -111,7 +46,8 @@ function show(frame) {
   }
   const empty = emptiness(frame);
   if (empty) tell(`${empty}: there is nothing to draw.`, true);
-  readOut(frame, frame.mesh ? frame.mesh.triangles.length / 3 : 2);
+  readOut(frame, terrain.loaded);
+  map.draw();
   document.body.dataset.bytes = frame.bytes;
   picture.draw();
 }
@@ -196,12 +132,6 @@ async function pump() {
   }
 }
 
-function call({name, title, size}) {
-  $('name').textContent = name;
-  document.title = title;
-  $('size').textContent = size;
-}
-
 function fail(error) {
   $('progress').hidden = true;
   tell(error.message);
@@ -213,7 +143,7 @@ function fail(error) {
 
 /** Of what is not opened. What is shown stays, as it is called, and goes on. */
 function failToOpen(error) {
-  if (called) call(called);
+  if (called) entitle(called);
   else $('size').textContent = '';
   fail(error);
   if (terrain && !isShown()) pump();
@@ -235,14 +165,17 @@ function replan() {
 }
 /** Of the header alone there is a surface too. */
 const leastBytes = () => Math.min(terrain.info.headerBytes, terrain.info.streamBytes - 1);
-const mostTriangles = () =>
-  Math.max(2 * LEAST_TRIANGLES, Math.min(MOST_TRIANGLES, 2 * terrain.info.width * terrain.info.height));
+const mostTriangles = () => {
+  const {width, height} = terrain.info;
+  return Math.max(2 * LEAST_TRIANGLES, Math.min(MOST_TRIANGLES, 2 * width * height));
+};
 
 /** Sliders and switches for what was opened. */
 function prepareControls(info) {
   $('panel').hidden = false;
   picture.resize();
-  $('bytes').value = toSlider(Math.min(info.streamBytes, FREE_BYTES), leastBytes(), info.streamBytes);
+  $('bytes').value =
+    toSlider(Math.min(info.streamBytes, FREE_BYTES), leastBytes(), info.streamBytes);
   $('triangles').value = toSlider(Math.min(USUAL_TRIANGLES, mostTriangles()), LEAST_TRIANGLES,
     mostTriangles());
   for (const control of document.querySelectorAll('.of-heights')) control.hidden = !info.hasHeights;
@@ -255,16 +188,21 @@ function sizeOf(info) {
   return sizes.join(' · ');
 }
 
-/** `asked`: {stop, terrain, first} of an open() that is under way already, and its first frame. */
-async function openInput(input, name, asked) {
+/** Ends what was being opened, for something else. */
+function beginOpening(stop, names) {
   opening.abort();
-  opening = asked?.stop ?? new AbortController();
-  const {signal} = opening;
+  opening = stop;
   tell('');
   $('welcome').hidden = $('progress').hidden = true;
-  const title = `${name} – Tetrakis`;
-  call({name, title, size: 'opening …'});
+  entitle(names);
   document.body.dataset.state = 'busy';
+}
+
+/** `asked`: {stop, terrain, first} of an open() that is under way already, and its first frame. */
+async function openInput(input, name, asked) {
+  const stop = asked?.stop ?? new AbortController(), {signal} = stop;
+  const title = `${name} – Tetrakis`;
+  beginOpening(stop, {name, title, size: 'opening …'});
   try {
     const opened = await (asked?.terrain ?? open(input, {...decoder, signal}));
     if (signal.aborted) return opened.dispose();
@@ -278,7 +216,7 @@ async function openInput(input, name, asked) {
     $('save').hidden = true;
     prepareControls(terrain.info);
     called = {name, title, size: sizeOf(terrain.info)};
-    call(called);
+    entitle(called);
     setWanted();
   } catch (error) {
     if (!signal.aborted) failToOpen(error);
@@ -287,29 +225,19 @@ async function openInput(input, name, asked) {
 
 /** Codes heights and an image, which then are what is open. */
 async function openSources(files) {
-  opening.abort();
-  opening = new AbortController();
-  const {signal} = opening, names = files.map(({name}) => name).join(' + ');
-  tell('');
-  $('welcome').hidden = $('progress').hidden = true;
-  $('name').textContent = names;
-  $('size').textContent = 'reading …';
-  document.body.dataset.state = 'busy';
+  const stop = new AbortController(), {signal} = stop;
+  const name = files.map((file) => file.name).join(' + ');
+  beginOpening(stop, {name, title: document.title, size: 'reading …'});
   try {
-    const {readFiles} = await import('./read_files.js');
-    const input = await readFiles(files);
-    const samples = [input.heights, input.texture].filter(Boolean)
-      .reduce((sum, {width, height}) => sum + width * height, 0);
-    const bytes = Math.max(LEAST_BYTES, Math.round((BITS * samples) / 8));
+    const input = await inputOf(files);
     $('progress').hidden = false;
     const progress = (done) => {
       $('progress').value = done;
       $('size').textContent = `encoding … ${Math.round(100 * done)} %`;
     };
     progress(0);
-    const stream = await encode({...input, bytes, index: true}, {...encoder, signal, progress});
+    const file = await encodedFile(input, files[0].name, {signal, progress});
     if (signal.aborted) return;
-    const file = new File([stream], `${files[0].name.replace(/\.[^.]*$/, '')}.tks`);
     await openInput(file, file.name);
     offer(file);
   } catch (error) {
@@ -325,11 +253,6 @@ function offer(file) {
   $('save').hidden = false;
 }
 
-async function isStream(file) {
-  if (/\.tks$/i.test(file.name)) return true;
-  const first = await file.slice(0, 3).arrayBuffer().catch(() => new ArrayBuffer(0));
-  return new TextDecoder().decode(first) === 'TKS';
-}
 /** A stream, or what can be coded into one. */
 async function openFiles(files) {
   const streams = [];
@@ -342,13 +265,7 @@ async function openFiles(files) {
   }
 }
 
-/** Three numbers of the address. */
-function place(name) {
-  const numbers = (new URLSearchParams(location.search).get(name) ?? '').split(',').map(Number);
-  return numbers.length === 3 && numbers.every(isFinite) ? numbers : null;
-}
-
-/** What is higher than wide, often because nothing states how far its samples lie apart, is flattened. */
+/** Flattens what is higher than wide, often because no spacing of its samples is stated. */
 function exaggerate() {
   if (!object?.frame) return;
   const {tallness} = picture, usual = tallness > 1 ? 1 / (8 * tallness) : 1;
@@ -357,7 +274,7 @@ function exaggerate() {
   picture.setExaggeration(times);
 }
 
-function listen() {
+function listenToControls() {
   $('bytes').addEventListener('input', setWanted);
   $('triangles').addEventListener('input', setWanted);
   $('exaggeration').addEventListener('input', exaggerate);
@@ -377,7 +294,7 @@ function listen() {
   $('shaded').addEventListener('change', () => picture.setShaded($('shaded').checked));
   $('fly').addEventListener('change', () => {
     picture.setFlying($('fly').checked);
-    help();
+    explainMoves($('fly').checked);
     $('picture').focus();
   });
   $('home').addEventListener('click', () => object && picture.home());
@@ -386,6 +303,10 @@ function listen() {
     $('fold').setAttribute('aria-expanded', String(!folded));
     picture.resize();
   });
+}
+
+/** What is chosen, typed or dropped is opened. */
+function listenToFiles() {
   for (const id of ['another', 'choose']) $(id).addEventListener('click', () => $('file').click());
   $('file').addEventListener('change', () => {
     openFiles([...$('file').files]);
@@ -409,32 +330,13 @@ function listen() {
   });
 }
 
-/** How to move. */
-function help() {
-  const [touched, byHand] = $('fly').checked
-    ? ['One finger looks around, a second one goes ahead.',
-      'A drag looks around. W A S D or arrows go, Q and E sink and rise, Shift hurries.']
-    : ['One finger turns, two move and zoom.',
-      'A drag turns, with Shift it moves; the wheel zooms. Keys: arrows, + −, Home.'];
-  $('help').textContent = matchMedia('(hover: none)').matches ? touched : byHand;
-}
-
-/** The last part of an address. */
-function nameOf(address) {
-  const [path] = String(address).split(/[?#]/), name = path.split('/').pop();
-  try {
-    return decodeURIComponent(name);
-  } catch {
-    return name;  // with a stray %
-  }
-}
-
 /** Takes over what the page has asked for already: {address, stop, terrain, first}, or nothing. */
 export function begin(asked) {
   picture.onrest = replan;
-  listen();
-  help();
-  if (matchMedia(SMALL_SCREEN).matches) $('fold').click();
+  listenToControls();
+  listenToFiles();
+  explainMoves($('fly').checked);
+  if (isSmallScreen()) $('fold').click();
   const early = [...$('file').files];  // chosen while this script was on its way
   if (early.length > 0) openFiles(early);
   else if (asked) openInput(asked.address, nameOf(asked.address), asked);

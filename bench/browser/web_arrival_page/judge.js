@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture that others are compared with: every sample and texel of a lossless stream. Its alpha is 0
-// where the ground ends, because tiles end there with a cell of theirs.
+// The picture that others are compared with: every sample and texel of a lossless stream. Its alpha
+// is 0 where the ground ends, because tiles end there with a cell of theirs.
 import {BufferAttribute} from 'three';
 
 import {open} from '../../../web/src/index.js';

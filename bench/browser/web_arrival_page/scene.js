@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the pages of bench/web_arrival have in common: one view, the times of pictures, their PSNR.
 import {
-  LinearFilter, LinearMipmapLinearFilter, MeshBasicMaterial, PerspectiveCamera, Scene, SRGBColorSpace,
-  WebGLRenderer,
+  LinearFilter, LinearMipmapLinearFilter, MeshBasicMaterial, PerspectiveCamera, Scene,
+  SRGBColorSpace, WebGLRenderer,
 } from 'three';
 
 export const query = Object.fromEntries(new URLSearchParams(location.search));
@@ -26,7 +26,7 @@ export class Picture {
   #camera = new PerspectiveCamera(40, WIDTH / HEIGHT, 1, 1e7);
   #object = null;
 
-  /** From the south, above, with all of the ground, whose sides are given in metres, in the picture. */
+  /** From the south, above, with all of the ground, whose sides are in metres, in the picture. */
   constructor() {
     const [across, down, middle] = query.ground.split(',').map(Number);
     this.#renderer.setSize(WIDTH, HEIGHT);

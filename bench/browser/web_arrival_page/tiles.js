@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles: quantized-mesh terrain under JPEG pictures, level by level, each level asked for at once. All
-// pictures are drawn into one texture, so that terrain tiles need not know theirs.
+// Tiles: quantized-mesh terrain under JPEG pictures, level by level, each level asked for at once.
+// All pictures are drawn into one texture, so that terrain tiles need not know theirs.
 import {
   BufferAttribute, BufferGeometry, CanvasTexture, Group, Mesh, Plane, Vector3,
 } from 'three';

@@ -24,10 +24,10 @@ constexpr uint32_t kPartSide = 448;
 HeightSteps cropped(const HeightSteps& whole, Extent plane, const Window& part) {
   HeightSteps out;
   out.range_bits = whole.range_bits;
-  out.steps = cut(std::span<const int32_t>(whole.steps), plane, {0, part});
-  out.valid = cut(std::span<const uint8_t>(whole.valid), plane, {0, part});
+  out.steps = slice(std::span<const int32_t>(whole.steps), plane, {0, part});
+  out.valid = slice(std::span<const uint8_t>(whole.valid), plane, {0, part});
   out.bridge = whole.bridge;
-  out.lifted = cut(std::span<const uint8_t>(whole.lifted), plane, {0, part});
+  out.lifted = slice(std::span<const uint8_t>(whole.lifted), plane, {0, part});
   return out;
 }
 

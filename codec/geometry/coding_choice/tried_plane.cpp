@@ -24,9 +24,9 @@ std::vector<int32_t> scaled(std::span<const int32_t> heights, const WaveletHeade
 CopiedPart::CopiedPart(const PlaneView<const int32_t>& plane, Mask valid_samples,
                        const SampledPart& sampled)
     : place(sampled),
-      heights(cut(plane.values(), plane.extent(), {0, sampled.window})),
-      lifted(cut(plane.valid.bytes(), plane.extent(), {0, sampled.window})),
-      valid(cut(valid_samples.bytes(), plane.extent(), {0, sampled.window})) {}
+      heights(slice(plane.values(), plane.extent(), {0, sampled.window})),
+      lifted(slice(plane.valid.bytes(), plane.extent(), {0, sampled.window})),
+      valid(slice(valid_samples.bytes(), plane.extent(), {0, sampled.window})) {}
 
 TriedPart::TriedPart(const CopiedPart& part, FlatAreas flat, const WaveletHeader& wavelet)
     : flat_(std::move(flat)),

@@ -16,7 +16,7 @@ DecodedGeometry decodeDrawnHeights(const GeometryHeader& header, std::span<const
   out.width = extent.width;
   out.height = extent.height;
   out.fraction_bits = DrawnSurface::kFractionBits;
-  out.valid = cut(std::span<const uint8_t>(valid), header.extent(), view);
+  out.valid = slice(std::span<const uint8_t>(valid), header.extent(), view);
   std::vector<DrawnIndex> indices(extent.samples(), kNoIndex);
   const PlaneView<DrawnIndex> plane(indices, extent, out.valid);
   const std::vector<Level> levels = levelsOf(header.width, header.height, level);

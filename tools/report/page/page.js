@@ -7,7 +7,8 @@ const inner = {left: margin.left, right: width - margin.right,
                top: margin.top, bottom: height - margin.bottom};
 
 const bytesText = (bytes) => bytes < 1000 ? `${Math.round(bytes)} B`
-    : bytes < 1e6 ? `${d3.format('.3~r')(bytes / 1000)} kB` : `${d3.format('.3~r')(bytes / 1e6)} MB`;
+    : bytes < 1e6 ? `${d3.format('.3~r')(bytes / 1000)} kB`
+    : `${d3.format('.3~r')(bytes / 1e6)} MB`;
 const decibels = (psnr) => psnr === null ? 'exact' : `${psnr.toFixed(2)} dB`;
 
 /** Axes of a chart with names, and a grid. Byte axes are logarithmic. */
@@ -23,7 +24,8 @@ function frame(id, x, y, names, ticks) {
   const down = `translate(0,${inner.bottom})`, right = `translate(${inner.left},0)`;
   place(svg.append('g').attr('class', 'grid'),
         bottom(inner.top - inner.bottom).tickFormat(''), down);
-  place(svg.append('g').attr('class', 'grid'), left(inner.left - inner.right).tickFormat(''), right);
+  place(svg.append('g').attr('class', 'grid'),
+        left(inner.left - inner.right).tickFormat(''), right);
   const plot = svg.append('g').attr('clip-path', `url(#${id}-inside)`);
   place(svg.append('g'), bottom(5), down);
   place(svg.append('g'), left(5), right);
@@ -69,8 +71,8 @@ function rates(plane) {
   const plot = frame('rates', x, y, {x: 'bytes of heights and texture', y: 'screen PSNR, dB'},
                      {x: logTicks(x), y: (axis) => axis.ticks(7)});
   const line = d3.line().x((p) => x(total(p))).y((p) => y(p.psnr));
-  for (const [, pairs] of d3.nest().key((p) => p.texture).entries(seen).map((e) => [e.key, e.values]))
-    plot.append('path').attr('class', 'rate').attr('d', line(pairs));
+  for (const {values} of d3.nest().key((p) => p.texture).entries(seen))
+    plot.append('path').attr('class', 'rate').attr('d', line(values));
   const dots = (name, data, radius, at) => plot.append('g').selectAll('circle').data(data)
       .join('circle').attr('class', name).attr('r', radius)
       .attr('cx', (p) => x(at(p)[0])).attr('cy', (p) => y(at(p)[1]));
@@ -96,14 +98,15 @@ function refined(values, columns, rows, steps) {
       const c = Math.min(Math.floor(i / steps), Math.max(0, columns - 2));
       const r = Math.min(Math.floor(j / steps), Math.max(0, rows - 2));
       const u = i / steps - c, v = j / steps - r;
-      const at = (a, b) => values[Math.min(r + b, rows - 1) * columns + Math.min(c + a, columns - 1)];
+      const at = (a, b) =>
+        values[Math.min(r + b, rows - 1) * columns + Math.min(c + a, columns - 1)];
       fine.push((1 - u) * (1 - v) * at(0, 0) + u * (1 - v) * at(1, 0)
                 + (1 - u) * v * at(0, 1) + u * v * at(1, 1));
     }
   return {fine, n, m};
 }
 
-/** Figures 6.7 and 6.8: lines of equal `values` over heights (x) and texture (y), with the paths. */
+/** Figures 6.7 and 6.8: lines of equal `values` over heights (x) and texture (y), and paths. */
 function plane(id, data, values, thresholds, colour, label, marks) {
   const x = logScale([data.heights[0], data.heights[data.heights.length - 1]],
                      [inner.left, inner.right]);
@@ -232,7 +235,8 @@ if (report.plane) {
   const bytes = turned((pair) => Math.log2(pair.heights + pair.texture));
   const powers = d3.range(Math.ceil(Math.min(...bytes)), Math.max(...bytes));
   plane('iso-bytes', data, bytes, powers,
-        d3.scaleSequential(d3.interpolateBlues).domain([Math.min(...bytes) - 4, Math.max(...bytes)]),
+        d3.scaleSequential(d3.interpolateBlues)
+          .domain([Math.min(...bytes) - 4, Math.max(...bytes)]),
         (value) => bytesText(2 ** value), data.equal_bytes);
   split(data.shipped);
 }

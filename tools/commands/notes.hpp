@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What commands say of their work that is no error.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+#include "base/length_unit.hpp"
+#include "tetrakis/tetrakis.h"
+#include "tools/files/file_bytes.hpp"
+
+namespace tetrakis::tools {
+
+/// A line on standard error, unless it is empty or -q is given.
+inline void tellNote(const std::string& text, bool quiet) {
+  if (!quiet && !text.empty()) std::fprintf(stderr, "note: %s\n", text.c_str());
+}
+
+/// What is to be said where heights count as metres beside the ground; "" if their unit is a
+/// length.
+inline std::string guessedUnitNote(const tks_info& info) {
+  if (!info.has_heights) return "";
+  if (*info.unit == '\0')
+    return "the stream does not tell the unit of its heights, which counts as metres";
+  if (metresPerUnit(info.unit)) return "";
+  return "the unit of the heights, " + quoted(info.unit) + ", is no length and counts as metres";
+}
+
+/// What is to be said of a mesh that has more triangles than were asked for (0: any number); "" of
+/// others.
+inline std::string coarsestNote(uint32_t triangles, uint32_t asked) {
+  if (asked == 0 || triangles <= asked) return "";
+  return "the mesh has " + std::to_string(triangles) + " triangles: the coarsest one";
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The cameras that a command is asked to look with, and how encoders are told of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/status.hpp"
+#include "ground/frame.hpp"
+#include "tetrakis/tetrakis.h"
+#include "tools/files/place/ground_axes.hpp"
+#include "tools/render/render.hpp"
+
+namespace tetrakis::tools {
+
+/// The cameras of --cameras FILE or --view NAME; both empty: the oblique view.
+struct CameraChoice {
+  std::string file;
+  std::string view;
+  bool isDefault() const { return file.empty() && view.empty(); }
+};
+
+/// `bounds`: of what preset cameras look at.
+Result<std::vector<Camera>> chooseCameras(const CameraChoice& choice, const Bounds& bounds);
+
+/// As encoders are told of them, whose x runs along rows and z down columns: exactly, where these
+/// are perpendicular. The names are those of `cameras`, which outlive the result.
+std::vector<tks_camera> toldCameras(const std::vector<Camera>& cameras, const GroundAxes& axes);
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// Brings the bytes of a stream from its source to its decoder: the first ones that are missing, or
+// those that help a view most.
+import {abortable, stoppedBy} from './abort.js';
+import {askDecoder} from './decoders.js';
+import {Flow} from './pace.js';
+import {Held, requestsFor} from './ranges.js';
+
+export class Fetcher {
+  /** Of the stream, once its header is known. */
+  info = null;
+  #source;
+  #decoder;
+  #requestBytes;
+  #held = new Held();
+  #flow = new Flow();
+  #reading = Promise.resolve();
+  #awaited = new Set();  // {bytes, resolve}: who waits for so many
+
+  /** `requestBytes`: what a request costs beside its own. */
+  constructor(source, decoder, requestBytes) {
+    this.#source = source;
+    this.#decoder = decoder;
+    this.#requestBytes = requestBytes;
+  }
+
+  /** How many bytes are here. */
+  get bytes() {
+    return this.#held.bytes;
+  }
+  /** How many requests went out, how many bytes of the stream are here, and which. */
+  get loaded() {
+    const {bytes, ranges} = this.#held;
+    return {requests: this.#source.requests, bytes, ranges};
+  }
+  /** Whether the file ends before the stream does. */
+  get truncated() {
+    return this.#source.size < this.info.streamBytes;
+  }
+  /** How many ms to wait for the `rest` of the bytes, as Flow says it. */
+  patience(rest, took) {
+    return this.#flow.patience(rest, took);
+  }
+
+  /**
+   * Resolves to how many of `bytes` bytes are here. `asked`: {signal, view, triangles}, the last
+   * two as plannedView() and trianglesOf() give them.
+   */
+  async load(bytes, asked) {
+    if (this.#held.bytes < bytes) {
+      // One after another: each asks for what the ones before did not.
+      const reading = this.#reading.catch(() => {}).then(() => this.#read(bytes, asked));
+      this.#reading = reading;
+      await abortable(this.reached(bytes, reading), asked.signal);
+    }
+    return Math.min(bytes, this.#held.bytes);
+  }
+  /** Resolves when so many bytes are here, whoever asked for them, or when `reading` ends. */
+  async reached(bytes, reading) {
+    let waiting;
+    const here = new Promise((resolve) => (waiting = {bytes, resolve}));
+    if (this.#held.bytes < bytes) this.#awaited.add(waiting);
+    else waiting.resolve();
+    try {
+      await Promise.race([here, reading]);
+    } finally {
+      this.#awaited.delete(waiting);
+    }
+  }
+  async #read(bytes, {signal, view, triangles}) {
+    for (let before = -1; this.#held.bytes < bytes && this.#held.bytes > before; ) {
+      signal?.throwIfAborted();
+      before = this.#held.bytes;
+      const isPlanned = view && this.info?.hasIndex && !this.#source.sequential;
+      if (!isPlanned) {
+        await this.#fetchNext(bytes - before, signal);
+        continue;
+      }
+      // A plan counts bytes by integers: there is no infinite number of them.
+      const most = Math.min(bytes, this.info.streamBytes) - before;
+      await this.#fetchPlanned(view, most, triangles, signal);
+      if (bytes - this.#held.bytes < this.#requestBytes) return;  // not worth another request
+    }
+  }
+  /** The first bytes that are missing. */
+  async #fetchNext(bytes, signal) {
+    const size = Math.min(this.info?.streamBytes ?? Infinity, this.#source.size);
+    const [gap] = this.#held.gaps(0, size);
+    if (!gap) return;
+    const [begin, end] = gap;
+    let place = begin;
+    this.#flow.request();
+    await this.#source.next(begin, Math.min(end, begin + bytes), async (piece) => {
+      this.#take(place, piece);
+      place += piece.length;
+    }, signal);
+  }
+  /** Those that help a view most; none where nothing more does. */
+  async #fetchPlanned(view, bytes, triangles, signal) {
+    const request = {view, bytes, triangles, requestBytes: this.#requestBytes};
+    const plan = await askDecoder(this.#decoder, 'plan', request, signal);
+    this.#flow.request();
+    const stop = new AbortController();
+    await stoppedBy(signal, stop, () =>
+      this.#takeAll(requestsFor(plan, this.#source.size), stop));
+    // A server that has just forgotten ranges sends all from its beginning.
+    if (this.#source.sequential) await this.#fetchNext(bytes, signal);
+  }
+  /** Takes ranges [begin, end) as they come. One that fails ends those that are still to come. */
+  async #takeAll(ranges, stop) {
+    const answers = ranges.map(([begin, end]) =>
+      ({begin, chunk: this.#source.scattered(begin, end, stop.signal)}));
+    for (const {chunk} of answers) chunk.catch((error) => stop.abort(error));
+    for (const {begin, chunk} of answers) {
+      const bytes = await chunk.catch(() => null);
+      if (bytes) this.#take(begin, bytes);
+    }
+    stop.signal.throwIfAborted();
+  }
+  /**
+   * Bytes from a place on. Those that are here already are left out. The decoder gets them in front
+   * of what it is asked for later; nobody waits for it, because it may be at work on a frame.
+   */
+  #take(begin, chunk) {
+    for (const [b, e] of this.#held.gaps(begin, begin + chunk.length)) {
+      const piece = {place: b, chunk: chunk.slice(b - begin, e - begin)};
+      const put = askDecoder(this.#decoder, 'put', piece);
+      put.catch(() => {});  // of a decoder that failed, and says so to all
+    }
+    this.#held.add(begin, begin + chunk.length);
+    this.#flow.take(chunk.length);
+    for (const {bytes, resolve} of this.#awaited) {
+      if (this.#held.bytes >= bytes) resolve();
+    }
+  }
+
+  close() {
+    this.#source.close();
+  }
+}

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stream that is open, as users have it: frames of its bytes, one or a series that refines.
+import {abortable} from './abort.js';
+import {askDecoder} from './decoders.js';
+import {TksError} from './error.js';
+import {Fetcher} from './fetcher.js';
+import {checkBytes, checkLevels, checkSides, trianglesOf} from './limits.js';
+import {FIRST_BYTES, GROWTH, nextBytes} from './pace.js';
+import {cutOf, plannedView} from './view.js';
+
+const DEFAULTS = {
+  triangles: 20000,
+  view: null,
+  mesh: true,
+  normals: false,
+  texture: true,
+  surface: false,
+  texels: 4096,
+  samples: 4096,
+};
+
+/** The numbers of tks_part. */
+const PARTS = {heights: 0, texture: 2};
+
+/** Resolves when the promise ends, however it does, or after so many ms. */
+async function within(ms, promise) {
+  let timer;
+  const end = new Promise((resolve) => (timer = setTimeout(resolve, ms)));
+  await Promise.race([promise.catch(() => {}), end]);
+  clearTimeout(timer);
+}
+
+/** Made by open(). */
+export class Terrain {
+  #fetcher;
+  #decoder;
+
+  constructor(source, decoder, requestBytes) {
+    this.#fetcher = new Fetcher(source, decoder, requestBytes);
+    this.#decoder = decoder;
+  }
+
+  get info() {
+    return this.#fetcher.info;
+  }
+  get loaded() {
+    return this.#fetcher.loaded;
+  }
+  get truncated() {
+    return this.#fetcher.truncated;
+  }
+
+  async load(bytes, {signal, view, triangles = DEFAULTS.triangles} = {}) {
+    signal?.throwIfAborted();
+    checkBytes(bytes);
+    const asked = {signal, view: plannedView(view), triangles: trianglesOf(triangles)};
+    return this.#fetcher.load(bytes, asked);
+  }
+
+  async decode({bytes = Infinity, signal, ...options} = {}) {
+    checkBytes(bytes);
+    const {headerBytes = 0, streamBytes = bytes} = this.info ?? {};
+    const wanted = Math.min(Math.max(bytes, headerBytes), streamBytes);
+    const {view, triangles} = {...DEFAULTS, ...options};
+    const have = await this.load(wanted, {signal, view, triangles});
+    return this.#frame(have, {...options, signal});
+  }
+  /** Of the first so many bytes, which are here. */
+  async #frame(bytes, {signal, ...options}) {
+    const asked = {...DEFAULTS, ...options};
+    checkSides(asked);
+    checkLevels(asked, this.info ?? {});
+    const triangles = trianglesOf(asked.triangles), cut = cutOf(asked.view);
+    return askDecoder(
+      this.#decoder, 'decode', {...asked, view: null, triangles, cut, bytes}, signal);
+  }
+
+  /** While a frame is decoded and shown, bytes come on; the next one takes what is here by then. */
+  async *refine({bytes = Infinity, signal, first, after = 0, ...options} = {}) {
+    checkBytes(bytes);
+    const {headerBytes, streamBytes} = this.info;
+    const limit = Math.min(Math.max(bytes, headerBytes), streamBytes);
+    let shown = after, beginning = null;
+    if (!after) {
+      const bytesOfFirst = Math.max(this.#fetcher.bytes, FIRST_BYTES);
+      shown = await this.load(Math.min(bytesOfFirst, limit), {signal});
+      beginning = this.#frame(shown, {...options, ...first, signal});
+      beginning.catch(() => {});
+    }
+    const leave = new AbortController();
+    const ended = signal ? AbortSignal.any([signal, leave.signal]) : leave.signal;
+    const all = this.load(limit, {...options, signal: ended});
+    all.catch(() => {});
+    let took = 0;
+    try {
+      if (beginning) yield await beginning;
+      if (first) shown = 0;  // not yet as it is asked for
+      for (;;) {
+        const wanted = headerBytes + GROWTH * Math.max(shown - headerBytes, FIRST_BYTES);
+        await abortable(this.#fetcher.reached(2 * wanted > limit ? limit : wanted, all), signal);
+        const patience = this.#fetcher.patience(limit - this.#fetcher.bytes, took);
+        if (patience) await abortable(within(patience, all), signal);
+        const taken = nextBytes(shown, Math.min(this.#fetcher.bytes, limit));
+        if (taken <= shown) return;
+        const begun = performance.now();
+        const frame = await this.#frame((shown = taken), {...options, signal});
+        took = performance.now() - begun;
+        yield frame;
+      }
+    } finally {
+      leave.abort();
+    }
+  }
+
+  /** Which bytes a window of the heights or of the texture takes, as [begin, end). */
+  async needed({part = 'heights', window} = {}) {
+    const {x, y, width, height} = window ?? {};
+    if (!(part in PARTS) || ![x, y, width, height].every((number) => number >= 0)) {
+      throw new TksError('usage', 'needed() takes `part`, "heights" or "texture", and `window`: ' +
+        '{x, y, width, height}.');
+    }
+    const ranges = await askDecoder(this.#decoder, 'needed', {part: PARTS[part], window});
+    return ranges.map(({begin, end}) => [begin, end]);
+  }
+
+  /** Reads the header, which may be longer than the first request: the second brings a picture. */
+  async begin(signal) {
+    for (let bytes = FIRST_BYTES; ; ) {
+      const have = await this.load(bytes, {signal});
+      try {
+        const {info} = await this.decode({bytes, signal, mesh: false, texture: false});
+        this.#fetcher.info = info;
+        return;
+      } catch (error) {
+        if (error.code !== 'truncated') throw error;
+        if (have === 0) throw new TksError('truncated', 'The file is empty.');
+        if (have < bytes) {
+          throw new TksError('truncated', `The file is cut short: it ends after ${have} bytes, ` +
+            'inside the header of the stream.');
+        }
+        bytes = (error.needed > bytes ? error.needed : GROWTH * bytes) + FIRST_BYTES;
+      }
+    }
+  }
+
+  dispose() {
+    this.#fetcher.close();
+    this.#decoder.dispose();
+  }
+  [Symbol.dispose ?? Symbol.for('Symbol.dispose')]() {
+    this.dispose();
+  }
+}
