@@ -93,8 +93,8 @@ std::vector<VectorCase> drawnHeightsCases() {
     vector_case.patches = true;
     return vector_case;
   };
-  VectorCase rescaled =
-      patches("drawn_table_f32_60x47", "drawn heights that count the values of a table", 60, 47);
+  VectorCase rescaled = patches("drawn_table_f32_160x121",
+                                "drawn heights that count the values of a table", 160, 121);
   rescaled.values = samples::FewValues::kRescaled;
   VectorCase rare =
       patches("drawn_rare_f32_66x60", "drawn heights beside corrections of samples", 66, 60);

@@ -164,10 +164,11 @@ TEST(FewValues, PrefixesKeepGroundApartFromHoles) {
 
 TEST(FewValues, DecodeAsTheReferenceDoesInAllPrefixesAndLevels) {
   const Raster whole = make({Pattern::kSteps, 61, 50, 1, TKS_U8, 3});
+  const Raster ridges = make({Pattern::kRidges, 61, 50, 1, TKS_U8, 3});
   tks_encode_options regions = lossless();
   regions.regions = 16;
   for (const Raster& heights :
-       {samples::withFewValues(whole, FewValues::kFeet), squareRoots(61, 50),
+       {samples::withFewValues(ridges, FewValues::kFeet), squareRoots(61, 50),
         samples::withFewValues(whole, FewValues::kRare)}) {
     for (const tks_encode_options& options : {lossless(), regions}) {
       const Bytes stream = encode(&heights, nullptr, options);

@@ -118,6 +118,23 @@ double penaltyOf(const Filters& filters) {
   return 1 + kPerLong * choices(kL) + kPerShort * choices(kS) + kPerSmooth * choices(kN);
 }
 
+/// Bits with what they count more. Where most samples have bits, the decibels that filters lose are
+/// so many bits a sample.
+double penalised(double bits, const Filters& filters, double samples) {
+  return bits + (penaltyOf(filters) - 1) * std::min(bits, samples);
+}
+
+/// A step that is finer than `usual`, and as fine as the target asks; `usual` if it does not.
+float finerStep(const std::vector<float>& details, float usual, double unit, double samples,
+                const RateTarget& target) {
+  if (target.mean_square > 0)
+    return std::min(usual, static_cast<float>(unit * std::sqrt(12 * target.mean_square)));
+  float step = usual;
+  while (target.bits > 0 && step > 1 && bitsOf(details, step / 2) <= target.bits * samples)
+    step /= 2;
+  return step;
+}
+
 /// A choice, and about how many bits the details of the parts take.
 struct Choice {
   WaveletHeader header;
@@ -136,17 +153,24 @@ WaveletHeader headerWith(const Filters& filters, int fraction_bits, int bits) {
   return header;
 }
 
-Choice chooseLossy(const std::vector<PlanePart>& parts, int bits) {
+Choice chooseLossy(const std::vector<PlanePart>& parts, int bits, const RateTarget& target) {
+  const double samples = samplesIn(parts);
   Choice best;
-  float step = 0;
+  float usual = 0, finer = 0;
   for (const Filters& filters : kLossyChoices) {
     if (filters.back() == kO && bits > kGrowingBits) continue;
     const WaveletHeader header =
         headerWith(filters, std::clamp(20 - bits, 0, kMostFractionBits), bits);
     std::vector<float> details;
     for (const PlanePart& part : parts) appendDetails(part, header, false, details);
-    if (step == 0) step = stepOf(details);
-    keepIfBetter(header, bitsOf(details, step), penaltyOf(filters), best);
+    if (usual == 0) {
+      usual = stepOf(details);
+      finer = finerStep(details, usual, std::exp2(header.fraction_bits), samples, target);
+    }
+    const double bits_usual = penalised(bitsOf(details, usual), filters, samples);
+    const double bits_finer =
+        finer < usual ? penalised(bitsOf(details, finer), filters, samples) : bits_usual;
+    keepIfBetter(header, std::sqrt(bits_usual * bits_finer), 1, best);
   }
   if (best.header.fraction_bits > 0) best.header.first_doubled = 0;
   return best;
@@ -172,20 +196,22 @@ Choice chooseLossless(const std::vector<PlanePart>& parts, int bits,
 }
 
 /// Chooses for heights, and for textures that are not for the last bit.
-Choice chooseAmong(const std::vector<PlanePart>& parts, int bits, Purpose purpose) {
-  if (purpose == Purpose::kLossy) return chooseLossy(parts, bits);
+Choice chooseAmong(const std::vector<PlanePart>& parts, int bits, Purpose purpose,
+                   const RateTarget& target = {}) {
+  if (purpose == Purpose::kLossy) return chooseLossy(parts, bits, target);
   return chooseLossless(parts, bits, kLosslessHeights);
 }
 
 }  // namespace
 
-WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose) {
-  return chooseAmong(typicalPartsOf(std::span(&plane, 1)), bits, purpose).header;
+WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose,
+                            const RateTarget& target) {
+  return chooseAmong(typicalPartsOf(std::span(&plane, 1)), bits, purpose, target).header;
 }
 
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
-                            int bits, Purpose purpose) {
-  return chooseAmong(typicalPartsOf(std::span(&plane, 1), held), bits, purpose).header;
+                            int bits, Purpose purpose, const RateTarget& target) {
+  return chooseAmong(typicalPartsOf(std::span(&plane, 1), held), bits, purpose, target).header;
 }
 
 WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits) {

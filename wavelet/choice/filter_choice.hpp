@@ -18,14 +18,22 @@ enum class Purpose : uint8_t {
   kLossy      ///< something short of it: as many fraction bits as rounding noise asks for
 };
 
+/// What the filters of lossy streams are chosen for.
+struct RateTarget {
+  double bits = 0;         ///< a sample that there are for the plane; 0: any
+  double mean_square = 0;  ///< error of a sample of the plane that is wanted; 0: any
+};
+
 /// Chooses the filters of heights, or of a lossy texture by one plane of it. They are tried on
 /// typical parts of the plane, whose samples have `bits` bits, and compared by an estimate of the
-/// bits that their coefficients take.
-WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose);
+/// bits that their coefficients take, at a step that suits most streams and at a finer one where
+/// the target asks for it.
+WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose,
+                            const RateTarget& target = {});
 
 /// Chooses the wavelet of a plane of which samples are held.
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
-                            int bits, Purpose purpose);
+                            int bits, Purpose purpose, const RateTarget& target = {});
 
 /// Chooses the same filters for all planes of an image that is coded to the last bit.
 WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits);

@@ -44,6 +44,14 @@ double stepOf(const TriedPlane& plane, const HeightPurpose& purpose, int fractio
   return plane.step(8 * static_cast<double>(purpose.bytes));
 }
 
+/// What the purpose leaves to a sample of the plane.
+RateTarget rateOf(const PlaneView<const int32_t>& plane, const HeightPurpose& purpose) {
+  if (purpose.mean_square > 0) return {.mean_square = purpose.mean_square};
+  if (purpose.bytes == UINT64_MAX) return {};
+  const auto samples = static_cast<double>(markedIn(plane.extent(), plane.valid));
+  return {.bits = 8 * static_cast<double>(purpose.bytes) / std::max(samples, 1.0)};
+}
+
 /// Tries areas against what was best so far.
 class FlatTrials {
  public:
@@ -52,7 +60,8 @@ class FlatTrials {
         valid_(valid),
         purpose_(purpose),
         finder_({heights.values(), heights.extent(), valid}),
-        wavelet_(chooseWavelet(heights, purpose.range_bits, purpose.purpose)) {}
+        wavelet_(chooseWavelet(heights, purpose.range_bits, purpose.purpose,
+                               rateOf(heights, purpose))) {}
 
   FlatChoice choose() {
     const FlatChoice plain = {{}, wavelet_};
@@ -149,8 +158,8 @@ class FlatTrials {
 
   /// Early doubling is cheap where levels are lifted jointly. Beside held samples they are not.
   WaveletHeader waveletBeside(const FlatAreas& areas) const {
-    WaveletHeader header =
-        chooseWavelet(heights_, areas.held(), purpose_.range_bits, purpose_.purpose);
+    WaveletHeader header = chooseWavelet(heights_, areas.held(), purpose_.range_bits,
+                                         purpose_.purpose, rateOf(heights_, purpose_));
     if (header.first_doubled > 0) header.first_doubled = WaveletSpec().first_doubled;
     return header;
   }
