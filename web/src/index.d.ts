@@ -165,6 +165,8 @@ export interface Terrain {
   readonly loaded: {requests: number; bytes: number; ranges: [number, number][]};
   /** The file ends before the stream does: frames are good, but not complete. */
   readonly truncated: boolean;
+  /** Of the file, once its size is known; Infinity before. */
+  readonly fileBytes: number;
   /** Fetches until `bytes` bytes are here, without decoding: the first ones of the stream, or those
    * that help a view most. Resolves to how many there are. Fewer: the file ends, no other byte helps
    * the view, or what is left of `bytes` is worth no request (`requestBytes`). Where nothing came,

@@ -62,6 +62,11 @@ class Terrain {
     return this.#source.size < this.info.streamBytes;
   }
 
+  /** Of the file, as far as it is known; Infinity: it is not. */
+  get fileBytes() {
+    return this.#source.size;
+  }
+
   async load(bytes, {signal, view, triangles = DEFAULTS.triangles} = {}) {
     signal?.throwIfAborted();
     checkBytes(bytes);
@@ -120,12 +125,14 @@ class Terrain {
   }
   /** Those that help a view most; none where nothing more does. */
   async #fetchPlanned(view, bytes, triangles, signal) {
-    const {requestBytes} = this;
-    const plan = await this.#call('plan', {view, bytes, triangles, requestBytes}, signal);
+    const {requestBytes, truncated} = this, {size} = this.#source;
+    // A plan knows no end of the file: all that a short one would hold may lie behind it.
+    const [asked, most] = truncated ? [this.info.streamBytes, bytes] : [bytes, Infinity];
+    const plan = await this.#call('plan', {view, bytes: asked, triangles, requestBytes}, signal);
     this.#flow.request();
     const stop = new AbortController();
     await stoppedBy(signal, stop, () =>
-      this.#takeAll(requestsFor(plan, this.#source.size), stop));
+      this.#takeAll(requestsFor(plan, size, most), stop));
     // A server that has just forgotten ranges sends all from its beginning.
     if (this.#source.sequential) await this.#fetchNext(bytes, signal);
   }

@@ -166,7 +166,8 @@ export class TksTerrain extends Mesh {
     this.#updated = [performance.now(), this.#updated[0]];
     this.glide();
     if (this.#reading || this.#stop.signal.aborted) return;
-    const {info, truncated} = this.terrain, limit = Math.min(this.bytes, info.streamBytes);
+    const {info, fileBytes} = this.terrain;
+    const limit = Math.min(this.bytes, info.streamBytes, fileBytes);
     const seen = this.viewOf(camera, viewportHeight);
     if (!isDrawable(seen)) return;
     const view = this.frame && info.hasIndex ? seen : null;
@@ -174,7 +175,7 @@ export class TksTerrain extends Mesh {
     let bytes = this.#firstBytes(), texels = this.#texels;
     if (this.frame) {
       const needs = this.#needs(camera, viewportHeight);
-      const more = (view ? key !== this.#served : needs.more) && !truncated;
+      const more = view ? key !== this.#served : needs.more;
       bytes = this.#nextBytes(more, view, limit);
       texels = this.#wanted ? Math.max(texels, needs.texels) : needs.texels;
       if (bytes === this.#wanted && texels === this.#texels) return;
