@@ -20,6 +20,13 @@ const WKT = /^(?:COMP\w+\["[^"]*",\s*)?(GEO|PROJ|LOCAL|ENG)/i;
 /** Of other codes no rule tells: 4547 is in metres, 6318 in degrees. */
 const DEGREES = /^EPSG:(4326|4269|4258|4979)(\D|$)/i;
 
+/** By its code and the codes it had before, or by its projection in WKT. */
+const WEB_MERCATOR =
+  /^(EPSG|ESRI):(3857|3785|900913|102100|102113)(\D|$)|Pseudo[- ]Mercator|Auxiliary_Sphere/i;
+export const isWebMercator = (crs) => WEB_MERCATOR.test(crs);
+/** Metres on the ground of one of web Mercator's, so far north on its plane: cos(latitude). */
+export const mercatorMetre = (north) => 1 / Math.cosh(north / AXIS);
+
 /** Of a unit of coordinates; 0: it is no length, or unknown. */
 const lengthOf = (metres) => (metres > 0 && Math.abs(metres / RADIANS - 1) > 1e-9 ? metres : 0);
 
@@ -70,16 +77,17 @@ export function metresPerDegree(latitude) {
 }
 
 /**
- * Metres between columns and between rows, of degrees in the middle; coordinates whose unit neither
- * keys nor WKT state count as metres. Nothing if there is no place, no CRS, or no distance.
+ * Metres between columns and between rows, of degrees and of web Mercator in the middle;
+ * coordinates whose unit neither keys nor WKT state count as metres. Nothing if there is no place,
+ * no CRS, or no distance.
  */
 function placedSpacing(info) {
   const {hasGeotransform, geotransform, crs, geoKeys = '', width, height} = info;
   if (!hasGeotransform || !(crs || geoKeys)) return null;
   const unit = unitOfKeys(geoKeys) || unitOfWkt(crs) || (isInDegrees(info) ? 'degree' : 1);
-  const [, a, b, north, c, d] = geotransform;
-  const [east, up] =
-    unit === 'degree' ? metresPerDegree(north + (width * c + height * d) / 2) : [unit, unit];
+  const [, a, b, north, c, d] = geotransform, middle = north + (width * c + height * d) / 2;
+  const metre = isWebMercator(crs) ? unit * mercatorMetre(unit * middle) : unit;
+  const [east, up] = unit === 'degree' ? metresPerDegree(middle) : [metre, metre];
   const spacing = [Math.hypot(a * east, c * up), Math.hypot(b * east, d * up)];
   return spacing.every((metres) => metres > 0 && Number.isFinite(metres)) ? spacing : null;
 }

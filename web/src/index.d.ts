@@ -195,6 +195,7 @@ export function open(
 
 /**
  * Metres of one unit of height, of one column and of one row: as the stream states them, or as its
- * place tells, of degrees in the middle of the ground; where nothing is known, 1.
+ * place tells, of degrees and of web Mercator, whose metres are longer than the ground's, in the
+ * middle of the ground; where nothing is known, 1.
  */
 export function groundScale(info: TerrainInfo): {height: number; x: number; y: number};

@@ -3,6 +3,7 @@
 // the CRSs that web maps meet: degrees, web Mercator, UTM.
 import {drapedTransform, pixelsOf} from './drape.js';
 import {TksError} from './error.js';
+import {isWebMercator} from './ground.js';
 
 const RADIANS = Math.PI / 180;
 const MERCATOR_RADIUS = 6378137;
@@ -73,9 +74,9 @@ function utm(zone, south) {
 
 /** From (longitude, latitude) to a CRS such as "EPSG:32611" or "EPSG:4326+5773", and back. */
 export function projectionOf(crs) {
+  if (isWebMercator(crs)) return mercator;
   const code = Number(/^EPSG:(\d+)/i.exec(crs)?.[1] ?? 0);
   if (code === 4326 || code === 4269 || code === 4258 || code === 4979) return degrees;
-  if (code === 3857) return mercator;
   if (code > 32600 && code <= 32660) return utm(code - 32600, false);
   if (code > 32700 && code <= 32760) return utm(code - 32700, true);
   if (code >= 26901 && code <= 26923) return utm(code - 26900, false);
