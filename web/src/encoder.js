@@ -75,10 +75,18 @@ function whiteLevelOf({whiteLevel = 0}) {
   throw new TksError('usage', 'whiteLevel is a whole number from 0 to 65535.');
 }
 
+/** Of a texture: as said, or as the length of its data tells. */
+function channelsOf({data, width, height, channels}) {
+  const count = channels ?? data.length / (width * height);
+  if ([1, 2, 3, 4].includes(count)) return count;
+  throw new TksError('usage', `texture: ${width} x ${height} texels of 1, 2, 3 or 4 channels are ` +
+    `not the ${data.length} values of its data.`);
+}
+
 function textureFields(texture) {
   const {data, width, height} = texture;
   const sample = sampleOf(data, 'the texture');
-  const channels = texture.channels ?? data.length / (width * height);
+  const channels = channelsOf(texture);
   checkSize(texture, channels, 'texture');
   return {
     textureWidth: width, textureHeight: height, textureChannels: channels, textureSample: sample,

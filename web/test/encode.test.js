@@ -123,7 +123,11 @@ test('what makes no sense is refused by code and sentence', async () => {
   await refused({heights: {...heights, width: 17}}, /17 x 16 samples/);
   await refused({heights: {...heights, geotransform: [1, 2]}}, /six numbers/);
   await refused({heights: {...heights, registration: 'pixel'}}, /one of unknown, area, point/);
-  await refused({texture: {...texture, channels: 5}}, /./);
+  await refused({texture: {...texture, channels: 5}}, /1, 2, 3 or 4 channels/);
+  for (const values of [0, 16 * 8, 16 * 24, 16 * 16 * 5]) {
+    await refused({texture: {...texture, data: new Uint8Array(values)}},
+      /16 x 16 texels of 1, 2, 3 or 4 channels are not the \d+ values of its data/);
+  }
   await refused({heights, index: 'regions'}, /one of false, true, windows/);
   await refused({heights, index: 'windows', bytes: 900}, /lossless/);
   await assert.rejects(encode({heights}, {signal: AbortSignal.abort(new Error('gone'))}), /gone/);
