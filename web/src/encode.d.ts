@@ -51,8 +51,9 @@ export interface TextureInput {
 export interface EncodeInput {
   heights?: HeightsInput;
   texture?: TextureInput;
-  /** Targets, of which one may be given; without any, lossless. The stream takes at most so many
-   * bytes; heights and texture each reach so many dB; heights are within so much, in their unit. */
+  /** Targets above 0, of which one may be given; without any, lossless. The stream takes at most so
+   * many bytes; heights and texture each reach so many dB; heights are within so much, in their
+   * unit. */
   bytes?: number;
   psnr?: number;
   maxError?: number;
@@ -75,5 +76,5 @@ export interface EncodeOptions extends Pick<OpenOptions, 'signal' | 'wasm'> {
   progress?: (done: number) => void;
 }
 
-/** The bytes of a stream. Rejects with a TksError. */
+/** The bytes of a stream. Rejects with a TksError, also where an option is none of these. */
 export function encode(input: EncodeInput, options?: EncodeOptions): Promise<Uint8Array>;

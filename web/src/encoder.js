@@ -97,17 +97,29 @@ function textureFields(texture) {
   };
 }
 
+/** The module takes 0 for none: as a target it is a mistake, and would make a lossless stream. */
+function targetsOf({bytes, psnr, maxError, lossless}) {
+  const given = Object.entries({bytes, psnr, maxError})
+    .filter(([, value]) => value !== undefined && value !== null);
+  for (const [name, value] of given) {
+    if (value > 0 && value < Infinity) continue;
+    throw new TksError('usage', `${name} is a number above 0, and finite. Without a target, or ` +
+      'with `lossless: true`, streams are lossless.');
+  }
+  return {bytes: 0, psnr: 0, maxError: 0, lossless: Number(lossless ?? given.length === 0),
+    ...Object.fromEntries(given)};
+}
+
 /** What web_encode() takes, by name. */
 function fieldsOf({heights, texture, ...options}) {
-  const {bytes = 0, psnr = 0, maxError = 0, triangles = 0, regions = 0} = options;
-  const lossless = options.lossless ?? !(bytes || psnr || maxError);
-  for (const [name, value] of Object.entries({bytes, psnr, maxError, triangles, regions})) {
+  const {triangles = 0, regions = 0} = options, targets = targetsOf(options);
+  for (const [name, value] of Object.entries({triangles, regions})) {
     if (value >= 0 && value < Infinity) continue;
     throw new TksError('usage', `${name} is a number that is not negative, and finite.`);
   }
   return {
     ...(heights ? heightsFields(heights) : {}), ...(texture ? textureFields(texture) : {}),
-    bytes: Math.min(bytes, MOST_BYTES), psnr, maxError, lossless: Number(lossless),
+    ...targets, bytes: Math.min(targets.bytes, MOST_BYTES),
     triangles: Math.min(triangles, MOST_TRIANGLES), regions,
     index: oneOf(INDEXES, options.index, 'index'), weights: oneOf(WEIGHTS, options.weights, 'weights'),
   };

@@ -66,6 +66,12 @@ test('a spacing of null is unknown, as none at all', async () => {
   assert.deepEqual(unknown, none);
 });
 
+test('a target of null is none', async () => {
+  const {heights} = terrainOf(16);
+  assert.deepEqual(await encode({heights, bytes: null, maxError: undefined}),
+    await encode({heights}));
+});
+
 test('enormous limits are none', async () => {
   const {heights} = terrainOf(16);
   assert.deepEqual(await encode({heights, bytes: 1e300}), await encode({heights, bytes: 1e9}));
@@ -116,7 +122,16 @@ test('what makes no sense is refused by code and sentence', async () => {
   });
   await refused({}, /./);
   await refused({heights, bytes: 100, psnr: 30}, /./);
-  await refused({heights, bytes: -1}, /bytes is a number that is not negative/);
+  for (const value of [-1, 0, NaN, '']) {
+    await refused({heights, bytes: value}, /bytes is a number above 0.*lossless: true/);
+    await refused({heights, psnr: value}, /psnr is a number above 0/);
+    await refused({heights, maxError: value}, /maxError is a number above 0/);
+  }
+  await refused({heights, regions: -1}, /regions is a number that is not negative/);
+  await refused({heights, byte: 2000, level: 3}, /cannot have byte, level: it knows heights,/);
+  await refused({heights: {...heights, noData: 0}}, /`heights` cannot have noData/);
+  await refused({texture: {...texture, alpha: true}}, /`texture` cannot have alpha/);
+  await assert.rejects(encode({heights}, {onProgress() {}}), /cannot have onProgress/);
   await refused({heights, bytes: Infinity}, /bytes is a number .* finite/);
   await refused({heights: {...heights, spacing: [30]}}, /spacing is a number of metres, or two/);
   await refused({heights: {...heights, data: [1, 2]}}, /an array of Uint8Array/);
