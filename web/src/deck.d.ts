@@ -38,7 +38,8 @@ export interface TksBatch {
 }
 
 /** Positions: longitude and latitude less the origin, metres; metres around the middle, z up, of
- * streams that say no place. parseInBatches gives a mesh of each fourfold prefix. */
+ * streams that say no place, by groundScale(): 30 m between samples where that is unknown, too.
+ * parseInBatches gives a mesh of each fourfold prefix. */
 export const TksLoader: LoaderWithParser<TksMesh, TksBatch, TksLoaderOptions>;
 
 /** Mesh and image of a frame of refine() or decode(), for SimpleMeshLayer. */

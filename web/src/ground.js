@@ -94,9 +94,12 @@ function placedSpacing(info) {
 
 const metresOf = (unit) => METRES.get(unit.toLowerCase().replaceAll('_', ' '));
 
-/** Metres of one unit of height, of one column and of one row; where nothing is known, 1. */
+/** Metres between samples where nothing tells them, as for the command line and its cameras. */
+const UNKNOWN_SPACING = [30, 30];
+
+/** Metres of one unit of height, of one column and of one row. */
 export function groundScale(info) {
   const stated = info.spacingX > 0 && [info.spacingX, info.spacingY || info.spacingX];
-  const [x, y] = stated || placedSpacing(info) || [1, 1];
+  const [x, y] = stated || placedSpacing(info) || UNKNOWN_SPACING;
   return {height: metresOf(info.unit) ?? 1, x, y};
 }

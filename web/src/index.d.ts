@@ -196,6 +196,6 @@ export function open(
 /**
  * Metres of one unit of height, of one column and of one row: as the stream states them, or as its
  * place tells, of degrees and of web Mercator, whose metres are longer than the ground's, in the
- * middle of the ground; where nothing is known, 1.
+ * middle of the ground. An unknown spacing counts as 30 m, an unknown unit of height as metres.
  */
 export function groundScale(info: TerrainInfo): {height: number; x: number; y: number};

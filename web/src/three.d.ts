@@ -24,7 +24,8 @@ export interface TksTerrainEventMap extends Object3DEventMap {
   error: {error: unknown};
 }
 
-/** x along the rows, y up, z down the rows; metres; the middle of the terrain at x = z = 0. */
+/** x along the rows, y up, z down the rows; metres, by groundScale(), for which samples of unknown
+ * spacing lie 30 m apart; the middle of the terrain at x = z = 0. */
 export class TksTerrain extends Mesh<BufferGeometry, Material, TksTerrainEventMap> {
   constructor(terrain: Terrain, options?: TerrainOptions);
   readonly terrain: Terrain;

@@ -97,7 +97,7 @@ export class TksTerrain extends Mesh {
     this.material.map = texture;
   }
 
-  /** Pixels of a metre at the point of the terrain that is nearest to the camera. */
+  /** Pixels of a metre where the camera is nearest, on the axis that is scaled most. */
   #pixelsPerMetre(camera, viewportHeight) {
     if (camera.isOrthographicCamera) {
       return (viewportHeight * camera.zoom) / (camera.top - camera.bottom);
@@ -105,7 +105,7 @@ export class TksTerrain extends Mesh {
     if (!this.geometry.boundingBox) this.geometry.computeBoundingBox();
     this.#box.copy(this.geometry.boundingBox).applyMatrix4(this.matrixWorld);
     const distance = this.#box.distanceToPoint(camera.getWorldPosition(this.#eye));
-    const scale = this.getWorldScale(new Vector3()).x;
+    const scale = Math.max(...this.getWorldScale(new Vector3()).toArray());
     const focal = viewportHeight / (2 * Math.tan(MathUtils.degToRad(camera.fov) / 2));
     return (scale * focal * camera.zoom) / Math.max(distance, camera.near);
   }

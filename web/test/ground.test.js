@@ -84,14 +84,14 @@ test('the unit of a grid is that of its keys, or of its WKT', async () => {
   }
 });
 
-test('without a CRS, an area or a latitude, nothing is known', async () => {
+test('without a CRS, an area or a latitude, nothing is known: 30 m, as for cameras', async () => {
   for (const place of [
     {crs: '', geotransform: [0, 25, 0, 0, 0, -25]}, {crs: 'EPSG:2056', geotransform: undefined},
     {crs: 'EPSG:2056', geotransform: [0, 0, 0, 0, 0, 0]},
     {crs: 'EPSG:4326', geotransform: [0, 1e-3, 0, 91, 0, -1e-3]},
   ]) {
     const {x, y} = await scaleOf(place);
-    assert.deepEqual([x, y], [1, 1]);
+    assert.deepEqual([x, y], [30, 30]);
   }
 });
 

@@ -348,7 +348,7 @@ function place(name) {
   return numbers.length === 3 && numbers.every(isFinite) ? numbers : null;
 }
 
-/** What is higher than wide, often because nothing states how far its samples lie apart, is flattened. */
+/** What is higher than wide, often because it states no unit or a wrong one, is flattened. */
 function exaggerate() {
   if (!object?.frame) return;
   const {tallness} = picture, usual = tallness > 1 ? 1 / (8 * tallness) : 1;
