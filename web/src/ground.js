@@ -77,17 +77,24 @@ export function metresPerDegree(latitude) {
 }
 
 /**
- * Metres between columns and between rows, of degrees and of web Mercator in the middle;
- * coordinates whose unit neither keys nor WKT state count as metres. Nothing if there is no place,
- * no CRS, or no distance.
+ * Metres of a unit of the coordinates to the east and to the north, of degrees and of web Mercator
+ * in the middle. A unit that neither CRS, keys nor WKT tell counts as metres.
  */
-function placedSpacing(info) {
-  const {hasGeotransform, geotransform, crs, geoKeys = '', width, height} = info;
-  if (!hasGeotransform || !(crs || geoKeys)) return null;
-  const unit = unitOfKeys(geoKeys) || unitOfWkt(crs) || (isInDegrees(info) ? 'degree' : 1);
-  const [, a, b, north, c, d] = geotransform, middle = north + (width * c + height * d) / 2;
+export function metresPerUnit(info) {
+  const {geotransform: [, , , north, c, d], crs, geoKeys = '', width, height} = info;
+  const isNamed = crs || geoKeys, middle = north + (width * c + height * d) / 2;
+  const unit =
+    unitOfKeys(geoKeys) || unitOfWkt(crs) || (isNamed && isInDegrees(info) ? 'degree' : 1);
+  if (unit === 'degree') return metresPerDegree(middle);
   const metre = isWebMercator(crs) ? unit * mercatorMetre(unit * middle) : unit;
-  const [east, up] = unit === 'degree' ? metresPerDegree(middle) : [metre, metre];
+  return [metre, metre];
+}
+
+/** Metres between columns and between rows; nothing without a place, a CRS, or a distance. */
+function placedSpacing(info) {
+  const {hasGeotransform, geotransform, crs, geoKeys} = info;
+  if (!hasGeotransform || !(crs || geoKeys)) return null;
+  const [, a, b, , c, d] = geotransform, [east, up] = metresPerUnit(info);
   const spacing = [Math.hypot(a * east, c * up), Math.hypot(b * east, d * up)];
   return spacing.every((metres) => metres > 0 && Number.isFinite(metres)) ? spacing : null;
 }

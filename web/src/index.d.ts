@@ -199,3 +199,11 @@ export function open(
  * middle of the ground. An unknown spacing counts as 30 m, an unknown unit of height as metres.
  */
 export function groundScale(info: TerrainInfo): {height: number; x: number; y: number};
+
+/**
+ * Which way rows and columns of the heights run on the ground, as directions of length 1: parts to
+ * the east and to the south of a step along a row, and of one down a column. [1, 0] and [0, 1]
+ * where the first sample is the north-western one, or nothing says a place. Where along[0] *
+ * down[1] - along[1] * down[0] < 0 (south-up), triangles run clockwise on the ground.
+ */
+export function groundAxes(info: TerrainInfo): {along: [number, number]; down: [number, number]};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The core of the package: opens streams and refines them. It knows no renderer.
 import {abortable, stoppedBy} from './abort.js';
+import {groundAxes} from './axes.js';
 import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {groundScale} from './ground.js';
@@ -10,7 +11,7 @@ import {Held, requestsFor} from './ranges.js';
 import {sourceOf} from './source.js';
 import {cutOf, plannedView} from './view.js';
 
-export {FIRST_FRAME, TksError, groundScale};
+export {FIRST_FRAME, TksError, groundAxes, groundScale};
 
 /** What a request costs beside its own: 50 ms at 10 Mb/s, shared by the dozen that go out at a time. */
 const REQUEST_BYTES = 4096;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where on Earth a raster lies: from longitude and latitude to its columns and rows, and back, for
 // the CRSs that web maps meet: degrees, web Mercator, UTM.
+import {straightAxes} from './axes.js';
 import {drapedTransform, pixelsOf} from './drape.js';
 import {TksError} from './error.js';
 import {isWebMercator} from './ground.js';
@@ -111,9 +112,11 @@ function checkedBounds(bounds) {
     'with an area; across 180° as [170, -10, -170, 10].');
 }
 
-/** A geotransform for `width` x `height` samples between degrees. */
-function transformOfBounds([west, south, east, north], width, height) {
-  return [west, (east - west) / width, 0, north, 0, (south - north) / height];
+/** A geotransform for `width` x `height` samples between degrees, in the order of `axes`. */
+function transformOfBounds([west, south, east, north], width, height, {along, down}) {
+  const [x, across] = along[0] > 0 ? [west, east - west] : [east, west - east];
+  const [y, up] = down[1] > 0 ? [north, south - north] : [south, north - south];
+  return [x, across / width, 0, y, 0, up / height];
 }
 
 /** West, south, east and north of a raster, by walking along its border. */
@@ -183,7 +186,8 @@ export const isPlaced = (info) => info.hasGeotransform || info.textureHasGeotran
  * Where a part of a stream, 'heights' or 'texture', lies: {width, height, pixels, degrees, bounds}.
  * A texture without a place of its own is draped over the heights. Longitudes of its bounds, and of
  * what it gives and takes, go on behind 180 where it goes across that. `bounds`: west, south, east,
- * north of both parts in degrees, in place of what the stream says.
+ * north of both parts in degrees, in place of what the stream says; it still says which row is the
+ * northern one.
  */
 export function placeOf(info, part, bounds) {
   const isTexture = part === 'texture';
@@ -191,7 +195,11 @@ export function placeOf(info, part, bounds) {
   const height = isTexture ? info.textureHeight : info.height;
   let transform, crs;
   if (bounds) {
-    [transform, crs] = [transformOfBounds(checkedBounds(bounds), width, height), 'EPSG:4326'];
+    const own = {hasGeotransform: true, geotransform: info.textureGeotransform,
+      crs: info.textureCrs, width, height};
+    const axes = straightAxes(isTexture && info.textureHasGeotransform ? own : info);
+    [transform, crs] =
+      [transformOfBounds(checkedBounds(bounds), width, height, axes), 'EPSG:4326'];
   } else if (isTexture && info.textureHasGeotransform) {
     [transform, crs] = [info.textureGeotransform, info.textureCrs];
   } else if (info.hasGeotransform) {

@@ -24,8 +24,9 @@ export interface TksTerrainEventMap extends Object3DEventMap {
   error: {error: unknown};
 }
 
-/** x along the rows, y up, z down the rows; metres, by groundScale(), for which samples of unknown
- * spacing lie 30 m apart; the middle of the terrain at x = z = 0. */
+/** x to the east, y up, z to the south, of streams without a place along the rows and down the
+ * columns; metres, by groundScale(), for which samples of unknown spacing lie 30 m apart; the
+ * middle of the terrain at x = z = 0. */
 export class TksTerrain extends Mesh<BufferGeometry, Material, TksTerrainEventMap> {
   constructor(terrain: Terrain, options?: TerrainOptions);
   readonly terrain: Terrain;

@@ -5,6 +5,7 @@ import {
   Box3, BufferAttribute, BufferGeometry, MathUtils, Matrix4, Mesh, MeshLambertMaterial, Vector3,
 } from 'three';
 
+import {groundAxes, placedOn} from './axes.js';
 import {surfaceUnder} from './glide.js';
 import {groundScale} from './ground.js';
 import {FIRST_FRAME, GROWTH} from './pace.js';
@@ -133,9 +134,11 @@ export class TksTerrain extends Mesh {
     const scale = flat
       ? {x: width / Math.max(1, width - 1), y: height / Math.max(1, height - 1), height: 1}
       : groundScale(info);
+    const placed = placedOn(groundAxes(flat ? {} : info));
+    const along = placed(scale.x, 0), down = placed(0, scale.y);
+    const [east, south] = placed((-scale.x * (width - 1)) / 2, (-scale.y * (height - 1)) / 2);
     const ground = new Matrix4().set(
-      scale.x, 0, 0, (-scale.x * (width - 1)) / 2, 0, 0, scale.height, 0,
-      0, scale.y, 0, (-scale.y * (height - 1)) / 2, 0, 0, 0, 1);
+      along[0], down[0], 0, east, 0, 0, scale.height, 0, along[1], down[1], 0, south, 0, 0, 0, 1);
     camera.updateMatrixWorld();
     this.updateWorldMatrix(true, false);
     const clip = ground.premultiply(this.matrixWorld).premultiply(camera.matrixWorldInverse)

@@ -390,6 +390,20 @@ test('of a stream with an index all comes in few requests, and is drawn as a map
   });
 });
 
+test('the map of the ground has north above', async () => {
+  const {heights} = terrainOf(65), options = {index: true, regions: 16};
+  for (const [step, upright] of [[-30, 'scale(1, 1)'], [30, 'scale(1, -1)']]) {
+    const geotransform = [5e5, 30, 0, 4e6, 0, step];
+    await writeFile(join(folder, 'mapped.tks'),
+      await encode({heights: {...heights, geotransform}, ...options}));
+    await withPage('?tks=mapped.tks', async (page) => {
+      const map = page.locator('#ground');
+      assert.ok(await map.isVisible());
+      assert.equal(await map.evaluate(({style}) => style.transform), upright);
+    });
+  }
+});
+
 test('tetrakis view serves the page by ranges', {skip: !existsSync(CLI)}, async () => {
   const child = spawn(CLI, ['view', '--no-browser', join(folder, 'whole.tks')]);
   const page = await browser.newPage();
