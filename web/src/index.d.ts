@@ -160,6 +160,8 @@ export interface Frame {
 }
 
 export interface Terrain {
+  /** Of the frame of most bytes so far: of its first bytes alone after open(), of all of the stream
+   * after a decode() of all. What frames state of themselves is their own `info`. */
   readonly info: TerrainInfo;
   /** `ranges`: which bytes are here, [begin, end) each. */
   readonly loaded: {requests: number; bytes: number; ranges: [number, number][]};

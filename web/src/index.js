@@ -46,6 +46,7 @@ class Terrain {
   #flow = new Flow();
   #reading = Promise.resolve();
   #awaited = new Set();  // {bytes, resolve}: who waits for so many
+  #told = 0;  // bytes of the frame that `info` is of
 
   constructor(source, decoder, requestBytes) {
     this.#source = source;
@@ -178,7 +179,10 @@ class Terrain {
     checkSides(asked);
     checkLevels(asked, this.info ?? {});
     const triangles = trianglesOf(asked.triangles), cut = cutOf(asked.view);
-    return this.#call('decode', {...asked, view: null, triangles, cut, bytes}, signal);
+    const frame =
+      await this.#call('decode', {...asked, view: null, triangles, cut, bytes}, signal);
+    if (frame.bytes >= this.#told) [this.#told, this.info] = [frame.bytes, frame.info];
+    return frame;
   }
 
   /** While a frame is decoded and shown, bytes come on; the next one takes what is here by then. */
@@ -233,7 +237,7 @@ class Terrain {
     for (let bytes = FIRST_BYTES; ; ) {
       const have = await this.load(bytes, {signal});
       try {
-        this.info = (await this.decode({bytes, signal, mesh: false, texture: false})).info;
+        await this.decode({bytes, signal, mesh: false, texture: false});
         return;
       } catch (error) {
         if (error.code !== 'truncated') throw error;

@@ -72,6 +72,18 @@ test('frames grow to the whole stream, from bytes, a Blob and a URL alike', asyn
   });
 });
 
+test('what a terrain tells of itself is what the frame of most bytes does', async () => {
+  const terrain = await open(bytes), {info: first} = terrain;
+  assert.ok(first.availableBytes < bytes.length && first.heightsRmse > 0);
+  const whole = await terrain.decode({mesh: false});
+  assert.equal(whole.info.availableBytes, bytes.length);
+  assert.deepEqual(terrain.info, whole.info);
+  await terrain.decode({mesh: false, bytes: 4096});
+  assert.deepEqual(terrain.info, whole.info);
+  assert.notDeepEqual(first, whole.info);
+  terrain.dispose();
+});
+
 test('a frame is whole: triangles within the budget, indices, normals, RGBA', async () => {
   const terrain = await open(bytes);
   const {mesh, texture, surface, info} = await terrain.decode(
