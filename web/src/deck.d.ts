@@ -14,7 +14,7 @@ export interface PlaceOptions {
 
 export interface TksLoaderOptions {
   tks?: PlaceOptions & {
-    /** The mesh has at most so many. Default 20000. */
+    /** As of decode(): the mesh has at most so many. Default 20000. */
     triangles?: number;
     /** Use no more than the first bytes of the stream. Default: all. */
     bytes?: number;

@@ -50,7 +50,8 @@ export interface FrameOptions {
   /** Ends the call with its requests, and rejects it with its reason; what is being decoded ends at
    * its next part. */
   signal?: AbortSignal;
-  /** The mesh has at most so many, a whole number from 2 on. Default 20000. */
+  /** The mesh has at most so many, a whole number from 2 on, or those of the coarsest one: of long
+   * grids that has as many as squares of the short side take (1025 x 3: 1024). Default 20000. */
   triangles?: number;
   /** What is looked at. 16 numbers: of the mesh only what they may show. With a picture: bytes are
    * fetched that help it most, if the stream has an index and the server knows ranges. */

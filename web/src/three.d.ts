@@ -5,7 +5,7 @@ import type {
 import type {Frame, OpenOptions, Raster, Terrain, View} from './index.js';
 
 export interface TerrainOptions {
-  /** The mesh has at most so many. Default 20000. */
+  /** As of decode(): the mesh has at most so many. Default 20000. */
   triangles?: number;
   /** Fetches no more than so many bytes. Default: all that the camera needs. */
   bytes?: number;

@@ -101,6 +101,15 @@ test('a frame is whole: triangles within the budget, indices, normals, RGBA', as
   assert.ok(small.texture.width <= 40 && small.texture.level > 0 && !small.mesh);
 });
 
+test('the coarsest mesh of a long grid is the least, whatever is asked for', async () => {
+  const terrain = await open(
+    await encode({heights: {data: new Int16Array(1025 * 3).map((_, i) => i % 97), width: 1025,
+      height: 3}}));
+  const {mesh} = await terrain.decode({triangles: 2});
+  assert.equal(mesh.triangles.length, 3 * 1024);
+  terrain.dispose();
+});
+
 test('what is no number, no number of triangles or no level is refused', async () => {
   const terrain = await open(bytes);
   for (const [options, pattern] of [[{bytes: NaN}, /`bytes` is a number/], [{bytes: '9'}, /`bytes`/],
