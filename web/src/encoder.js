@@ -22,8 +22,8 @@ function sampleOf(data, what) {
   const Type = data instanceof Uint8ClampedArray ? Uint8Array : data?.constructor;
   const sample = SAMPLES.indexOf(Type);
   if (sample < 0) {
-    throw new TksError('usage', `The data of ${what} are an array of ` +
-      `${SAMPLES.map(({name}) => name).join(', ')}.`);
+    const types = SAMPLES.map(({name}) => name).join(', ');
+    throw new TksError('usage', `The data of ${what} are one of these typed arrays: ${types}.`);
   }
   return sample;
 }

@@ -509,7 +509,8 @@ test('addresses above 2 GiB', async () => {
 });
 
 test('a limit of memory is kept; an instance that aborted is replaced', async () => {
-  await rejects(open(bytes, {memory: 1000}).then((terrain) => terrain.decode()), 'limit', /./);
+  await rejects(open(bytes, {memory: 1000}).then((terrain) => terrain.decode()), 'limit',
+    /the limit \(`memory`\) of 1000 bytes/);
   const {Decoder} = await import('../src/stream_decoder.js');
   const decoder = new Decoder(
     await WebAssembly.compile(await readFile(new URL('../dist/tetrakis.wasm', import.meta.url))), 2 ** 30);

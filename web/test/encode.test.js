@@ -121,7 +121,7 @@ test('what makes no sense is refused by code and sentence', async () => {
     return true;
   });
   await refused({}, /./);
-  await refused({heights, bytes: 100, psnr: 30}, /./);
+  await refused({heights, bytes: 100, psnr: 30}, /one of bytes, psnr, maxError and lossless/);
   for (const value of [-1, 0, NaN, '']) {
     await refused({heights, bytes: value}, /bytes is a number above 0.*lossless: true/);
     await refused({heights, psnr: value}, /psnr is a number above 0/);
@@ -134,7 +134,7 @@ test('what makes no sense is refused by code and sentence', async () => {
   await assert.rejects(encode({heights}, {onProgress() {}}), /cannot have onProgress/);
   await refused({heights, bytes: Infinity}, /bytes is a number .* finite/);
   await refused({heights: {...heights, spacing: [30]}}, /spacing is a number of metres, or two/);
-  await refused({heights: {...heights, data: [1, 2]}}, /an array of Uint8Array/);
+  await refused({heights: {...heights, data: [1, 2]}}, /heights are one of these typed arrays: Uint8Array, /);
   await refused({heights: {...heights, width: 17}}, /17 x 16 samples/);
   await refused({heights: {...heights, geotransform: [1, 2]}}, /six numbers/);
   await refused({heights: {...heights, registration: 'pixel'}}, /one of unknown, area, point/);
