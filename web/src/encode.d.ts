@@ -70,7 +70,8 @@ export interface EncodeInput {
 }
 
 export interface EncodeOptions extends Pick<OpenOptions, 'signal' | 'wasm'> {
-  /** false: on this thread. A URL: where bundlers do not find `tetrakis/encode_worker`. */
+  /** false: on this thread, which then hears no signal. A URL: where bundlers do not find
+   * `tetrakis/encode_worker`. In Node true or false. */
   worker?: boolean | string | URL;
   /** Told how much is done, from 0 to 1. What it throws ends the encoding, which rejects with it. */
   progress?: (done: number) => void;

@@ -20,8 +20,9 @@ export interface OpenOptions {
   signal?: AbortSignal;
   /** Of the requests to a URL, as fetch() takes them. */
   request?: Pick<RequestInit, 'headers' | 'credentials'>;
-  /** false: decode on this thread. A Worker or its URL: where bundlers do not find
-   * `tetrakis/worker`. A Worker serves one terrain: another is refused it, and dispose() ends it. */
+  /** false: decode on this thread, as Node always does. A Worker or its URL: where bundlers do not
+   * find `tetrakis/worker`. A Worker serves one terrain: another is refused it, and dispose() ends
+   * it. */
   worker?: boolean | Worker | string | URL;
   /** Where bundlers do not find `tetrakis/tetrakis.wasm`: its URL, bytes, or compiled module. */
   wasm?: string | URL | BufferSource | WebAssembly.Module;

@@ -134,7 +134,7 @@ test('what makes no sense is refused by code and sentence', async () => {
   await assert.rejects(encode({heights}, {onProgress() {}}), /cannot have onProgress/);
   await refused({heights, bytes: Infinity}, /bytes is a number .* finite/);
   await refused({heights: {...heights, spacing: [30]}}, /spacing is a number of metres, or two/);
-  await refused({heights: {...heights, data: [1, 2]}}, /heights are one of these typed arrays: Uint8Array, /);
+  await refused({heights: {...heights, data: [1, 2]}}, /one of these typed arrays: Uint8Array, /);
   await refused({heights: {...heights, width: 17}}, /17 x 16 samples/);
   await refused({heights: {...heights, geotransform: [1, 2]}}, /six numbers/);
   await refused({heights: {...heights, registration: 'pixel'}}, /one of unknown, area, point/);
@@ -152,6 +152,23 @@ test('what progress throws comes back', async () => {
   const {heights} = terrainOf(48);
   const own = new RangeError('the page is wrong');
   await assert.rejects(encode({heights}, {progress: () => { throw own; }}), (error) => error === own);
+});
+
+test('in Node a thread encodes: others go on meanwhile, and a signal ends it', async () => {
+  const {heights} = terrainOf(513), input = {heights, bytes: 20000};
+  let beats = 0;
+  const beat = setInterval(() => ++beats, 5);
+  const stream = await encode(input);
+  clearInterval(beat);
+  assert.ok(beats > 3, `${beats}`);
+  assert.deepEqual(await encode(input, {worker: false}), stream);
+  const stop = new AbortController(), begun = [];
+  const progress = (done) => {
+    begun.push(done);
+    stop.abort(new Error('enough'));
+  };
+  await assert.rejects(encode(input, {signal: stop.signal, progress}), /enough/);
+  assert.equal(begun.length, 1);
 });
 
 test('the bytes are those of the native encoder', {skip: !existsSync(CLI)}, async () => {
