@@ -14,7 +14,7 @@ export interface PlaceOptions {
 
 export interface TksLoaderOptions {
   tks?: PlaceOptions & {
-    /** The mesh has at most so many. Default 20000. */
+    /** As of decode(): the mesh has at most so many. Default 20000. */
     triangles?: number;
     /** Use no more than the first bytes of the stream. Default: all. */
     bytes?: number;
@@ -38,7 +38,8 @@ export interface TksBatch {
 }
 
 /** Positions: longitude and latitude less the origin, metres; metres around the middle, z up, of
- * streams that say no place. parseInBatches gives a mesh of each fourfold prefix. */
+ * streams that say no place, by groundScale(): 30 m between samples where that is unknown, too.
+ * parseInBatches gives a mesh of each fourfold prefix. */
 export const TksLoader: LoaderWithParser<TksMesh, TksBatch, TksLoaderOptions>;
 
 /** Mesh and image of a frame of refine() or decode(), for SimpleMeshLayer. */

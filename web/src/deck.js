@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // deck.gl: a loader of loaders.gl for meshes, for TerrainLayer and SimpleMeshLayer, which read them
 // as longitude, latitude and metres, with `_instanced: false`.
+import {groundAxes, normalsOn, straightAxes, trianglesOn} from './axes.js';
 import {TksError, groundScale, open} from './index.js';
 import {FIRST_BYTES, GROWTH} from './pace.js';
 import {isPlaced, placeOf, turnsTo} from './place.js';
@@ -54,7 +55,7 @@ export function meshOf(frame, {bounds, origin = [0, 0]} = {}) {
   const {info, mesh} = frame, count = mesh.gridIndex.length;
   const place =
     bounds || isPlaced(info) ? placedBy(info, bounds, origin) : placedFlat(info);
-  const metres = groundScale(info).height;
+  const metres = groundScale(info).height, axes = bounds ? straightAxes(info) : groundAxes(info);
   const positions = new Float32Array(3 * count), texCoords = new Float32Array(2 * count);
   mesh.gridIndex.forEach((index, i) => {
     const {x, y, u, v} = place(index % info.width, Math.floor(index / info.width));
@@ -65,7 +66,7 @@ export function meshOf(frame, {bounds, origin = [0, 0]} = {}) {
     POSITION: {value: positions, size: 3}, TEXCOORD_0: {value: texCoords, size: 2},
   };
   if (mesh.normals) {
-    const normals = mesh.normals.map((_, i, all) =>
+    const normals = normalsOn(axes, mesh.normals).map((_, i, all) =>
       [all[i], -all[i + 1], all[i - 1]][i % 3]);  // z up
     attributes.NORMAL = {value: normals, size: 3};
   }
@@ -85,7 +86,7 @@ export function meshOf(frame, {bounds, origin = [0, 0]} = {}) {
     topology: 'triangle-list',
     mode: TRIANGLES,
     attributes,
-    indices: {value: mesh.triangles, size: 1},
+    indices: {value: trianglesOn(axes, mesh.triangles), size: 1},
   };
 }
 

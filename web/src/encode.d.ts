@@ -51,8 +51,9 @@ export interface TextureInput {
 export interface EncodeInput {
   heights?: HeightsInput;
   texture?: TextureInput;
-  /** Targets, of which one may be given; without any, lossless. The stream takes at most so many
-   * bytes; heights and texture each reach so many dB; heights are within so much, in their unit. */
+  /** Targets above 0, of which one may be given; without any, lossless. The stream takes at most so
+   * many bytes; heights and texture each reach so many dB; heights are within so much, in their
+   * unit. */
   bytes?: number;
   psnr?: number;
   maxError?: number;
@@ -69,11 +70,12 @@ export interface EncodeInput {
 }
 
 export interface EncodeOptions extends Pick<OpenOptions, 'signal' | 'wasm'> {
-  /** false: on this thread. A URL: where bundlers do not find `tetrakis/encode_worker`. */
+  /** false: on this thread, which then hears no signal. A URL: where bundlers do not find
+   * `tetrakis/encode_worker`. In Node true or false. */
   worker?: boolean | string | URL;
   /** Told how much is done, from 0 to 1. If it throws, the encoding ends and rejects with that. */
   progress?: (done: number) => void;
 }
 
-/** The bytes of a stream. Rejects with a TksError. */
+/** The bytes of a stream. Rejects with a TksError, also where an option is none of these. */
 export function encode(input: EncodeInput, options?: EncodeOptions): Promise<Uint8Array>;

@@ -3,6 +3,7 @@
 import {assets} from '#encode_assets';
 import {abortable} from './abort.js';
 import {compile} from './compile.js';
+import {checkNames} from './encode_names.js';
 import {encodeWith} from './encoder.js';
 import {TksError} from './error.js';
 import {onFailure, threadOf} from './thread.js';
@@ -28,11 +29,11 @@ function encodeIn(worker, module, input, progress) {
   });
 }
 
-export async function encode(
-  {heights, texture, ...targets} = {}, {signal, worker, wasm, progress = () => {}} = {}) {
+export async function encode(input = {}, options = {}) {
+  checkNames(input, options);
+  const {signal, worker, wasm, progress = () => {}} = options;
   signal?.throwIfAborted();
   const module = await abortable(compile(assets, wasm, 'web_encode'), signal);
-  const input = {heights, texture, ...targets};
   const thread = threadOf(worker, assets);
   if (!thread) return encodeWith(module, input, progress);
   try {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder as files, for Node. Encoding there stays on the calling thread.
+// The encoder as files, for Node.
 import {readFile} from 'node:fs/promises';
+import {nodeWorker} from './node_worker.js';
 
 const compile = async (name) =>
   WebAssembly.compile(await readFile(new URL(`../dist/${name}`, import.meta.url)));
@@ -8,5 +9,5 @@ const compile = async (name) =>
 export const assets = {
   full: () => compile('tetrakis-encode.wasm'),
   plain: () => compile('tetrakis-encode-plain.wasm'),
-  worker: () => null,
+  worker: () => nodeWorker(new URL('./encode_worker_node.js', import.meta.url)),
 };

@@ -22,8 +22,8 @@ function sampleOf(data, what) {
   const Type = data instanceof Uint8ClampedArray ? Uint8Array : data?.constructor;
   const sample = SAMPLES.indexOf(Type);
   if (sample < 0) {
-    throw new TksError('usage', `The data of ${what} are an array of ` +
-      `${SAMPLES.map(({name}) => name).join(', ')}.`);
+    const types = SAMPLES.map(({name}) => name).join(', ');
+    throw new TksError('usage', `The data of ${what} are one of these typed arrays: ${types}.`);
   }
   return sample;
 }
@@ -75,10 +75,18 @@ function whiteLevelOf({whiteLevel = 0}) {
   throw new TksError('usage', 'whiteLevel is a whole number from 0 to 65535.');
 }
 
+/** Of a texture: as said, or as the length of its data tells. */
+function channelsOf({data, width, height, channels}) {
+  const count = channels ?? data.length / (width * height);
+  if ([1, 2, 3, 4].includes(count)) return count;
+  throw new TksError('usage', `texture: ${width} x ${height} texels of 1, 2, 3 or 4 channels are ` +
+    `not the ${data.length} values of its data.`);
+}
+
 function textureFields(texture) {
   const {data, width, height} = texture;
   const sample = sampleOf(data, 'the texture');
-  const channels = texture.channels ?? data.length / (width * height);
+  const channels = channelsOf(texture);
   checkSize(texture, channels, 'texture');
   return {
     textureWidth: width, textureHeight: height, textureChannels: channels, textureSample: sample,
@@ -89,17 +97,29 @@ function textureFields(texture) {
   };
 }
 
+/** The module takes 0 for none: as a target it is a mistake, and would make a lossless stream. */
+function targetsOf({bytes, psnr, maxError, lossless}) {
+  const given = Object.entries({bytes, psnr, maxError})
+    .filter(([, value]) => value !== undefined && value !== null);
+  for (const [name, value] of given) {
+    if (value > 0 && value < Infinity) continue;
+    throw new TksError('usage', `${name} is a number above 0, and finite. Without a target, or ` +
+      'with `lossless: true`, streams are lossless.');
+  }
+  return {bytes: 0, psnr: 0, maxError: 0, lossless: Number(lossless ?? given.length === 0),
+    ...Object.fromEntries(given)};
+}
+
 /** What web_encode() takes, by name. */
 function fieldsOf({heights, texture, ...options}) {
-  const {bytes = 0, psnr = 0, maxError = 0, triangles = 0, regions = 0} = options;
-  const lossless = options.lossless ?? !(bytes || psnr || maxError);
-  for (const [name, value] of Object.entries({bytes, psnr, maxError, triangles, regions})) {
+  const {triangles = 0, regions = 0} = options, targets = targetsOf(options);
+  for (const [name, value] of Object.entries({triangles, regions})) {
     if (value >= 0 && value < Infinity) continue;
     throw new TksError('usage', `${name} is a number that is not negative, and finite.`);
   }
   return {
     ...(heights ? heightsFields(heights) : {}), ...(texture ? textureFields(texture) : {}),
-    bytes: Math.min(bytes, MOST_BYTES), psnr, maxError, lossless: Number(lossless),
+    ...targets, bytes: Math.min(targets.bytes, MOST_BYTES),
     triangles: Math.min(triangles, MOST_TRIANGLES), regions,
     index: oneOf(INDEXES, options.index, 'index'),
     weights: oneOf(WEIGHTS, options.weights, 'weights'),

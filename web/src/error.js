@@ -7,6 +7,9 @@ const CODES = [
   'ok', 'usage', 'io', 'corrupt', 'truncated', 'unsupported', 'limit', 'mismatch', 'memory',
 ];
 
+/** What the library's sentences name as C and the command line do, by its name here. */
+const NAMES = {'max_memory': '`memory`', 'max-error': 'maxError'};
+
 export class TksError extends Error {
   constructor(code, message, options) {
     super(message, options);
@@ -14,6 +17,7 @@ export class TksError extends Error {
     this.code = code;
   }
   static ofStatus(status, message) {
-    return new TksError(CODES[status] ?? 'corrupt', message);
+    const named = message.replace(/max_memory|max-error/g, (name) => NAMES[name]);
+    return new TksError(CODES[status] ?? 'corrupt', named);
   }
 }

@@ -37,6 +37,10 @@ export class Fetcher {
   get truncated() {
     return this.#source.size < this.info.streamBytes;
   }
+  /** Of the file, as far as it is known; Infinity: it is not. */
+  get fileBytes() {
+    return this.#source.size;
+  }
   /** How many ms to wait for the `rest` of the bytes, as Flow says it. */
   patience(rest, took) {
     return this.#flow.patience(rest, took);
@@ -97,12 +101,15 @@ export class Fetcher {
   }
   /** Those that help a view most; none where nothing more does. */
   async #fetchPlanned(view, bytes, triangles, signal) {
-    const request = {view, bytes, triangles, requestBytes: this.#requestBytes};
+    const {truncated, info} = this, {size} = this.#source;
+    // A plan knows no end of the file: all that a short one would hold may lie behind it.
+    const [asked, most] = truncated ? [info.streamBytes, bytes] : [bytes, Infinity];
+    const request = {view, bytes: asked, triangles, requestBytes: this.#requestBytes};
     const plan = await askDecoder(this.#decoder, 'plan', request, signal);
     this.#flow.request();
     const stop = new AbortController();
     await stoppedBy(signal, stop, () =>
-      this.#takeAll(requestsFor(plan, this.#source.size), stop));
+      this.#takeAll(requestsFor(plan, size, most), stop));
     // A server that has just forgotten ranges sends all from its beginning.
     if (this.#source.sequential) await this.#fetchNext(bytes, signal);
   }

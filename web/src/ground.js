@@ -21,6 +21,13 @@ const WKT = /^(?:COMP\w+\["[^"]*",\s*)?(GEO|PROJ|LOCAL|ENG)/i;
 /** Of other codes no rule tells: 4547 is in metres, 6318 in degrees. */
 const DEGREES = /^EPSG:(4326|4269|4258|4979)(\D|$)/i;
 
+/** By its code and the codes it had before, or by its projection in WKT. */
+const WEB_MERCATOR =
+  /^(EPSG|ESRI):(3857|3785|900913|102100|102113)(\D|$)|Pseudo[- ]Mercator|Auxiliary_Sphere/i;
+export const isWebMercator = (crs) => WEB_MERCATOR.test(crs);
+/** Metres on the ground of one of web Mercator's, so far north on its plane: cos(latitude). */
+export const mercatorMetre = (north) => 1 / Math.cosh(north / AXIS);
+
 /** Of a unit of coordinates; 0: it is no length, or unknown. */
 const lengthOf = (metres) => (metres > 0 && Math.abs(metres / RADIANS - 1) > 1e-9 ? metres : 0);
 
@@ -71,25 +78,36 @@ export function metresPerDegree(latitude) {
 }
 
 /**
- * Metres between columns and between rows, of degrees in the middle; coordinates whose unit neither
- * keys nor WKT state count as metres. Nothing if there is no place, no CRS, or no distance.
+ * Metres of a unit of the coordinates to the east and to the north, of degrees and of web Mercator
+ * in the middle. A unit that neither CRS, keys nor WKT tell counts as metres.
  */
+export function metresPerUnit(info) {
+  const {geotransform: [, , , north, c, d], crs, geoKeys = '', width, height} = info;
+  const isNamed = crs || geoKeys, middle = north + (width * c + height * d) / 2;
+  const unit =
+    unitOfKeys(geoKeys) || unitOfWkt(crs) || (isNamed && isInDegrees(info) ? 'degree' : 1);
+  if (unit === 'degree') return metresPerDegree(middle);
+  const metre = isWebMercator(crs) ? unit * mercatorMetre(unit * middle) : unit;
+  return [metre, metre];
+}
+
+/** Metres between columns and between rows; nothing without a place, a CRS, or a distance. */
 function placedSpacing(info) {
-  const {hasGeotransform, geotransform, crs, geoKeys = '', width, height} = info;
+  const {hasGeotransform, geotransform, crs, geoKeys} = info;
   if (!hasGeotransform || !(crs || geoKeys)) return null;
-  const unit = unitOfKeys(geoKeys) || unitOfWkt(crs) || (isInDegrees(info) ? 'degree' : 1);
-  const [, a, b, north, c, d] = geotransform;
-  const [east, up] =
-    unit === 'degree' ? metresPerDegree(north + (width * c + height * d) / 2) : [unit, unit];
+  const [, a, b, , c, d] = geotransform, [east, up] = metresPerUnit(info);
   const spacing = [Math.hypot(a * east, c * up), Math.hypot(b * east, d * up)];
   return spacing.every((metres) => metres > 0 && Number.isFinite(metres)) ? spacing : null;
 }
 
 const metresOf = (unit) => METRES.get(unit.toLowerCase().replaceAll('_', ' '));
 
-/** Metres of one unit of height, of one column and of one row; where nothing is known, 1. */
+/** Metres between samples where nothing tells them, as for the command line and its cameras. */
+const UNKNOWN_SPACING = [30, 30];
+
+/** Metres of one unit of height, of one column and of one row. */
 export function groundScale(info) {
   const stated = info.spacingX > 0 && [info.spacingX, info.spacingY || info.spacingX];
-  const [x, y] = stated || placedSpacing(info) || [1, 1];
+  const [x, y] = stated || placedSpacing(info) || UNKNOWN_SPACING;
   return {height: metresOf(info.unit) ?? 1, x, y};
 }

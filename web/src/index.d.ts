@@ -20,8 +20,9 @@ export interface OpenOptions {
   signal?: AbortSignal;
   /** Of the requests to a URL, as fetch() takes them. */
   request?: Pick<RequestInit, 'headers' | 'credentials'>;
-  /** false: decode on this thread. A Worker or its URL: where bundlers do not find
-   * `tetrakis/worker`. A Worker serves one terrain: another is refused it, dispose() ends it. */
+  /** false: decode on this thread, as Node always does. A Worker or its URL: where bundlers do not
+   * find `tetrakis/worker`. A Worker serves one terrain: another is refused it, and dispose() ends
+   * it. */
   worker?: boolean | Worker | string | URL;
   /** Where bundlers do not find `tetrakis/tetrakis.wasm`: its URL, bytes, or compiled module. */
   wasm?: string | URL | BufferSource | WebAssembly.Module;
@@ -50,7 +51,8 @@ export interface FrameOptions {
   /** Ends the call with its requests, and rejects it with its reason; what is being decoded ends at
    * its next part. */
   signal?: AbortSignal;
-  /** The mesh has at most so many, a whole number from 2 on. Default 20000. */
+  /** The mesh has at most so many, a whole number from 2 on, or those of the coarsest one: of long
+   * grids that has as many as squares of the short side take (1025 x 3: 1024). Default 20000. */
   triangles?: number;
   /** What is looked at. 16 numbers: of the mesh only what they may show. With a picture: bytes are
    * fetched that help it most, if the stream has an index and the server knows ranges. */
@@ -160,11 +162,15 @@ export interface Frame {
 }
 
 export interface Terrain {
+  /** Of the frame of most bytes so far: of its first bytes alone after open(), of all of the stream
+   * after a decode() of all. What frames state of themselves is their own `info`. */
   readonly info: TerrainInfo;
   /** `ranges`: which bytes are here, [begin, end) each. */
   readonly loaded: {requests: number; bytes: number; ranges: [number, number][]};
   /** The file ends before the stream does: frames are good, but not complete. */
   readonly truncated: boolean;
+  /** Of the file, once its size is known; Infinity before. */
+  readonly fileBytes: number;
   /** Fetches until `bytes` bytes are here, without decoding: the first ones of the stream, or those
    * that help a view most. Resolves to how many there are. Fewer: the file ends, no other byte
    * helps the view, or what is left of `bytes` is worth no request (`requestBytes`). Where nothing
@@ -194,6 +200,15 @@ export function open(
 
 /**
  * Metres of one unit of height, of one column and of one row: as the stream states them, or as its
- * place tells, of degrees in the middle of the ground; where nothing is known, 1.
+ * place tells, of degrees and of web Mercator, whose metres are longer than the ground's, in the
+ * middle of the ground. An unknown spacing counts as 30 m, an unknown unit of height as metres.
  */
 export function groundScale(info: TerrainInfo): {height: number; x: number; y: number};
+
+/**
+ * Which way rows and columns of the heights run on the ground, as directions of length 1: parts to
+ * the east and to the south of a step along a row, and of one down a column. [1, 0] and [0, 1]
+ * where the first sample is the north-western one, or nothing says a place. Where along[0] *
+ * down[1] - along[1] * down[0] < 0 (south-up), triangles run clockwise on the ground.
+ */
+export function groundAxes(info: TerrainInfo): {along: [number, number]; down: [number, number]};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The core of the package: opens streams. It knows no renderer.
+import {groundAxes} from './axes.js';
 import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {groundScale} from './ground.js';
@@ -7,7 +8,7 @@ import {FIRST_FRAME} from './pace.js';
 import {sourceOf} from './source.js';
 import {Terrain} from './terrain.js';
 
-export {FIRST_FRAME, TksError, groundScale};
+export {FIRST_FRAME, TksError, groundAxes, groundScale};
 
 /** What a request costs beside its own: 50 ms at 10 Mb/s, shared by the dozen sent at a time. */
 const REQUEST_BYTES = 4096;

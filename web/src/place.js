@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where on Earth a raster lies: from longitude and latitude to its columns and rows, and back, for
 // the CRSs that web maps meet: degrees, web Mercator, UTM.
+import {straightAxes} from './axes.js';
 import {drapedTransform, pixelsOf} from './drape.js';
 import {TksError} from './error.js';
+import {isWebMercator} from './ground.js';
 
 const RADIANS = Math.PI / 180;
 const MERCATOR_RADIUS = 6378137;
@@ -73,9 +75,9 @@ function utm(zone, south) {
 
 /** From (longitude, latitude) to a CRS such as "EPSG:32611" or "EPSG:4326+5773", and back. */
 export function projectionOf(crs) {
+  if (isWebMercator(crs)) return mercator;
   const code = Number(/^EPSG:(\d+)/i.exec(crs)?.[1] ?? 0);
   if (code === 4326 || code === 4269 || code === 4258 || code === 4979) return degrees;
-  if (code === 3857) return mercator;
   if (code > 32600 && code <= 32660) return utm(code - 32600, false);
   if (code > 32700 && code <= 32760) return utm(code - 32700, true);
   if (code >= 26901 && code <= 26923) return utm(code - 26900, false);
@@ -110,9 +112,11 @@ function checkedBounds(bounds) {
     'with an area; across 180° as [170, -10, -170, 10].');
 }
 
-/** A geotransform for `width` x `height` samples between degrees. */
-function transformOfBounds([west, south, east, north], width, height) {
-  return [west, (east - west) / width, 0, north, 0, (south - north) / height];
+/** A geotransform for `width` x `height` samples between degrees, in the order of `axes`. */
+function transformOfBounds([west, south, east, north], width, height, {along, down}) {
+  const [x, across] = along[0] > 0 ? [west, east - west] : [east, west - east];
+  const [y, up] = down[1] > 0 ? [north, south - north] : [south, north - south];
+  return [x, across / width, 0, y, 0, up / height];
 }
 
 /** West, south, east and north of a raster, by walking along its border. */
@@ -182,7 +186,8 @@ export const isPlaced = (info) => info.hasGeotransform || info.textureHasGeotran
  * Where a part of a stream, 'heights' or 'texture', lies: {width, height, pixels, degrees, bounds}.
  * A texture without a place of its own is draped over the heights. Longitudes of its bounds, and of
  * what it gives and takes, go on behind 180 where it goes across that. `bounds`: west, south, east,
- * north of both parts in degrees, in place of what the stream says.
+ * north of both parts in degrees, in place of what the stream says; it still says which row is the
+ * northern one.
  */
 export function placeOf(info, part, bounds) {
   const isTexture = part === 'texture';
@@ -190,7 +195,11 @@ export function placeOf(info, part, bounds) {
   const height = isTexture ? info.textureHeight : info.height;
   let transform, crs;
   if (bounds) {
-    [transform, crs] = [transformOfBounds(checkedBounds(bounds), width, height), 'EPSG:4326'];
+    const own = {hasGeotransform: true, geotransform: info.textureGeotransform,
+      crs: info.textureCrs, width, height};
+    const axes = straightAxes(isTexture && info.textureHasGeotransform ? own : info);
+    [transform, crs] =
+      [transformOfBounds(checkedBounds(bounds), width, height, axes), 'EPSG:4326'];
   } else if (isTexture && info.textureHasGeotransform) {
     [transform, crs] = [info.textureGeotransform, info.textureCrs];
   } else if (info.hasGeotransform) {

@@ -33,10 +33,18 @@ export class Held {
 /** At a time: browsers keep six connections to a server of HTTP/1.1. */
 const MOST_REQUESTS = 12;
 
-/** Requests [begin, end) for the first of the ranges {begin, end, gain} of a plan that help. */
-export function requestsFor(plan, size) {
-  return plan
-    .filter(({begin, gain}) => gain > 0 && begin < size)
-    .slice(0, MOST_REQUESTS)
-    .map(({begin, end}) => [begin, Math.min(end, size)]);
+/**
+ * Requests [begin, end) for the first of the ranges {begin, end, gain} of a plan that help, of a
+ * file of `size` bytes; for at most `most` bytes.
+ */
+export function requestsFor(plan, size, most = Infinity) {
+  const requests = [];
+  for (const {begin, end, gain} of plan) {
+    if (requests.length === MOST_REQUESTS || most <= 0) break;
+    if (gain <= 0 || begin >= size) continue;
+    const last = Math.min(end, size, begin + most);
+    requests.push([begin, last]);
+    most -= last - begin;
+  }
+  return requests;
 }

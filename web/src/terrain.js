@@ -34,6 +34,7 @@ async function within(ms, promise) {
 export class Terrain {
   #fetcher;
   #decoder;
+  #told = 0;  // bytes of the frame that `info` is of
 
   constructor(source, decoder, requestBytes) {
     this.#fetcher = new Fetcher(source, decoder, requestBytes);
@@ -48,6 +49,9 @@ export class Terrain {
   }
   get truncated() {
     return this.#fetcher.truncated;
+  }
+  get fileBytes() {
+    return this.#fetcher.fileBytes;
   }
 
   async load(bytes, {signal, view, triangles = DEFAULTS.triangles} = {}) {
@@ -71,8 +75,10 @@ export class Terrain {
     checkSides(asked);
     checkLevels(asked, this.info ?? {});
     const triangles = trianglesOf(asked.triangles), cut = cutOf(asked.view);
-    return askDecoder(
+    const frame = await askDecoder(
       this.#decoder, 'decode', {...asked, view: null, triangles, cut, bytes}, signal);
+    if (frame.bytes >= this.#told) [this.#told, this.#fetcher.info] = [frame.bytes, frame.info];
+    return frame;
   }
 
   /** While a frame is decoded and shown, bytes come on; the next one takes what is here by then. */
@@ -128,8 +134,7 @@ export class Terrain {
     for (let bytes = FIRST_BYTES; ; ) {
       const have = await this.load(bytes, {signal});
       try {
-        const {info} = await this.decode({bytes, signal, mesh: false, texture: false});
-        this.#fetcher.info = info;
+        await this.decode({bytes, signal, mesh: false, texture: false});
         return;
       } catch (error) {
         if (error.code !== 'truncated') throw error;

@@ -5,7 +5,7 @@ import type {
 import type {Frame, OpenOptions, Raster, Terrain, View} from './index.js';
 
 export interface TerrainOptions {
-  /** The mesh has at most so many. Default 20000. */
+  /** As of decode(): the mesh has at most so many. Default 20000. */
   triangles?: number;
   /** Fetches no more than so many bytes. Default: all that the camera needs. */
   bytes?: number;
@@ -24,7 +24,9 @@ export interface TksTerrainEventMap extends Object3DEventMap {
   error: {error: unknown};
 }
 
-/** x along the rows, y up, z down the rows; metres; the middle of the terrain at x = z = 0. */
+/** x to the east, y up, z to the south, of streams without a place along the rows and down the
+ * columns; metres, by groundScale(), for which samples of unknown spacing lie 30 m apart; the
+ * middle of the terrain at x = z = 0. */
 export class TksTerrain extends Mesh<BufferGeometry, Material, TksTerrainEventMap> {
   constructor(terrain: Terrain, options?: TerrainOptions);
   readonly terrain: Terrain;

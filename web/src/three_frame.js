@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame of a stream as three.js has it: a geometry and a texture. x points along the rows, y up,
-// z down the rows; metres, with the middle of the terrain at (0, 0).
+// A frame of a stream as three.js has it: a geometry and a texture. x points east, y up, z south
+// (of streams without a place along the rows and down the columns); metres, with the middle of the
+// terrain at (0, 0).
 import {
   BufferAttribute, BufferGeometry, DataTexture, LinearFilter, LinearMipmapLinearFilter, RGBAFormat,
   SRGBColorSpace,
 } from 'three';
 
+import {groundAxes, normalsOn, placedOn, trianglesOn} from './axes.js';
 import {drapeOf} from './drape.js';
 import {groundScale} from './ground.js';
 
@@ -20,20 +22,24 @@ export function geometryOf(frame) {
     ? {x: info.textureWidth, y: info.textureHeight, height: 1}
     : groundScale(info);
   const drape = drapeOf(flat ? {width, height} : info);
+  const axes = groundAxes(flat ? {} : info), placed = placedOn(axes);
   const positions = new Float32Array(3 * grid.length), places = new Float32Array(2 * grid.length);
   for (let i = 0; i < grid.length; ++i) {
     const column = grid[i] % width, row = Math.floor(grid[i] / width);
-    positions[3 * i] = (column - (width - 1) / 2) * scale.x;
-    positions[3 * i + 1] = flat ? 0 : mesh.heights[i] * scale.height;
-    positions[3 * i + 2] = (row - (height - 1) / 2) * scale.y;
+    const [east, south] =
+      placed((column - (width - 1) / 2) * scale.x, (row - (height - 1) / 2) * scale.y);
+    positions.set([east, flat ? 0 : mesh.heights[i] * scale.height, south], 3 * i);
     places.set(drape(column, row), 2 * i);
   }
   geometry.setAttribute('position', new BufferAttribute(positions, 3));
   geometry.setAttribute('uv', new BufferAttribute(places, 2));
-  const triangles = flat ? new Uint32Array([0, 2, 1, 1, 2, 3]) : mesh.triangles;
+  const triangles = flat ? new Uint32Array([0, 2, 1, 1, 2, 3]) : trianglesOn(axes, mesh.triangles);
   geometry.setIndex(new BufferAttribute(triangles, 1));
-  if (mesh?.normals) geometry.setAttribute('normal', new BufferAttribute(mesh.normals, 3));
-  else geometry.computeVertexNormals();
+  if (mesh?.normals) {
+    geometry.setAttribute('normal', new BufferAttribute(normalsOn(axes, mesh.normals), 3));
+  } else {
+    geometry.computeVertexNormals();
+  }
   return geometry;
 }
 

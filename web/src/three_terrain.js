@@ -5,6 +5,7 @@ import {
   Box3, BufferAttribute, BufferGeometry, MathUtils, Matrix4, Mesh, MeshLambertMaterial, Vector3,
 } from 'three';
 
+import {groundAxes, placedOn} from './axes.js';
 import {surfaceUnder} from './glide.js';
 import {groundScale} from './ground.js';
 import {FIRST_FRAME, GROWTH} from './pace.js';
@@ -97,7 +98,7 @@ export class TksTerrain extends Mesh {
     this.material.map = texture;
   }
 
-  /** Pixels of a metre at the point of the terrain that is nearest to the camera. */
+  /** Pixels of a metre where the camera is nearest, on the axis that is scaled most. */
   #pixelsPerMetre(camera, viewportHeight) {
     if (camera.isOrthographicCamera) {
       return (viewportHeight * camera.zoom) / (camera.top - camera.bottom);
@@ -105,7 +106,7 @@ export class TksTerrain extends Mesh {
     if (!this.geometry.boundingBox) this.geometry.computeBoundingBox();
     this.#box.copy(this.geometry.boundingBox).applyMatrix4(this.matrixWorld);
     const distance = this.#box.distanceToPoint(camera.getWorldPosition(this.#eye));
-    const scale = this.getWorldScale(new Vector3()).x;
+    const scale = Math.max(...this.getWorldScale(new Vector3()).toArray());
     const focal = viewportHeight / (2 * Math.tan(MathUtils.degToRad(camera.fov) / 2));
     return (scale * focal * camera.zoom) / Math.max(distance, camera.near);
   }
@@ -134,9 +135,11 @@ export class TksTerrain extends Mesh {
     const scale = flat
       ? {x: width / Math.max(1, width - 1), y: height / Math.max(1, height - 1), height: 1}
       : groundScale(info);
+    const placed = placedOn(groundAxes(flat ? {} : info));
+    const along = placed(scale.x, 0), down = placed(0, scale.y);
+    const [east, south] = placed((-scale.x * (width - 1)) / 2, (-scale.y * (height - 1)) / 2);
     const ground = new Matrix4().set(
-      scale.x, 0, 0, (-scale.x * (width - 1)) / 2, 0, 0, scale.height, 0,
-      0, scale.y, 0, (-scale.y * (height - 1)) / 2, 0, 0, 0, 1);
+      along[0], down[0], 0, east, 0, 0, scale.height, 0, along[1], down[1], 0, south, 0, 0, 0, 1);
     camera.updateMatrixWorld();
     this.updateWorldMatrix(true, false);
     const clip = ground.premultiply(this.matrixWorld).premultiply(camera.matrixWorldInverse)
@@ -169,7 +172,8 @@ export class TksTerrain extends Mesh {
     this.#updated = [performance.now(), this.#updated[0]];
     this.glide();
     if (this.#reading || this.#stop.signal.aborted) return;
-    const {info, truncated} = this.terrain, limit = Math.min(this.bytes, info.streamBytes);
+    const {info, fileBytes} = this.terrain;
+    const limit = Math.min(this.bytes, info.streamBytes, fileBytes);
     const seen = this.viewOf(camera, viewportHeight);
     if (!isDrawable(seen)) return;
     const view = this.frame && info.hasIndex ? seen : null;
@@ -177,7 +181,7 @@ export class TksTerrain extends Mesh {
     let bytes = this.#firstBytes(), texels = this.#texels;
     if (this.frame) {
       const needs = this.#needs(camera, viewportHeight);
-      const more = (view ? key !== this.#served : needs.more) && !truncated;
+      const more = view ? key !== this.#served : needs.more;
       bytes = this.#nextBytes(more, view, limit);
       texels = this.#wanted ? Math.max(texels, needs.texels) : needs.texels;
       if (bytes === this.#wanted && texels === this.#texels) return;

@@ -77,6 +77,18 @@ test('frames grow to the whole stream, from bytes, a Blob and a URL alike', asyn
   });
 });
 
+test('what a terrain tells of itself is what the frame of most bytes does', async () => {
+  const terrain = await open(bytes), {info: first} = terrain;
+  assert.ok(first.availableBytes < bytes.length && first.heightsRmse > 0);
+  const whole = await terrain.decode({mesh: false});
+  assert.equal(whole.info.availableBytes, bytes.length);
+  assert.deepEqual(terrain.info, whole.info);
+  await terrain.decode({mesh: false, bytes: 4096});
+  assert.deepEqual(terrain.info, whole.info);
+  assert.notDeepEqual(first, whole.info);
+  terrain.dispose();
+});
+
 test('a frame is whole: triangles within the budget, indices, normals, RGBA', async () => {
   const terrain = await open(bytes);
   const {mesh, texture, surface, info} = await terrain.decode(
@@ -92,6 +104,15 @@ test('a frame is whole: triangles within the budget, indices, normals, RGBA', as
   assert.equal(surface.data.length, info.width * info.height);
   const small = await terrain.decode({texels: 40, mesh: false});
   assert.ok(small.texture.width <= 40 && small.texture.level > 0 && !small.mesh);
+});
+
+test('the coarsest mesh of a long grid is the least, whatever is asked for', async () => {
+  const terrain = await open(
+    await encode({heights: {data: new Int16Array(1025 * 3).map((_, i) => i % 97), width: 1025,
+      height: 3}}));
+  const {mesh} = await terrain.decode({triangles: 2});
+  assert.equal(mesh.triangles.length, 3 * 1024);
+  terrain.dispose();
 });
 
 test('what is no number, no number of triangles or no level is refused', async () => {
@@ -494,7 +515,8 @@ test('addresses above 2 GiB', async () => {
 });
 
 test('a limit of memory is kept; an instance that aborted is replaced', async () => {
-  await rejects(open(bytes, {memory: 1000}).then((terrain) => terrain.decode()), 'limit', /./);
+  await rejects(open(bytes, {memory: 1000}).then((terrain) => terrain.decode()), 'limit',
+    /the limit \(`memory`\) of 1000 bytes/);
   const {Decoder} = await import('../src/stream_decoder.js');
   const decoder = new Decoder(await compiled(), 2 ** 30);
   decoder.append(bytes);

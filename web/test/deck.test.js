@@ -71,7 +71,8 @@ test('a texture that counts longitudes another way than the heights lies on them
 test('of a stream without a place metres are counted from the middle', async () => {
   const {attributes, header} =
     await load(await bytesOf('joint_budget_97x97_128x128.tks'), [TksLoader]);
-  assert.deepEqual(header.boundingBox.map(([x, y]) => [x, y]), [[-48, -48], [48, 48]]);
+  // Its spacing is unknown, too: 30 m.
+  assert.deepEqual(header.boundingBox.map(([x, y]) => [x, y]), [[-1440, -1440], [1440, 1440]]);
   assert.ok(attributes.TEXCOORD_0.value.every((value) => value >= 0 && value <= 1));
 });
 

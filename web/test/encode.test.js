@@ -67,6 +67,12 @@ test('a spacing of null is unknown, as none at all', async () => {
   assert.deepEqual(unknown, none);
 });
 
+test('a target of null is none', async () => {
+  const {heights} = terrainOf(16);
+  assert.deepEqual(await encode({heights, bytes: null, maxError: undefined}),
+    await encode({heights}));
+});
+
 test('enormous limits are none', async () => {
   const {heights} = terrainOf(16);
   assert.deepEqual(await encode({heights, bytes: 1e300}), await encode({heights, bytes: 1e9}));
@@ -116,15 +122,28 @@ test('what makes no sense is refused by code and sentence', async () => {
     return true;
   });
   await refused({}, /./);
-  await refused({heights, bytes: 100, psnr: 30}, /./);
-  await refused({heights, bytes: -1}, /bytes is a number that is not negative/);
+  await refused({heights, bytes: 100, psnr: 30}, /one of bytes, psnr, maxError and lossless/);
+  for (const value of [-1, 0, NaN, '']) {
+    await refused({heights, bytes: value}, /bytes is a number above 0.*lossless: true/);
+    await refused({heights, psnr: value}, /psnr is a number above 0/);
+    await refused({heights, maxError: value}, /maxError is a number above 0/);
+  }
+  await refused({heights, regions: -1}, /regions is a number that is not negative/);
+  await refused({heights, byte: 2000, level: 3}, /cannot have byte, level: it knows heights,/);
+  await refused({heights: {...heights, noData: 0}}, /`heights` cannot have noData/);
+  await refused({texture: {...texture, alpha: true}}, /`texture` cannot have alpha/);
+  await assert.rejects(encode({heights}, {onProgress() {}}), /cannot have onProgress/);
   await refused({heights, bytes: Infinity}, /bytes is a number .* finite/);
   await refused({heights: {...heights, spacing: [30]}}, /spacing is a number of metres, or two/);
-  await refused({heights: {...heights, data: [1, 2]}}, /an array of Uint8Array/);
+  await refused({heights: {...heights, data: [1, 2]}}, /one of these typed arrays: Uint8Array, /);
   await refused({heights: {...heights, width: 17}}, /17 x 16 samples/);
   await refused({heights: {...heights, geotransform: [1, 2]}}, /six numbers/);
   await refused({heights: {...heights, registration: 'pixel'}}, /one of unknown, area, point/);
-  await refused({texture: {...texture, channels: 5}}, /./);
+  await refused({texture: {...texture, channels: 5}}, /1, 2, 3 or 4 channels/);
+  for (const values of [0, 16 * 8, 16 * 24, 16 * 16 * 5]) {
+    await refused({texture: {...texture, data: new Uint8Array(values)}},
+      /16 x 16 texels of 1, 2, 3 or 4 channels are not the \d+ values of its data/);
+  }
   await refused({heights, index: 'regions'}, /one of false, true, windows/);
   await refused({heights, index: 'windows', bytes: 900}, /lossless/);
   await assert.rejects(encode({heights}, {signal: AbortSignal.abort(new Error('gone'))}), /gone/);
@@ -135,6 +154,23 @@ test('what progress throws comes back', async () => {
   const own = new RangeError('the page is wrong');
   await assert.rejects(
     encode({heights}, {progress: () => { throw own; }}), (error) => error === own);
+});
+
+test('in Node a thread encodes: others go on meanwhile, and a signal ends it', async () => {
+  const {heights} = terrainOf(513), input = {heights, bytes: 20000};
+  let beats = 0;
+  const beat = setInterval(() => ++beats, 5);
+  const stream = await encode(input);
+  clearInterval(beat);
+  assert.ok(beats > 3, `${beats}`);
+  assert.deepEqual(await encode(input, {worker: false}), stream);
+  const stop = new AbortController(), begun = [];
+  const progress = (done) => {
+    begun.push(done);
+    stop.abort(new Error('enough'));
+  };
+  await assert.rejects(encode(input, {signal: stop.signal, progress}), /enough/);
+  assert.equal(begun.length, 1);
 });
 
 test('the bytes are those of the native encoder', {skip: !existsSync(CLI)}, async () => {

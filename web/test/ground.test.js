@@ -42,6 +42,19 @@ test('degrees are as long as in the middle of the ground', async () => {
   }
 });
 
+test('metres of web Mercator are as long as on the ground, whatever it is called', async () => {
+  // The middle lies at 60 degrees north, where they are half as long.
+  const geotransform = [7e5, 40, 0, 8399737.89 + 330, 0, -20];
+  const wkt = 'PROJCS["WGS 84 / Pseudo-Mercator",GEOGCS["WGS 84"],' +
+    'PROJECTION["Mercator_1SP"],UNIT["metre",1]]';
+  for (const crs of ['EPSG:3857', 'EPSG:900913', 'EPSG:3785', 'EPSG:102100', 'ESRI:102113', wkt]) {
+    const {x, y} = await scaleOf({crs, geotransform});
+    near(x, 20), near(y, 10);
+  }
+  const {x} = await scaleOf({crs: 'EPSG:3857', geotransform, spacing: 40});
+  assert.equal(x, 40);
+});
+
 test('metres whose code looks like degrees are metres', async () => {
   const geotransform = [500000, 25, 0, 4400000, 0, -25];
   for (const crs of ['EPSG:4547', 'PROJCS["CGCS2000 / 3-degree Gauss-Kruger CM 114E"]']) {
@@ -71,14 +84,14 @@ test('the unit of a grid is that of its keys, or of its WKT', async () => {
   }
 });
 
-test('without a CRS, an area or a latitude, nothing is known', async () => {
+test('without a CRS, an area or a latitude, nothing is known: 30 m, as for cameras', async () => {
   for (const place of [
     {crs: '', geotransform: [0, 25, 0, 0, 0, -25]}, {crs: 'EPSG:2056', geotransform: undefined},
     {crs: 'EPSG:2056', geotransform: [0, 0, 0, 0, 0, 0]},
     {crs: 'EPSG:4326', geotransform: [0, 1e-3, 0, 91, 0, -1e-3]},
   ]) {
     const {x, y} = await scaleOf(place);
-    assert.deepEqual([x, y], [1, 1]);
+    assert.deepEqual([x, y], [30, 30]);
   }
 });
 

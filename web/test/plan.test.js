@@ -72,6 +72,7 @@ test('a dozen requests at a time, for what helps and is there', () => {
   assert.deepEqual(requestsFor(plan, 1000), [[900, 940], [0, 30], [990, 1000]]);
   const many = Array.from({length: 99}, (_, i) => ({begin: i * 90, end: i * 90 + 10, gain: 1}));
   assert.equal(requestsFor(many, 1e6).length, 12);
+  assert.deepEqual(requestsFor(plan, 1000, 50), [[900, 940], [0, 10]]);
 });
 
 test('where requests cost more there are fewer, and the picture is as good', async () => {
@@ -236,6 +237,28 @@ test('a terrain of three.js goes on to what its camera needs, though it stays st
   assert.equal(await terrain.load(Infinity, {view, triangles: 2000}), settled);
   assert.equal(object.frame.bytes, settled);
   object.dispose();
+});
+
+test('a terrain of three.js shows all of a file that is cut short', async () => {
+  const camera = new PerspectiveCamera(40, 1.6, 1, 1e6);
+  camera.position.set(0, 1500, 1500);
+  camera.lookAt(0, 0, 0);
+  for (const [index, size] of [[false, 60000], [true, 60000], [true, 20000]]) {
+    const stream = index ? bytes : await encode({...original, bytes: 90000});
+    const terrain = await open(stream.subarray(0, size)), errors = [];
+    const object = new TksTerrain(terrain, {triangles: 2000});
+    object.addEventListener('frame', ({frame}) => errors.push(frame.info.heightsRmse));
+    await object.begin();
+    await settle(object, camera);
+    assert.ok(terrain.truncated);
+    const {bytes: settled} = terrain.loaded, view = object.viewOf(camera, 400);
+    if (!index) assert.equal(settled, size);
+    else assert.equal(await terrain.load(Infinity, {view, triangles: 2000}), settled);
+    assert.equal(object.frame.bytes, settled);
+    assert.ok(object.frame.mesh.triangles.length > 3 * 1000);
+    assert.ok(errors.length > 1 && errors.at(-1) < errors[0], `${errors}`);
+    object.dispose();
+  }
 });
 
 test('a view without a picture waits for one that has one', async () => {

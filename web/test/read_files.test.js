@@ -53,6 +53,20 @@ test('bands of an image become RGB, then alpha or a further colour', async () =>
   }
 });
 
+test('the spacing of heights is that on the ground', async () => {
+  const spacingAt = async (code, north) => {
+    const keys = [1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, code];
+    const file = tiffOf({data: [0, 1, 2, 3, 4, 5], width: 3, height: 2}, [
+      [33550, 12, 3, [40, 20, 0]], [33922, 12, 6, [0, 0, 0, 7e5, north, 0]],
+      [34735, 3, keys.length, keys]]);
+    return (await readFiles([new File([file], 'heights.tif')])).heights.spacing;
+  };
+  assert.deepEqual(await spacingAt(32633, 5e6), [40, 20]);
+  // Web Mercator, at 60 degrees north.
+  const [x, y] = await spacingAt(3857, 8399737.89 + 20);
+  assert.ok(Math.abs(x - 20) < 1e-3 && Math.abs(y - 10) < 1e-3, `${x}, ${y}`);
+});
+
 test('pixels that have the nodata value in all bands are cut out', async () => {
   const first = [7, 7, 3, 4, 5, 6], second = [7, 8, 7, 4, 5, 6];
   const alpha = [0, ...Array(5).fill(65535)];

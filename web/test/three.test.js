@@ -35,9 +35,10 @@ test('a terrain refines as far as the camera sees, and no further', async () => 
   assert.equal(positions.count, object.frame.mesh.heights.length);
   assert.ok(object.geometry.index.count <= 9000);
   assert.equal(object.material.map.image.width, info.textureWidth);
-  // x and z span the ground around the middle.
+  // x and z span the ground around the middle: samples of unknown spacing lie 30 m apart.
   object.geometry.computeBoundingBox();
   const {min, max} = object.geometry.boundingBox;
+  assert.equal(max.x - min.x, 96 * 30);
   assert.ok(Math.abs(min.x + max.x) < 1e-3 && Math.abs(min.z + max.z) < 1e-3);
 
   const camera = new PerspectiveCamera(50, 1, 0.1, 1e9);
@@ -49,6 +50,16 @@ test('a terrain refines as far as the camera sees, and no further', async () => 
   camera.updateMatrixWorld();
   await settle(object, camera);
   assert.ok(object.frame.complete);
+  object.dispose();
+});
+
+test('a terrain that is scaled along the ground alone refines by its heights', async () => {
+  const object = await new TksLoader().parseAsync(await bytesOf('geometry_budget_129x97.tks'));
+  object.scale.set(1e-3, 1, 1e-3);
+  const camera = new PerspectiveCamera(50, 1, 0.1, 1e9);
+  camera.position.set(0, 1000 * object.frame.info.heightsRmse, 0);
+  await settle(object, camera);
+  assert.ok(object.frame.bytes > 4096, `${object.frame.bytes}`);
   object.dispose();
 });
 

@@ -3,7 +3,7 @@
 import type {Scene as Globe} from '@cesium/engine';
 import {load, loadInBatches} from '@loaders.gl/core';
 import {Map as WebMap, addProtocol} from 'maplibre-gl';
-import {FIRST_FRAME, TksError, groundScale, open, type Frame} from 'tetrakis';
+import {FIRST_FRAME, TksError, groundAxes, groundScale, open, type Frame} from 'tetrakis';
 import {TksTerrainProvider} from 'tetrakis/cesium';
 import {TksLoader as DeckLoader, imageOf, meshOf} from 'tetrakis/deck';
 import {encode} from 'tetrakis/encode';
@@ -24,7 +24,8 @@ export async function core(): Promise<Frame> {
     if (error instanceof TksError && error.code === 'memory') console.log(error.message);
     throw error;
   } finally {
-    console.log(groundScale(terrain.info).x, terrain.loaded.ranges[0], terrain.truncated);
+    console.log(groundScale(terrain.info).x, groundAxes(terrain.info).down[1]);
+    console.log(terrain.loaded.ranges[0], terrain.truncated, terrain.fileBytes);
     terrain.dispose();
   }
 }

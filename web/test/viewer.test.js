@@ -187,6 +187,14 @@ test('a file that is cut short is shown, with a note', async () => {
     assert.match(await page.getByRole('alert').textContent(), /cut short: 3.0 kB of 12 kB/);
     assert.ok((await colours(page)).ground > 0.05);
   });
+  // Of a stream with an index a view may need less than is there.
+  const stream = await encode({...terrainOf(385), bytes: 300000, index: true, regions: 32});
+  await writeFile(join(folder, 'short_index.tks'), stream.subarray(0, 200000));
+  await withPage('?tks=short_index.tks&eye=-5000,900,-5000&target=-5700,0,-5700', async (page) => {
+    const here = Number(await page.locator('#fetched').getAttribute('data-bytes'));
+    assert.ok(here < 199000, `${here}`);
+    assert.match(await page.getByRole('alert').textContent(), /cut short: 200 kB of 300 kB/);
+  });
 });
 
 test('a drop opens', async () => {
@@ -309,8 +317,7 @@ test('what lies high, or is higher than wide, is in the picture, exaggerated or 
   const {heights} = terrainOf(65);
   const high = {...heights, data: heights.data.map((metres) => metres + 20000)};
   await writeFile(join(folder, 'high.tks'), await encode({heights: high}));
-  const tall = {...high, spacing: 0, crs: ''};
-  await writeFile(join(folder, 'tall.tks'), await encode({heights: tall}));
+  await writeFile(join(folder, 'tall.tks'), await encode({heights: {...high, spacing: 1}}));
   for (const [name, least, most] of [['high', 1, 1], ['tall', 0.001, 0.1]]) {
     await withPage(`?tks=${name}.tks`, async (page) => {
       const times = Number(await text(page, '#times'));
@@ -393,6 +400,20 @@ test('of a stream with an index all comes in few requests, and is drawn as a map
     assert.ok(await page.locator('#ground').isVisible());
     assert.match(await text(page, '#fetched-text'), /requests, and for which ground/);
   });
+});
+
+test('the map of the ground has north above', async () => {
+  const {heights} = terrainOf(65), options = {index: true, regions: 16};
+  for (const [step, upright] of [[-30, 'scale(1, 1)'], [30, 'scale(1, -1)']]) {
+    const geotransform = [5e5, 30, 0, 4e6, 0, step];
+    await writeFile(join(folder, 'mapped.tks'),
+      await encode({heights: {...heights, geotransform}, ...options}));
+    await withPage('?tks=mapped.tks', async (page) => {
+      const map = page.locator('#ground');
+      assert.ok(await map.isVisible());
+      assert.equal(await map.evaluate(({style}) => style.transform), upright);
+    });
+  }
 });
 
 test('tetrakis view serves the page by ranges', {skip: !existsSync(CLI)}, async () => {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What was fetched: the file as a bar, filled where its bytes are here, and of streams in regions
 // the ground, the brighter the more of what it takes is here.
+import {straightAxes} from '../src/axes.js';
+
 const LONG_SIDE = 12;  // cells of the ground
 
 /** How many bytes of `ranges` are in `held`. */
@@ -36,6 +38,8 @@ export class FetchMap {
     const cell = Math.max(width, height) / LONG_SIDE;
     const columns = Math.max(1, Math.round(width / cell));
     const rows = Math.max(1, Math.round(height / cell));
+    const {along, down} = straightAxes(info);
+    this.#ground.style.transform = `scale(${along[0]}, ${down[1]})`;  // north is above
     this.#ground.width = columns;
     this.#ground.height = rows;
     try {

@@ -2,7 +2,7 @@
 // Heights and images as the viewer's users have them, as encode() takes them: GeoTIFFs by
 // geotiff.js, other images by the browser. Loaded when the first such file is opened.
 import {fromArrayBuffer} from 'geotiff';
-import {metresPerDegree} from '../src/ground.js';
+import {isWebMercator, mercatorMetre, metresPerDegree} from '../src/ground.js';
 import {chosenBands, tagOf, textureOf} from './geotiff_texture.js';
 
 /** EPSG codes of units of length, in metres. */
@@ -40,8 +40,11 @@ function geotransformOf(directory, isPoint) {
 function spacingOf(t, keys, height) {
   if (!t) return 0;
   let east = UNITS[keys.ProjLinearUnitsGeoKey ?? 9001]?.[1], north = east;
+  const middle = t[3] + (height / 2) * t[5];
   if (keys.GTModelTypeGeoKey === 2) {
-    [east, north] = metresPerDegree(t[3] + (height / 2) * t[5]);
+    [east, north] = metresPerDegree(middle);
+  } else if (isWebMercator(crsOf(keys.ProjectedCSTypeGeoKey))) {
+    east = north = east * mercatorMetre(east * middle);
   } else if (keys.GTModelTypeGeoKey !== 1 && !keys.ProjLinearUnitsGeoKey) {
     return 0;  // of a local grid GDAL states no model, but a unit
   }

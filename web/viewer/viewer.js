@@ -92,11 +92,11 @@ async function refine(current) {
     shown = {bytes: frame.bytes, triangles: goal.triangles, isWhole: true};
     if (goal !== wanted) return;
   }
-  const {loaded, truncated, info} = current;
-  if (truncated && goal.bytes > loaded.bytes) {
-    goal.bytes = loaded.bytes;
-    tell(`The file is cut short: ${formatBytes(loaded.bytes)} of ` +
-      `${formatBytes(info.streamBytes)} are there, and shown.`, true);
+  const {fileBytes, truncated, info} = current;
+  if (truncated && goal.bytes > fileBytes) {
+    goal.bytes = fileBytes;
+    tell(`The file is cut short: ${formatBytes(fileBytes)} of ` +
+      `${formatBytes(info.streamBytes)} are there.`, true);
   }
   shown.bytes = goal.bytes;  // this view needs no more
 }
@@ -265,7 +265,7 @@ async function openFiles(files) {
   }
 }
 
-/** Flattens what is higher than wide, often because no spacing of its samples is stated. */
+/** What is higher than wide, often because it states no unit or a wrong one, is flattened. */
 function exaggerate() {
   if (!object?.frame) return;
   const {tallness} = picture, usual = tallness > 1 ? 1 / (8 * tallness) : 1;

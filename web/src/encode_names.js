@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The names of what encode() is given. One that is misspelt is refused: ignored, it would make
+// another stream than was asked for.
+import {TksError} from './error.js';
+
+const RASTER = ['data', 'width', 'height', 'crs', 'geotransform', 'registration', 'geoKeys'];
+const HEIGHTS = [...RASTER, 'nodata', 'unit', 'spacing', 'scale', 'offset', 'step',
+  'verticalDatum', 'description'];
+const TEXTURE = [...RASTER, 'channels', 'opaque', 'whiteLevel'];
+const INPUT = ['heights', 'texture', 'bytes', 'psnr', 'maxError', 'lossless', 'triangles',
+  'regions', 'index', 'weights'];
+const OPTIONS = ['signal', 'worker', 'wasm', 'progress'];
+
+function check(given, known, what) {
+  const unknown = Object.keys(given ?? {}).filter((name) => !known.includes(name));
+  if (unknown.length === 0) return;
+  throw new TksError('usage', `${what} cannot have ${unknown.join(', ')}: it knows ` +
+    `${known.join(', ')}.`);
+}
+
+export function checkNames(input, options) {
+  check(input, INPUT, 'What is encoded');
+  check(input.heights, HEIGHTS, '`heights`');
+  check(input.texture, TEXTURE, '`texture`');
+  check(options, OPTIONS, 'The second argument of encode()');
+}
