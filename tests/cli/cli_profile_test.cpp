@@ -182,13 +182,13 @@ TEST_F(CliProfile, TakesCoordinatesOfTheCrs) {
   tools::HeightFile file = hills(17);
   encode(file);
   EXPECT_EQ(profile("3,3 9,9", "5", {"--geo"}).code, 1);
-  file.geotransform = {600000, 25, 0, 200000, 0, -20};
+  file.geotransform = {2600000, 25, 0, 1200000, 0, -20};
   file.crs = "EPSG:2056";
   file.spacing_x = 25;
   file.spacing_y = 20;
   encode(file);
-  // The middle of sample (c, r) lies at 600000 + 25 (c + 1/2), 200000 - 20 (r + 1/2).
-  const nlohmann::json geographic = json("600087.5,199930 600312.5,199770", "9", {"--geo"}),
+  // The middle of sample (c, r) lies at 2600000 + 25 (c + 1/2), 1200000 - 20 (r + 1/2).
+  const nlohmann::json geographic = json("2600087.5,1199930 2600312.5,1199770", "9", {"--geo"}),
                        plain = json("3,3 12,11", "9");
   EXPECT_NEAR(geographic["length"], std::hypot(9 * 25, 8 * 20), 1e-6);
   ASSERT_EQ(geographic["points"].size(), plain["points"].size());
@@ -196,11 +196,11 @@ TEST_F(CliProfile, TakesCoordinatesOfTheCrs) {
     const auto &a = geographic["points"][i], &b = plain["points"][i];
     EXPECT_NEAR(a["distance"], b["distance"], 1e-6);
     EXPECT_NEAR(a["height"], b["height"], 1e-6);
-    EXPECT_NEAR(a["x"], 600000 + 25 * (b["x"].get<double>() + 0.5), 1e-6);
-    EXPECT_NEAR(a["y"], 200000 - 20 * (b["y"].get<double>() + 0.5), 1e-6);
+    EXPECT_NEAR(a["x"], 2600000 + 25 * (b["x"].get<double>() + 0.5), 1e-5);
+    EXPECT_NEAR(a["y"], 1200000 - 20 * (b["y"].get<double>() + 0.5), 1e-5);
   }
   // Corners of the raster are on its border, whatever the rounding.
-  EXPECT_TRUE(json("600012.5,199990 600412.5,199670", "9", {"--geo"})["gaps"].empty());
+  EXPECT_TRUE(json("2600012.5,1199990 2600412.5,1199670", "9", {"--geo"})["gaps"].empty());
 }
 
 TEST_F(CliProfile, CountsDistancesInSamplesWithoutASpacing) {

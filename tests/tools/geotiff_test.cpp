@@ -44,6 +44,31 @@ TEST_F(GeoTiff, DegreesBecomeMetresAtTheCentre) {
   EXPECT_EQ(heights.crs, "EPSG:4326");
 }
 
+/// Web Mercator shows the ground at 60 degrees twice as large as it is.
+TEST_F(GeoTiff, MapsAreMeasuredOnTheGround) {
+  const auto project = [&](uint16_t crs, double east, double north) {
+    tiff.doubles(kPixelScale, {20, 10, 0});
+    tiff.doubles(kTiepoint, {0, 0, 0, east, north, 0});
+    tiff.shorts(kGeoKeys, {1, 1, 0, 3, 1024, 0, 1, 1, 3072, 0, 1, crs, 3076, 0, 1, 9001});
+    return read();
+  };
+  const HeightFile mercator = project(3857, 700000, 8399738);
+  EXPECT_NEAR(mercator.spacing_x, 20 * 0.5 * 1.0025, 0.01);  // N(60 degrees) = 1.0025 a
+  EXPECT_NEAR(mercator.spacing_y, 10 * 0.5 * 1.0008, 0.01);
+  EXPECT_NEAR(project(32632, 500000, 6600000).spacing_x, 20, 1e-9);
+  EXPECT_EQ(project(3857, 1e300, 0).spacing_x, 20);
+}
+
+/// On its own ellipsoid: a degree of the Moon has 30 km.
+TEST_F(GeoTiff, DegreesOfOtherWorlds) {
+  degreesAt(60.02);
+  tiff.shorts(kGeoKeys, {1,    1,     0, 4, 1024, 0, 1, 2, 2048, 0, 1, 32767, 2057, 34736, 1, 0,  //
+                         2058, 34736, 1, 1});
+  tiff.doubles(kGeoDoubles, {1737400, 1737400});
+  EXPECT_NEAR(read().spacing_y, 0.02 * 30323.35, 0.01);
+  EXPECT_NEAR(read().spacing_x, 0.01 * 30323.35 / 2, 0.01);
+}
+
 TEST_F(GeoTiff, DegreesWithoutAPlaceStayUnknown) {
   degreesAt(0);
   tiff.remove(kTiepoint);
