@@ -9,6 +9,7 @@
 #include <memory>
 #include <string_view>
 
+#include "base/utf8.hpp"
 #include "tools/commands/command.hpp"
 #include "tools/commands/options.hpp"
 #include "tools/files/file_bytes.hpp"
@@ -52,17 +53,41 @@ Result<fs::path> viewerFolder() {
   return Status(TKS_IO, "the viewer is not built: scripts/web builds it, before installation too");
 }
 
-/// The name of the stream in the address: letters, digits and "._-" of its file's name.
-std::string addressName(const std::string& path) {
+bool isAscii(char letter) {
+  return static_cast<unsigned char>(letter) < 0x80;
+}
+
+/// The name of the stream to the viewer: letters and digits of any script, and "._-", of its file's
+/// name.
+std::string nameInViewer(const std::string& path) {
   std::string name = path == "-" ? "" : fs::path(path).filename().string();
-  for (char& letter : name)
-    if (!std::isalnum(static_cast<unsigned char>(letter)) &&
-        std::string_view("._-").find(letter) == std::string_view::npos)
-      letter = '_';
+  const bool is_utf8 = isUtf8(name);
+  for (char& letter : name) {
+    const bool kept = isAscii(letter)
+                          ? std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+                                std::string_view("._-").find(letter) != std::string::npos
+                          : is_utf8;
+    if (!kept) letter = '_';
+  }
   const bool taken = name.empty() || name[0] == '.' ||
                      std::any_of(kViewerFiles.begin(), kViewerFiles.end(),
                                  [&](const ViewerFile& file) { return name == file.name; });
   return taken ? "terrain.tks" : name;
+}
+
+/// RFC 3986: bytes that are not ASCII as %XX.
+std::string percentEncoded(const std::string& name) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::string encoded;
+  for (const char letter : name) {
+    if (isAscii(letter)) {
+      encoded += letter;
+      continue;
+    }
+    const auto byte = static_cast<unsigned char>(letter);
+    encoded += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+  }
+  return encoded;
 }
 
 /// A page elsewhere may not read the stream through a name of its own that leads here.
@@ -160,12 +185,12 @@ Status view(const ViewArguments& arguments) {
     response.status = 403;
     return httplib::Server::HandlerResponse::Handled;
   });
-  const std::string name = addressName(arguments.source.path);
+  const std::string name = nameInViewer(arguments.source.path);
   addStream(server, name, stream->bytes);
   const Result<int> port = bind(server, arguments.port);
   if (!port.ok()) return port.status();
-  const std::string address =
-      "http://" + std::string(kLoopback) + ":" + std::to_string(*port) + "/?tks=" + name;
+  const std::string address = "http://" + std::string(kLoopback) + ":" + std::to_string(*port) +
+                              "/?tks=" + percentEncoded(name);
   std::printf("%s\n", address.c_str());
   std::fflush(stdout);
   if (arguments.open_browser) openBrowser(address);

@@ -448,3 +448,20 @@ test('tetrakis view serves the page by ranges', {skip: !existsSync(CLI)}, async 
     child.kill();
   }
 });
+
+test('names of streams may be of any script', {skip: !existsSync(CLI)}, async () => {
+  await writeFile(join(folder, 'рельеф 1.tks'), bytes);
+  const child = spawn(CLI, ['view', '--no-browser', join(folder, 'рельеф 1.tks')]);
+  const page = await browser.newPage();
+  try {
+    const [line] = await once(child.stdout, 'data');
+    const address = new URL(String(line).trim());
+    assert.equal(address.searchParams.get('tks'), 'рельеф_1.tks');
+    await page.goto(address.href);
+    await ended(page);
+    assert.equal(await page.locator('body').getAttribute('data-bytes'), String(bytes.length));
+  } finally {
+    await page.close();
+    child.kill();
+  }
+});
