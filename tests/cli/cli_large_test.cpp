@@ -84,6 +84,7 @@ TEST_F(CliLarge, MemoryIsLimitedByOption) {
   EXPECT_EQ(run.code, 6);
   EXPECT_NE(run.err.find("Decoding 514 x 514 texels of 3 channels takes "), std::string::npos)
       << run.err;
+  EXPECT_NE(run.err.find("the limit (--max-memory) is 3"), std::string::npos) << run.err;
   EXPECT_FALSE(names().contains("b.png"));
   EXPECT_EQ(cli("info a.tks --max-memory 8M").code, 0);
   EXPECT_EQ(cli("verify a.tks --max-memory 8M").code, 0);

@@ -6,6 +6,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/commands/command.hpp"
@@ -85,9 +86,16 @@ int exitCode(tks_status code) {
   return code == TKS_NO_MEMORY ? TKS_LIMIT : code;
 }
 
+/// The library calls a limit by the name of its field.
+std::string withNamesOfOptions(std::string sentence) {
+  constexpr std::string_view kField = "(max_memory)", kOption = "(--max-memory)";
+  const size_t at = sentence.find(kField);
+  return at == std::string::npos ? sentence : sentence.replace(at, kField.size(), kOption);
+}
+
 int report(const Status& status) {
   if (status.ok()) return TKS_OK;
-  std::fprintf(stderr, "tetrakis: %s\n", status.message().c_str());
+  std::fprintf(stderr, "tetrakis: %s\n", withNamesOfOptions(status.message()).c_str());
   return exitCode(status.code());
 }
 
