@@ -93,9 +93,9 @@ std::vector<VectorCase> drawnHeightsCases() {
     vector_case.patches = true;
     return vector_case;
   };
-  VectorCase rescaled = patches("drawn_table_f32_160x121",
-                                "drawn heights that count the values of a table", 160, 121);
-  rescaled.values = samples::FewValues::kRescaled;
+  VectorCase stretched = patches("drawn_table_u16_160x121",
+                                 "drawn heights that count the values of a table", 160, 121);
+  stretched.values = samples::FewValues::kStretched;
   VectorCase rare =
       patches("drawn_rare_f32_66x60", "drawn heights beside corrections of samples", 66, 60);
   rare.values = samples::FewValues::kRare;
@@ -110,7 +110,7 @@ std::vector<VectorCase> drawnHeightsCases() {
           patches("drawn_long_u8_2x300", "drawn heights, two columns", 2, 300),
           withVoids(patches("drawn_coast_u8_64x51", "drawn heights beside voids", 64, 51),
                     samples::VoidShape::kCoast, 255),
-          rescaled,
+          stretched,
           rare,
           joint,
           copied};

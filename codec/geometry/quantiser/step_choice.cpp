@@ -151,6 +151,20 @@ class Stepper {
     return divisor == 0 ? 1 : static_cast<double>(divisor);
   }
 
+  /// The greatest common divisor of all floats in the range, in a unit of which they may be
+  /// multiples: 5 of heights in fives of metres. 1 if there is none.
+  double commonMultiple(double unit) const {
+    constexpr double kExact = 0x1p53;
+    uint64_t divisor = 0;
+    for (size_t i = 0; i < count_ && divisor != 1; ++i) {
+      if (!isInRange(i)) continue;
+      const double units = std::round(std::abs(static_cast<double>(samples_[i])) / unit);
+      if (units >= kExact) return 1;
+      divisor = std::gcd(divisor, static_cast<uint64_t>(units));
+    }
+    return divisor == 0 ? 1 : static_cast<double>(divisor);
+  }
+
   /// The largest power of two that divides every float in the range but so many; 1 if all are 0.
   double commonPowerOfTwo(size_t exceptions) const {
     constexpr int kLeast = -149, kMost = 127;  // exponents of the lowest bit of a float
@@ -226,7 +240,8 @@ double lossyStep(double range, double error) {
 
 /// The coarsest step that restores all samples but so many.
 std::optional<double> restoringStep(const Stepper<float>& stepper, size_t exceptions) {
-  for (const double step : {1.0, 0.1, 0.01, 0.001}) {
+  for (const double unit : {1.0, 0.1, 0.01, 0.001}) {
+    const double step = exceptions == 0 ? unit * stepper.commonMultiple(unit) : unit;
     if (stepper.fits(step) && stepper.restores(step, exceptions)) return step;
   }
   const double binary = stepper.commonPowerOfTwo(exceptions);

@@ -53,6 +53,20 @@ TEST(OtherSteps, TakeTheStepOfThePartThatHasOne) {
   }
 }
 
+/// Heights in fives of metres, or areas in cells of 900 square metres.
+TEST(OtherSteps, OfMultiplesAreTheirGreatestCommonDivisor) {
+  for (const double step : {5.0, 2.5, 0.3, 900.0}) {
+    for (const bool lossless : {true, false}) {
+      const HeightSteps steps = stepsOf(floats([&](uint32_t, uint32_t, double ground) {
+                                          return step * std::round(ground - 700);
+                                        }),
+                                        lossless);
+      EXPECT_NEAR(steps.step, step, 1e-12 * step);
+      EXPECT_TRUE(steps.exact) << step;
+    }
+  }
+}
+
 /// Rounded ones would need corrections that take more bits than the fine step does.
 TEST(OtherSteps, KeepFineStepsOfOthers) {
   const auto ground = [](uint32_t, uint32_t, double height) { return height; };
