@@ -9,8 +9,8 @@ namespace tetrakis::inline base {
 /// Thrown out of work that its watch has ended.
 struct Stopped {};
 
-/// Is told of the stages of long work, and of the pieces of each, on whatever thread. How many
-/// pieces a stage has nobody knows.
+/// Is told of the stages of long work, and of the pieces of each, on whatever thread works. Nobody
+/// knows in advance how many pieces a stage will have.
 class Watch {
  public:
   Watch() = default;
@@ -25,8 +25,8 @@ class Watch {
   virtual void pass(size_t pieces) = 0;
 };
 
-/// What watches the work of this thread; null: nothing. It is where parallelFor() is, which hands
-/// it on to its threads.
+/// What watches the work of this thread; null: nothing. parallelFor() hands it on to its threads;
+/// the file that defines parallelFor() defines this too.
 Watch*& watchOfThread();
 
 /// Sets the watch of this thread for as long as it lives.

@@ -11,7 +11,8 @@
 
 namespace tetrakis::inline encoder {
 
-/// Every piece of work brings the account closer to the end of its stage, and none beyond it.
+/// Counts how much of the work is done: every piece brings the count closer to the end of its
+/// stage, and none brings it beyond.
 class ToldProgress : public Watch {
  public:
   /// Is told how much of the work is done, from 0 to 1, never less than before: on whatever thread,

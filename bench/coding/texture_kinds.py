@@ -75,12 +75,23 @@ def grey(image):
     return np.round(image @ [0.299, 0.587, 0.114])[..., None].astype(np.uint8)
 
 
-def tinted(image):
-    """A ramp of colours over the brightness."""
+def ramp_at(brightness):
     ramp = np.array([[40, 90, 60], [120, 160, 80], [220, 200, 140], [150, 100, 70], [250, 250, 250]])
     places = np.linspace(0, 255, len(ramp))
-    colours = [np.interp(grey(image)[..., 0], places, ramp[:, c]) for c in range(3)]
+    colours = [np.interp(brightness, places, ramp[:, c]) for c in range(3)]
     return np.round(np.stack(colours, 2)).astype(np.uint8)
+
+
+def tinted(image):
+    """A ramp of colours over the brightness."""
+    return ramp_at(grey(image)[..., 0])
+
+
+def gradient(image):
+    """Of the image nothing but its size: a ramp of colours by the distance from a corner."""
+    rows, columns = image.shape[:2]
+    far = np.hypot(*np.meshgrid(np.arange(columns), np.arange(rows)))
+    return ramp_at(far * (255 / far.max()))
 
 
 KINDS = {
@@ -107,6 +118,7 @@ KINDS = {
     "nearest_2.3": lambda i: enlarged(i, 2.3),
     "levels_150_copies_2x2": lambda i: enlarged(by_channel(i, lambda c: stretched(c, 150)), 2),
     "tinted": tinted,
+    "gradient": gradient,
 }
 
 

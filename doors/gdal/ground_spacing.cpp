@@ -22,8 +22,8 @@ bool isLocalGrid(const OGRSpatialReference& system) {
   return system.IsLocal() && std::abs(system.GetLinearUnits() - kDegree) > kAlike;
 }
 
-/// In a radian to the east and to the north, by the radii of curvature at a latitude in radians; 0:
-/// it is none.
+/// How many metres a radian has to the east and to the north, by the radii of curvature of the
+/// ellipsoid. latitude: in radians; beyond the poles there are 0 metres.
 Metres metresPerRadian(const OGRSpatialReference& system, double latitude) {
   if (!(std::abs(latitude) < std::numbers::pi / 2)) return {0, 0};
   const double axis = system.GetSemiMajor(), inverse_flattening = system.GetInvFlattening();
@@ -68,7 +68,7 @@ bool isTrue(double of_map, double of_ground) {
 /// The map's own metres where they are true, or nobody knows better.
 Metres groundUnder(const OGRSpatialReference& map, double x, double y, const double* t,
                    const Metres& of_map) {
-  const CPLErrorStateBackuper errors;  // nobody asked for this: it fails in silence
+  const CPLErrorStateBackuper errors;  // nobody asked for the ground: a failure stays silent
   const CPLErrorHandlerPusher quiet(CPLQuietErrorHandler);
   const Ground ground(map);
   const Metres found = {ground.distance(x, y, t[1], t[4]), ground.distance(x, y, t[2], t[5])};

@@ -38,8 +38,7 @@ extern "C" {
 #pragma GCC visibility push(default) /* the library is compiled with hidden symbols */
 #endif
 
-/* Enumerations take the values of an int, of which calls refuse those that have no name. In C they
- * do so by themselves. */
+/* In C++, too, an enumeration may have any value of an int. Calls refuse values without a name. */
 #if defined(__cplusplus) && (__cplusplus >= 201103L || defined(_MSC_VER))
 #define TKS_INT : int
 #else
@@ -156,8 +155,8 @@ typedef struct tks_image {
 uint32_t tks_find_white_level(const tks_image* image);
 
 /* Returns 0 to continue, anything else to stop with TKS_USAGE. done is in [0, 1] and never falls;
- * its steps are not of equal time. Comes on any thread of the call, never twice at a time, and
- * every tenth of a second or so: only where one filter or one entropy coder runs, later. */
+ * equal steps of it do not take equal times. It is called on any thread of the call, by one thread
+ * at a time, and mostly ten times a second. Large planes without regions make pauses of seconds. */
 typedef int (*tks_progress)(void* user, double done);
 
 /* How errors of a texture's wavelet are weighed: what counts most comes first, and is kept where

@@ -3,7 +3,8 @@
 // Of the sums over all details the smallest wins, each made larger by what its filters are known to
 // lose besides. For lossy streams, against the best of the choices, found by coding with each, that
 // loses up to 0.3 % of the bytes on nine aerial images and maps and on seven DEMs; were kLong not
-// made larger, up to 2.5 %.
+// made larger, up to 2.5 %. The step T is one that a tenth of the details reach and, where the
+// target leaves a finer one, that one as well (docs/EXPERIMENTS.md, "Roofs and walls").
 #include "wavelet/choice/filter_choice.hpp"
 
 #include <algorithm>
@@ -118,8 +119,9 @@ double penaltyOf(const Filters& filters) {
   return 1 + kPerLong * choices(kL) + kPerShort * choices(kS) + kPerSmooth * choices(kN);
 }
 
-/// Bits with what they count more. Where most samples have bits, the decibels that filters lose are
-/// so many bits a sample.
+/// The bits, made larger by the penalty of the filters. A filter loses the same number of decibels
+/// at every high rate, and six decibels are a bit a sample: from one bit a sample on the penalty
+/// grows no further.
 double penalised(double bits, const Filters& filters, double samples) {
   return bits + (penaltyOf(filters) - 1) * std::min(bits, samples);
 }

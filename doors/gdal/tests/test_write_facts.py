@@ -49,7 +49,7 @@ def test_reference_systems_are_kept(tmp_path, crs):
 
 def spacing_of(stream):
     """Of a stream whose heights have a scale of 1 and an offset of 0 (FORMAT.md, Metadata). A
-    number is its length, and its bytes without zeros in front. Nothing is said of no place."""
+    number is its length, and its bytes without zeros in front. Without a place there are none."""
     at = stream.find(b"\x02\xf0\x3f\x00") + 4
     if at < 4:
         return [0, 0]
