@@ -126,13 +126,15 @@ double penalised(double bits, const Filters& filters, double samples) {
   return bits + (penaltyOf(filters) - 1) * std::min(bits, samples);
 }
 
-/// A step that is finer than `usual`, and as fine as the target asks; `usual` if it does not.
+/// A step that is finer than `usual`, and as fine as the target asks; `usual` if it does not, or if
+/// it has few bits, whose prefixes would lose more than its end gains.
 float finerStep(const std::vector<float>& details, float usual, double unit, double samples,
                 const RateTarget& target) {
   if (target.mean_square > 0)
     return std::min(usual, static_cast<float>(unit * std::sqrt(12 * target.mean_square)));
+  constexpr double kManyBits = 2.5;
   float step = usual;
-  while (target.bits > 0 && step > 1 && bitsOf(details, step / 2) <= target.bits * samples)
+  while (target.bits >= kManyBits && step > 1 && bitsOf(details, step / 2) <= target.bits * samples)
     step /= 2;
   return step;
 }
