@@ -132,7 +132,7 @@ float finerStep(const std::vector<float>& details, float usual, double unit, dou
                 const RateTarget& target) {
   if (target.mean_square > 0)
     return std::min(usual, static_cast<float>(unit * std::sqrt(12 * target.mean_square)));
-  constexpr double kManyBits = 2.5;
+  constexpr double kManyBits = 3.5;
   float step = usual;
   while (target.bits >= kManyBits && step > 1 && bitsOf(details, step / 2) <= target.bits * samples)
     step /= 2;
