@@ -180,8 +180,8 @@ def test_zarr_3_axes(zarr_3, layers, chunks):
 
 def test_zarr_3_lossy_and_refused(zarr_3):
     heights = terrain(70, 40)
-    array, _ = Array.create(heights, (32, 16), zarr_3.TetrakisCodec(max_error=0.25))
-    assert 0 < np.abs(array.read() - heights).max() <= 0.25
+    array, _ = Array.create(heights, (32, 16), zarr_3.TetrakisCodec(max_error=0.75))
+    assert 0 < np.abs(array.read() - heights).max() <= 0.75  # the heights are halves
     with pytest.raises(tetrakis.TksUsageError, match="neither"):
         Array.create(np.ones(9, "f4"), (4,), zarr_3.TetrakisCodec())
     wrapped = types.SimpleNamespace(to_native_dtype=lambda: np.dtype("f8"))  # Zarr 3.1
