@@ -93,8 +93,7 @@ Outliers isolated(double end, const tks_heights& heights) {
   const double range = others.high - others.low;
   const double gap = std::max(others.low - end, end - others.high);
   const bool enough = others.left_out > 1 || isEndOfType(end, heights.sample);
-  // Two values make no terrain with voids, and 0 is a height of its own.
-  const bool found = range > 0 && gap > range && enough && end != 0;
+  const bool found = range > 0 && gap > range && enough;  // two values make no terrain with voids
   return found ? Outliers{others.left_out, end} : Outliers{};
 }
 

@@ -72,6 +72,7 @@ TEST(Outliers, OtherNumbersThatLieFarAwayAreNoFill) {
   expectOutlier(std::vector<float>{1, -9998, 1500, -9998}, -9998);
   expectOutlier(std::vector<int16_t>{-400, 30000, 8848, 30000}, 30000);
   expectOutlier(std::vector<uint16_t>{0, 900, 9999, 9999, 3}, 9999);
+  expectOutlier(std::vector<uint16_t>{0, 0, 40000, 40010}, 0);
 }
 
 TEST(Outliers, HeightsAreNone) {
@@ -79,7 +80,7 @@ TEST(Outliers, HeightsAreNone) {
   EXPECT_EQ(outliersOf(std::vector<float>{3, 3, -9999, -9999}).count, 0U) << "two values";
   EXPECT_EQ(outliersOf(std::vector<float>{-10900, 10, -9999, -9999}).count, 0U) << "others near";
   EXPECT_EQ(outliersOf(std::vector<float>{1, 2, -9999, 7}).count, 0U) << "a single one";
-  EXPECT_EQ(outliersOf(std::vector<uint16_t>{0, 0, 40000, 40010}).count, 0U) << "zero";
+  EXPECT_EQ(outliersOf(std::vector<uint16_t>{0, 0, 5, 30, 25}).count, 0U) << "bare ground";
   EXPECT_EQ(outliersOf(std::vector<uint8_t>{0, 1, 255, 255}).count, 0U) << "8 bits";
   EXPECT_EQ(outliersOf(std::vector<float>{std::nanf("")}).count, 0U);
   const std::vector<float> holes = {1, -9999, 2, -9999, 1500};

@@ -98,7 +98,8 @@ Result<Floats> narrowed(const std::vector<std::byte>& doubles, const std::option
   return floats;
 }
 
-Note noteOnRounding(double rounding) {
+Note noteOnDoubles(double rounding) {
+  if (rounding == 0) return {"64-bit floats become 32-bit floats, which hold them exactly", ""};
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.2g", rounding);
   return {std::string("64-bit floats are rounded to 32 bits, by up to ") + text.data(), ""};
@@ -157,7 +158,7 @@ Result<Reading> readRasterHeights(const std::string& path, const std::optional<d
     if (!floats.ok()) return floats.status();
     heights.data = std::move(floats->samples);
     heights.rounding = floats->rounding;
-    if (heights.rounding > 0) notes.push_back(noteOnRounding(heights.rounding));
+    notes.push_back(noteOnDoubles(heights.rounding));
   }
   if (raster->further_pages) notes.push_back({"only the first page is read", ""});
   auto mask = maskOf(*raster, heights.width, heights.height);
