@@ -20,11 +20,16 @@ export function drapedTransform({geotransform, width, height, textureWidth, text
   return [x0 + (a + b) / 2, a * across, b * down, y0 + (c + d) / 2, c * across, d * down];
 }
 
+/** A code in capitals, without a vertical part; any other text as it is. */
+function plainCrs(crs) {
+  return /^(\w+:\w+)(\+\w+)?$/.exec(crs)?.[1].toUpperCase() ?? crs;
+}
+
 /** From (column, row) of a sample to its place on the texture, from 0 to 1 each. */
 export function drapeOf(info) {
   const {width, height} = info;
   const isPlaced = info.hasGeotransform && info.textureHasGeotransform;
-  if (!isPlaced || info.crs !== info.textureCrs) {
+  if (!isPlaced || plainCrs(info.crs) !== plainCrs(info.textureCrs)) {
     return (column, row) => [column / (width - 1), row / (height - 1)];
   }
   const [x0, a, b, y0, c, d] = info.geotransform, pixels = pixelsOf(info.textureGeotransform);
