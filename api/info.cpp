@@ -33,24 +33,13 @@ Status verify(const tks_decoder& decoder) {
   return {};
 }
 
-/// in_steps: what a packet states. Steps that no corrections of samples end are off themselves, by
-/// up to a half to either side.
-double heightsRmse(const StreamHeader& header, double in_steps) {
-  const GeometryHeader& heights = *header.geometry;
-  const CorrectionKind kind = header.layers.corrections;
-  const bool of_steps = kind == CorrectionKind::kNone || kind == CorrectionKind::kSteps;
-  const bool off = heights.exact == 0 && of_steps && !heights.direct();
-  return std::sqrt(in_steps * in_steps + (off ? 1. / 12 : 0)) * heights.step *
-         std::abs(header.metadata.scale);
-}
-
 void fillQuality(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
   info.heights_rmse = info.texture_psnr = -1;
   auto qualities = decoder.packets.payload.quality;
   if (header.lossless && header.payload_bytes == 0) qualities.fill(0);  // there was nothing to send
   if (const auto quality = qualities[0]; quality && header.geometry)
-    info.heights_rmse = heightsRmse(header, rmseOf(*quality));
+    info.heights_rmse = rmseOf(*quality) * header.geometry->step * std::abs(header.metadata.scale);
   if (const auto quality = qualities[1]; quality && header.texture) {
     const double peak = header.texture->white();
     const double rmse = rmseOf(*quality);

@@ -31,7 +31,7 @@ bool isWhole(const Codewords& prefix, const std::vector<EncodedTrack>& tracks) {
 double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t threads,
                  HeightsMemory* memory) {
   const QuantisedHeights& truth = *heights.quantised;
-  const bool exact_at_the_end = heights.corrects() || heights.header.direct();
+  const bool exact_at_the_end = heights.corrects() || heights.header.stored();
   if (exact_at_the_end && isWhole(prefix, heights.tracks)) return 0;
   DecodedHeights decoded = decodePrefix(heights, prefix, threads, memory);
   const std::vector<uint8_t>& known = decoded.geometry.valid;

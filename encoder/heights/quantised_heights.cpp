@@ -125,6 +125,8 @@ Result<std::shared_ptr<const QuantisedHeights>> quantise(const EncodeInputs& inp
     SampleCorrections corrections =
         correctionsBehind(heights, heights.steps, region_log2, inputs.options.threads);
     heights = withCorrections(std::move(heights), std::move(corrections));
+  } else if (!heights.steps.exact) {
+    heights.left = heights.squaresOf(heights.steps);
   }
   assert(heights.restored() || heights.corrections.empty());
   return std::make_shared<const QuantisedHeights>(std::move(heights));

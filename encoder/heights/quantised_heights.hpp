@@ -34,7 +34,7 @@ struct QuantisedHeights {
   LateMask late = {};                  ///< in its place, where there are coefficients
   std::vector<uint8_t> table = {};     ///< codeword; empty: steps are multiples
   PartCodewords corrections = {};      ///< of each part of the plane; restore the samples
-  /// Squared error that exact steps leave in the samples, in steps, until corrections of the
+  /// Squared error that complete steps leave in the samples, in steps, until corrections of the
   /// samples are complete.
   double left = 0;
   /// How many samples of the whole heights show each one, if lines repeat; outlives this.

@@ -151,17 +151,24 @@ class Correction {
   std::vector<Knot> knots_;
 };
 
-/// Points of an account that is not measured as a whole. Of an exact one they come later, the last
-/// just before the end: the fewer coefficients are missing the more counts what samples lose by
-/// being rounded.
-std::vector<size_t> pointsToMeasure(std::span<const RatePoint> points) {
-  static constexpr std::array kExact = {0.5, 0.65, 0.8, 0.9};
+/// The last points of an account all of which is sent: the fewer coefficients are missing the more
+/// counts what samples lose by being rounded. An exact end needs no measuring.
+std::vector<size_t> pointsNearEnd(std::span<const RatePoint> points) {
+  std::vector<size_t> near;
+  if (points.size() > 1) near.push_back(points.size() - 2);
+  if (points.back().squares() > 0) near.push_back(points.size() - 1);
+  return near;
+}
+
+/// Points of an account that is not measured as a whole. Where all of it is sent they come later.
+std::vector<size_t> pointsToMeasure(std::span<const RatePoint> points, bool whole) {
+  static constexpr std::array kWhole = {0.5, 0.65, 0.8, 0.9};
   static constexpr std::array kOther = {0.25, 0.5, 0.75};
-  const bool exact = points.back().squares() == 0;
   std::vector<size_t> measured;
-  for (const double part : exact ? std::span<const double>(kExact) : kOther)
+  for (const double part : whole ? std::span<const double>(kWhole) : kOther)
     measured.push_back(static_cast<size_t>(part * static_cast<double>(points.size() - 1)));
-  if (exact && points.size() > 1) measured.push_back(points.size() - 2);
+  if (!whole) return measured;
+  for (const size_t point : pointsNearEnd(points)) measured.push_back(point);
   return measured;
 }
 
@@ -185,12 +192,17 @@ std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
   if (alike && scope.samples <= kSmallSamples) return measureClosely(track, scope, measure);
   const std::span<const RatePoint> points = track.points;
   if (scope.budget < UINT64_MAX) return falling(points, scope.whole);
-  return falling(scaled(points, {points, pointsToMeasure(points), measure}), scope.whole);
+  const bool whole = scope.whole || points.back().squares() == 0;
+  return falling(scaled(points, {points, pointsToMeasure(points, whole), measure}), scope.whole);
 }
 
-std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const Measure& measure) {
-  if (points.size() < 2 || points.back().squares() > 0) return {points.begin(), points.end()};
-  const std::vector<size_t> measured = {points.size() * 3 / 5, points.size() - 2};
+std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const AuditScope& scope,
+                                     const Measure& measure) {
+  const bool exact = points.back().squares() == 0;
+  if (points.size() < 2 || !(exact || scope.budget == UINT64_MAX))
+    return {points.begin(), points.end()};
+  std::vector<size_t> measured = {points.size() * 3 / 5};
+  for (const size_t point : pointsNearEnd(points)) measured.push_back(point);
   return scaled(points, {points, measured, measure});
 }
 

@@ -37,9 +37,10 @@ struct AuditScope {
 std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
                              const Measure& measure);
 
-/// The account of several tracks in their order, whose last point is exact, corrected likewise by
-/// two points; any other as it is.
-std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const Measure& measure);
+/// The account of several tracks in their order, corrected likewise by two points if it ends exact
+/// or there is no budget; any other as it is.
+std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const AuditScope& scope,
+                                     const Measure& measure);
 
 inline constexpr uint64_t kTinySamples = uint64_t{1} << 12;
 inline constexpr uint64_t kSmallSamples = uint64_t{1} << 14;

@@ -106,11 +106,11 @@ ComponentCurve curveOfOne(const CodedTracks& coded, std::vector<RatePoint> point
   return curve;
 }
 
-ComponentCurve curveOfMany(const CodedTracks& coded, const MeasurePackets& measure,
-                           const Pricing& pricing) {
+ComponentCurve curveOfMany(const CodedTracks& coded, const AuditScope& scope,
+                           const MeasurePackets& measure, const Pricing& pricing) {
   OrderedTracks tracks = orderTracks(coded, pricing.order);
-  tracks.points =
-      auditTogether(tracks.points, [&](uint64_t bytes) { return measure(tracks.packets, bytes); });
+  tracks.points = auditTogether(tracks.points, scope,
+                                [&](uint64_t bytes) { return measure(tracks.packets, bytes); });
   for (size_t i = 0; i < tracks.packets.size(); ++i)
     tracks.packets[i].quality = statedQuality(tracks.points[i + 1].squares(), pricing);
   for (RatePoint& point : tracks.points) point.distortion = costOf(point.distortion, pricing);
@@ -125,7 +125,7 @@ ComponentCurve curveOfMany(const CodedTracks& coded, const MeasurePackets& measu
 ComponentCurve curveOf(const CodedTracks& coded, const AuditScope& scope,
                        const MeasurePackets& measure, const Pricing& pricing) {
   assert(!coded.tracks.empty() && pricing.samples > 0);
-  if (coded.tracks.size() > 1) return curveOfMany(coded, measure, pricing);
+  if (coded.tracks.size() > 1) return curveOfMany(coded, scope, measure, pricing);
   const auto measure_track = [&](uint64_t bytes) { return measure({}, bytes); };
   ComponentCurve curve =
       curveOfOne(coded, audit(coded.tracks.front(), scope, measure_track), pricing);

@@ -270,5 +270,56 @@ TEST(StreamPrefix, StatedErrorsOfLargePlanesAreNotTooSmall) {
   }
 }
 
+/// Root mean square over the samples that are not nodata.
+double groundError(const std::vector<float>& truth, Stream& stream, float nodata) {
+  const std::vector<std::byte> bytes = stream.heights();
+  std::vector<float> decoded(truth.size());
+  EXPECT_EQ(bytes.size(), decoded.size() * sizeof(float));
+  std::memcpy(decoded.data(), bytes.data(), bytes.size());
+  double sum = 0, count = 0;
+  for (size_t i = 0; i < truth.size(); ++i) {
+    if (truth[i] == nodata) continue;
+    sum += std::pow(double{truth[i]} - double{decoded[i]}, 2);
+    ++count;
+  }
+  return std::sqrt(sum / count);
+}
+
+/// What rounding to a bound leaves is stated, and samples that are void count in nothing.
+TEST(StreamPrefix, StatedErrorsOfBoundsAndStepsAreTrue) {
+  constexpr float kNodata = -9999;
+  constexpr uint32_t kSide = 150;
+  std::vector<float> samples(size_t{kSide} * kSide);
+  for (size_t i = 0; i < samples.size(); ++i) {
+    const double x = double(i % kSide), y = double(i / kSide);
+    const double rough = double(i * 2654435761U % 1000) / 1e4;
+    samples[i] = x + y < 100 ? kNodata
+                             : static_cast<float>(90 * std::sin(x / 19) * std::cos(y / 23) + rough);
+  }
+  tks_heights heights = {};
+  heights.size = sizeof heights;
+  heights.width = heights.height = kSide;
+  heights.sample = TKS_F32;
+  heights.data = samples.data();
+  heights.scale = 1;
+  heights.has_nodata = 1;
+  heights.nodata = double{kNodata};
+  for (const double bound : {0.003, 0.02, 0.3, 4.0}) {
+    for (const uint32_t side : {1u, 64u}) {
+      Stream stream(encodeHeights(heights, inRegions(within(bound), side)));
+      const double truth = groundError(samples, stream, kNodata),
+                   stated = stream.info().heights_rmse;
+      EXPECT_LE(truth, 1.01 * stated) << bound << ", regions of " << side;
+      EXPECT_GE(1.2 * truth, stated) << bound << ", regions of " << side;
+    }
+  }
+  heights.step = 0.5;
+  tks_encode_options sharp = lossless();
+  sharp.lossless = 0;
+  sharp.psnr = 55;
+  Stream stream(encodeHeights(heights, sharp));
+  EXPECT_LE(groundError(samples, stream, kNodata), 1.01 * stream.info().heights_rmse);
+}
+
 }  // namespace
 }  // namespace tetrakis::test

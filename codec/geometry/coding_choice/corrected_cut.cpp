@@ -64,7 +64,9 @@ std::vector<uint8_t> encodeExact(const DecodedPart& part) {
 Corrected correctPart(const DecodedPart& part, std::span<const uint8_t> significant,
                       int32_t largest) {
   Corrected result;
+  const std::span<const uint8_t> valid = part.valid.values();
   for (size_t i = 0; i < part.extent.samples(); ++i) {
+    if (!valid.empty() && valid[i] == 0) continue;
     const int64_t error = part.error(i), correction = nearestMultiple(error, largest);
     const auto rest = static_cast<double>(error - correction * (2 * int64_t{largest} + 1));
     result.any |= correction != 0;

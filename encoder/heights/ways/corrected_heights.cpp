@@ -60,13 +60,14 @@ UncutHeights codeUncut(const Correctable& heights, FlatChoice choice, double eno
 /// corrections leave is told in the account's own measure, which the audit corrects later.
 CodedHeights followedBy(CodedHeights cut, const Corrected& corrected, int32_t largest) {
   if (!corrected.any) return cut;
-  double left = 0;
-  for (const EncodedTrack& track : cut.tracks) left += track.points.back().distortion;
+  const double of_steps = cut.quantised->left;
+  double of_cut = -of_steps;
+  for (const EncodedTrack& track : cut.tracks) of_cut += track.points.back().distortion;
   GeometryLayers layers = cut.layers;
   layers.corrections = CorrectionKind::kSteps;
   layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
   return heights::followedBy(std::move(cut), std::move(layers), corrected.codewords,
-                             left * corrected.after / corrected.before);
+                             of_steps + of_cut * corrected.after / corrected.before);
 }
 
 /// The heights with the best cut of the coefficients; nothing if that comes near their end and they
