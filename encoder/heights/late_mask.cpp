@@ -32,10 +32,13 @@ LateMask lateMaskOf(const PlaneView<const uint8_t>& valid, Mask lifted, uint64_t
                     const BridgeTarget& target) {
   constexpr uint64_t kShort = 512;           // there is little to see in so few bytes
   constexpr double kMostGrowth = 1. / 1000;  // of the stream
-  if (first_bytes < kShort) return {};
+  constexpr uint64_t kMostAhead = 32;        // which samples are lifted: a part of a small budget
+  if (first_bytes < kShort && !target.needed) return {};
   LateMask late;
   if (!lifted.all()) late.lifted = encodeValidity({lifted.bytes(), valid.extent()});
   late.validity = encodeLateValidity(valid, lifted);
+  if (target.needed)
+    return kMostAhead * late.lifted.size() <= target.bytes ? std::move(late) : LateMask();
   const auto count =
       static_cast<size_t>(std::count(valid.values().begin(), valid.values().end(), uint8_t{1}));
   const double most =

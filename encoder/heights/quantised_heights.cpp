@@ -85,9 +85,11 @@ QuantisedHeights withoutTable(const EncodeInputs& inputs, HeightSteps steps, Bri
     late = lateMaskOf({valid, extentOf(samples)}, lifted, validity.size(), target);
     return !late.none();
   };
-  if (target.bytes < UINT64_MAX &&
-      roomBesideMask(validity.size(), target.bytes).value_or(0) >= besideMaskAtLeast(target.bytes))
-    target.bytes -= validity.size();
+  if (target.bytes < UINT64_MAX) {
+    const uint64_t room = roomBesideMask(validity.size(), target.bytes).value_or(0);
+    target.needed = room < besideMaskAtLeast(target.bytes);
+    if (!target.needed) target.bytes -= validity.size();
+  }
   steps = withBridgesFor(target, std::move(steps), extentOf(samples));
   GeometryLayers layers = layersOf(samples, validity.size());
   layers.bridge = steps.bridge;

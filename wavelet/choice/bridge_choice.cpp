@@ -48,10 +48,11 @@ struct Unbridged {
         filled(bridged(plane, liftedSamples(mask, plane.extent(), target.most))) {}
 };
 
-/// A reach that does not lose, and its share of the bits without bridges.
+/// A reach that does not lose, or that may be needed, and its share of the bits without bridges.
 struct Tried {
   uint8_t reach;
   double ratio;
+  bool pays;  ///< at the target, too
 };
 
 /// The first that is preferred of those that nearly come up to the best; else the best, if it
@@ -60,8 +61,10 @@ template <class Lift>
 uint8_t chosenOf(std::span<const Tried> tried, const BridgeTarget& target, const Lift& lift) {
   if (tried.empty()) return 0;
   const double best = tried.front().ratio;
-  for (const auto& [reach, ratio] : tried)
-    if (target.preferred && ratio <= kNearly * best && target.preferred(lift(reach))) return reach;
+  for (const auto& [reach, ratio, pays] : tried) {
+    const bool suits = target.needed || ratio <= kNearly * best;
+    if (target.preferred && suits && target.preferred(lift(reach))) return reach;
+  }
   return best < kClearly ? tried.front().reach : 0;
 }
 
@@ -88,12 +91,14 @@ BridgedPlane chooseBridges(const PlaneView<const int32_t>& plane, int bits,
     if (!unbridged) unbridged.emplace(plane, bits, target, mask, valid);
     const ComparedSteps& steps = unbridged->steps;
     const TypicalPlane way({unbridged->filled, extent, lifted}, bits, target.purpose, plane.valid);
-    if (steps.ratioAtTarget(costsOf(way), kBridgeBits) > kMostAtTarget) continue;
+    const bool pays = steps.ratioAtTarget(costsOf(way), kBridgeBits) <= kMostAtTarget;
+    if (!pays && !target.needed) continue;
     const double ratio = steps.ratio(costsOf(way), kBridgeBits);
-    if (ratio < 1) tried.push_back({reach, ratio});
+    if (ratio < 1 || target.needed) tried.push_back({reach, ratio, pays});
   }
-  std::stable_sort(tried.begin(), tried.end(),
-                   [](const Tried& a, const Tried& b) { return a.ratio < b.ratio; });
+  std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) {
+    return a.pays != b.pays ? a.pays : a.ratio < b.ratio;
+  });
   const uint8_t reach = chosenOf(tried, target, lift);
   if (reach == 0) return {};
   return {reach, lift(reach), std::move(unbridged->filled)};

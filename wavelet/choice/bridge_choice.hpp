@@ -28,6 +28,8 @@ struct BridgeTarget {
   /// Whether bridges with such lifted samples are better for other reasons; they may lose 1 % of
   /// the bits against the best. Null: none are.
   std::function<bool(const std::vector<uint8_t>& lifted)> preferred = {};
+  /// Only preferred ones will do, whatever they cost: the mask alone leaves too few bytes.
+  bool needed = false;
 };
 
 /// plane: of so many bits, with the mask of valid samples.
