@@ -322,6 +322,28 @@ TEST(ErrorBound, IsCheaperThanItsLosslessStream) {
   EXPECT_LT(before, whole / 20);
 }
 
+/// Within the bound the multiples of a unit that samples lie near will do.
+TEST(ErrorBound, HeightsNearAGridCostWhatTheGridDoes) {
+  constexpr uint32_t kSide = 64;
+  for (const double unit : {1.0, 0.3048}) {
+    std::vector<float> whole, near;
+    for (uint32_t i = 0; i < kSide * kSide; ++i) {
+      const double wave = 40 * std::sin(i % kSide / 17.0) * std::cos(double(i / kSide) / 11);
+      const double multiple = unit * std::round(wave + i * 2654435761U % 3);
+      whole.push_back(static_cast<float>(multiple));
+      near.push_back(static_cast<float>(multiple + i * 40503U % 1000 * 1e-6 - 5e-4));
+    }
+    const Raster of_whole = rasterOf(whole, kSide, TKS_F32);
+    const size_t exact = encode(&of_whole, nullptr, lossless()).size();
+    const Raster raster = rasterOf(near, kSide, TKS_F32);
+    for (const double error : {0.001, 0.1}) {
+      const Bytes bytes = encode(&raster, nullptr, within(error));
+      EXPECT_LE(largestError(raster, Stream(bytes).heights()), error) << unit;
+      EXPECT_LE(bytes.size(), exact + exact / 50 + 16) << unit << ", within " << error;
+    }
+  }
+}
+
 /// Every prefix of a stream with corrections decodes, and the bound is reached by the last byte.
 TEST(ErrorBound, PrefixesImprove) {
   const Raster raster = make({Pattern::kRidges, 27, 31, 1, TKS_I16});

@@ -11,6 +11,7 @@
 #include "codec/geometry/coding_choice/bound_choice.hpp"
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
 #include "codec/geometry/quantiser/bridged_steps.hpp"
+#include "codec/geometry/quantiser/near_grid.hpp"
 #include "codec/geometry/quantiser/step_choice.hpp"
 #include "codec/geometry/quantiser/step_errors.hpp"
 #include "codec/geometry/quantiser/voids.hpp"
@@ -73,6 +74,17 @@ std::optional<Candidate<CodedHeights>> widen(const Bound& bound, int32_t largest
   Result<HeightSteps> wide = toSteps(samples, {.given = widest});
   if (!wide.ok()) return {};
   return codeRounded(bound, std::move(*wide));
+}
+
+/// Floats in multiples of a unit that they lie near; nothing if they lie near none.
+std::optional<Candidate<CodedHeights>> onNearGrid(const Bound& bound) {
+  const tks_heights& samples = *bound.quantised->samples;
+  if (samples.sample != TKS_F32 || samples.step > 0) return {};
+  const auto unit = nearGrid(samples, bound.quantised->steps.valid, bound.error);
+  if (!unit) return {};
+  Result<HeightSteps> steps = toSteps(samples, {.given = *unit});
+  if (!steps.ok()) return {};
+  return codeRounded(bound, std::move(*steps));
 }
 
 /// Rounds to multiples of the exact step.
@@ -141,6 +153,8 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& input
   constexpr double kMost = 1 << 24;
   const auto largest = static_cast<int32_t>(std::clamp(room + 1e-9, 0.0, kMost));
   std::vector<Candidate<CodedHeights>> kept;
+  const std::optional<Candidate<CodedHeights>> near = onNearGrid(bound);
+  if (near && keepsBound(inputs, *near->coded)) kept.push_back(*near);
   for (const int32_t tried : {largest, std::max(largest - 1, 0), 0}) {
     if (tried == 0 && !kept.empty()) break;
     std::vector<Candidate<CodedHeights>> made = attempts(bound, tried);
