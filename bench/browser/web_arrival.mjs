@@ -2,7 +2,7 @@
 // bench/web_arrival: makes the files of all methods at equal PSNR of the picture, serves them, and
 // times their arrival in Chromium on a link of 10 Mb/s and 50 ms.
 import {execFileSync} from 'node:child_process';
-import {readFileSync} from 'node:fs';
+import {readFileSync, writeFileSync} from 'node:fs';
 import {createRequire} from 'node:module';
 
 import {dracoGlb, glbOf, image, tilesOf} from './web_arrival_files.mjs';
@@ -42,7 +42,6 @@ function placed() {
 
 const heights = placed();
 make('encode', heights, '--texture', texture, '--lossless', '-o', `${folder}/whole.tks`);
-make('encode', heights, '--texture', texture, '--bytes', bytes, '-o', `${folder}/ours.tks`);
 const info = JSON.parse(execFileSync(cli, ['info', '--json', `${folder}/whole.tks`]));
 const site = await Site.open(web);
 const browser = await chromium.launch(
@@ -81,7 +80,19 @@ const {computedMin, computedMax} = JSON.parse(execFileSync('gdalinfo', ['-json',
   .bands[0];
 const metres = (value) => value * info.heights.scale + info.heights.offset;
 const middle = metres((computedMin + computedMax) / 2);
-const ground = [(width - 1) * dx, (height - 1) * -dy, middle].join();
+const [across, down] = [(width - 1) * dx, (height - 1) * -dy];
+const ground = [across, down, middle].join();
+
+/** Told the camera of scene.js, as the GLBs are chosen by its picture. */
+const distance = 0.75 * across + 0.6 * down;
+writeFileSync(`${folder}/camera.json`, JSON.stringify({
+  cameras: [{
+    eye: [0, middle + 0.6 * distance, 0.8 * distance], target: [0, middle, 0],
+    fov_y: 40, width: 960, height: 540,
+  }],
+}));
+make('encode', heights, '--texture', texture, '--bytes', bytes, '--cameras',
+  `${folder}/camera.json`, '-o', `${folder}/ours.tks`);
 
 const JUDGE = {judge: '/data/judge'};
 const evaluation = await browser.newContext({viewport: {width: 980, height: 560}});

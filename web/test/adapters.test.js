@@ -25,6 +25,7 @@ let browser, server, reference;
 /** What the page takes of libraries that browsers cannot load as they are. */
 const LIBRARIES = {
   deck: `export {Deck, MapView} from '@deck.gl/core';
+    export {TerrainLayer} from '@deck.gl/geo-layers';
     export {SimpleMeshLayer} from '@deck.gl/mesh-layers';
     export {load} from '@loaders.gl/core';`,
   cesium: `export {Cartesian3, Cartographic, CesiumWidget, Credit, Event, GeographicTilingScheme,
@@ -95,7 +96,8 @@ async function nativePicture(camera) {
 
 // Metres: maps and globes draw triangles of other vertices than the samples.
 for (const [adapter, metres, least] of [
-  ['three', 0.01, 35], ['deck', 0.01, 35], ['maplibre', 15, 35], ['cesium', 10, 35],
+  ['three', 0.01, 35], ['deck', 0.01, 35], ['terrainLayer', 0.01, 35], ['maplibre', 15, 35],
+  ['cesium', 10, 35],
 ]) {
   test(`${adapter} delivers and draws what the native renderer does`, {skip}, async () => {
     const {got, wanted, camera, picture} = await drawn(adapter);

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""QGIS's own raster provider, without a screen; skipped where QGIS is not installed, as in CI: it
-takes 140 MB of packages (`apt install --no-install-recommends qgis`)."""
+"""QGIS's own raster provider, without a screen; skipped where QGIS is not installed, which takes 140
+MB of packages (`apt install --no-install-recommends qgis`). CI has it."""
 
 import json
 import os

@@ -1,17 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The functions that imagecodecs' codecs have, and the codecs of numcodecs and Zarr."""
+"""The functions that imagecodecs' codecs have, and the codec of numcodecs and Zarr 2."""
 
-import dataclasses
 import importlib
 import pickle
-import sys
-import types
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 from conftest import SAMPLES, photograph, terrain
-from zarr_3 import Array, install
 
 import tetrakis
 
@@ -141,7 +137,7 @@ def test_numcodecs_finds_the_codec_by_its_entry_point(codec):
 def test_zarr_2_arrays(codec):
     zarr = pytest.importorskip("zarr")
     if int(zarr.__version__.split(".")[0]) > 2:
-        pytest.skip("this is Zarr 3")
+        pytest.skip("Zarr 3 makes such arrays in test_zarr_3.py")
     heights = terrain(70, 40)
     array = zarr.array(heights, chunks=(32, 32), compressor=codec())
     np.testing.assert_array_equal(array[:], heights)
@@ -150,55 +146,3 @@ def test_zarr_2_arrays(codec):
     np.testing.assert_array_equal(np.stack(rows), heights[::9])
     by_columns = zarr.array(heights, chunks=(32, 32), order="F", compressor=codec())
     np.testing.assert_array_equal(by_columns[:], heights)
-
-
-@pytest.fixture
-def zarr_3(monkeypatch):
-    """tetrakis.zarr over the interface of Zarr 3 (zarr_3.py)."""
-    install(monkeypatch)
-    monkeypatch.delitem(sys.modules, "tetrakis.zarr", raising=False)
-    return importlib.import_module("tetrakis.zarr")
-
-
-@pytest.mark.parametrize("dtype", SAMPLES)
-def test_zarr_3_arrays(zarr_3, dtype):
-    heights = terrain(70, 40, dtype)
-    heights[:32, :16] = 0
-    array, store = Array.create(heights, (32, 16), zarr_3.TetrakisCodec())
-    np.testing.assert_array_equal(array.read(), heights)
-    assert "c/0/0" not in store and tetrakis.tks_check(store["c/2/2"])
-    np.testing.assert_array_equal(Array(store).read(), heights)
-
-
-@pytest.mark.parametrize("layers, chunks", [(terrain()[None], (1, 20, 30)),
-                                            (photograph(40, 48), (32, 32, 3)),
-                                            (photograph(40, 48, 1)[..., None], (32, 32, 1))])
-def test_zarr_3_axes(zarr_3, layers, chunks):
-    array, _ = Array.create(layers, chunks, zarr_3.TetrakisCodec())
-    np.testing.assert_array_equal(array.read(), layers)
-
-
-def test_zarr_3_lossy_and_refused(zarr_3):
-    heights = terrain(70, 40)
-    array, _ = Array.create(heights, (32, 16), zarr_3.TetrakisCodec(max_error=0.75))
-    assert 0 < np.abs(array.read() - heights).max() <= 0.75  # the heights are halves
-    with pytest.raises(tetrakis.TksUsageError, match="neither"):
-        Array.create(np.ones(9, "f4"), (4,), zarr_3.TetrakisCodec())
-    wrapped = types.SimpleNamespace(to_native_dtype=lambda: np.dtype("f8"))  # Zarr 3.1
-    for dtype in (np.dtype("f8"), np.dtype("c8"), wrapped):
-        with pytest.raises(tetrakis.TksUsageError, match="A chunk of type"):
-            zarr_3.TetrakisCodec().validate(shape=(8, 9), dtype=dtype, chunk_grid=(4, 4))
-    with pytest.raises(NotImplementedError):
-        zarr_3.TetrakisCodec().compute_encoded_size(4096, None)
-    with pytest.raises(dataclasses.FrozenInstanceError):
-        zarr_3.TetrakisCodec().bytes = 5
-
-
-def test_zarr_3_configuration(zarr_3):
-    codec = zarr_3.TetrakisCodec(psnr=40, nodata=0)
-    written = codec.to_dict()
-    assert written == {"name": "tetrakis", "configuration": {"psnr": 40, "nodata": 0}}
-    assert zarr_3.TetrakisCodec.from_dict(written) == codec
-    assert zarr_3.TetrakisCodec.from_dict({"name": "tetrakis"}) == zarr_3.TetrakisCodec()
-    with pytest.raises(ValueError):
-        zarr_3.TetrakisCodec.from_dict({"name": "gzip"})

@@ -48,9 +48,9 @@ def unsigned(value: Any, what: str, bits: int = 32) -> int:
 
 
 def real(value: Any, what: str) -> float:
-    """Text is no number, though float() reads it; nor is a masked sample."""
+    """Text is no number, though float() reads it; nor is a masked sample or an array of one."""
     try:
-        if isinstance(value, (str, bytes)) or value is np.ma.masked:
+        if isinstance(value, (str, bytes)) or value is np.ma.masked or getattr(value, "shape", ()):
             raise TypeError
         return float(value)
     except (TypeError, ValueError, OverflowError):
