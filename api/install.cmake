@@ -10,6 +10,7 @@ endif()
 
 install(TARGETS ${libraries} EXPORT tetrakis
   LIBRARY COMPONENT library NAMELINK_COMPONENT development
+  RUNTIME COMPONENT library
   ARCHIVE COMPONENT development)
 install(EXPORT tetrakis FILE tetrakisTargets.cmake NAMESPACE tetrakis:: DESTINATION ${package}
   COMPONENT development)

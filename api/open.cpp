@@ -3,6 +3,7 @@
 // takes can be asked for first.
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <string>
 
 #include "api/decoder.hpp"
@@ -17,18 +18,23 @@ namespace {
 constexpr uint64_t kDefaultSamples = uint64_t{1} << 28;
 constexpr uint64_t kDefaultMemory = uint64_t{8} << 30;
 
+/// What can be addressed, whatever the limits: so many samples of at most 8 bytes, so that no
+/// size_t wraps, and so many bytes of one object. Only programs of 32 bits meet these.
+constexpr uint64_t kMostSamples = std::numeric_limits<size_t>::max() / 8;
+constexpr uint64_t kMostMemory = std::numeric_limits<ptrdiff_t>::max();
+
 Status exceeds(const char* what, uint64_t value, uint64_t limit) {
   return {TKS_LIMIT, "The stream holds " + std::to_string(value) + " " + what + "; the limit is " +
                          std::to_string(limit) + "."};
 }
 
-uint64_t orDefault(uint64_t given, uint64_t fallback) {
-  return given != 0 ? given : fallback;
+uint64_t limitOf(uint64_t given, uint64_t fallback, uint64_t most) {
+  return std::min(given != 0 ? given : fallback, most);
 }
 
 Status checkSizes(const StreamHeader& header, const tks_limits& limits) {
-  const uint64_t most_samples = orDefault(limits.max_samples, kDefaultSamples);
-  const uint64_t most_texels = orDefault(limits.max_texels, kDefaultSamples);
+  const uint64_t most_samples = limitOf(limits.max_samples, kDefaultSamples, kMostSamples);
+  const uint64_t most_texels = limitOf(limits.max_texels, kDefaultSamples, kMostSamples);
   if (header.geometry) {
     const Extent shown = header.geometry->shown();
     const uint64_t samples = uint64_t{shown.width} * shown.height;
@@ -69,7 +75,7 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
   const StreamHeader& header = decoder.parsed.header;
   if (Status status = checkSizes(header, known); !status.ok()) return status;
   decoder.index = indexOf(header);
-  decoder.max_memory = orDefault(known.max_memory, kDefaultMemory);
+  decoder.max_memory = limitOf(known.max_memory, kDefaultMemory, kMostMemory);
   Result<TakenPackets> taken = takePackets(decoder);
   if (!taken.ok()) return taken.status();
   decoder.packets = *std::move(taken);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256 (FIPS 180-4) by libmd.
 #include "conformance/digest.hpp"
 
-#include <sha2.h>
-
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <vector>
+
+#include "conformance/sha256.hpp"
 
 namespace tetrakis::conformance {
 
@@ -17,9 +15,7 @@ std::string sampleDigest(std::span<const std::byte> samples, tks_sample sample) 
     const auto width = static_cast<std::ptrdiff_t>(tks_sample_bytes(sample));
     for (auto at = bytes.begin(); at != bytes.end(); at += width) std::reverse(at, at + width);
   }
-  std::array<char, SHA256_DIGEST_STRING_LENGTH> text{};
-  SHA256Data(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), text.data());
-  return text.data();
+  return sha256({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
 }
 
 }  // namespace tetrakis::conformance

@@ -7,7 +7,8 @@
 #include <iostream>
 
 #include "conformance/cases/vector_cases.hpp"
-#include "conformance/runner.hpp"
+#include "conformance/decode_cut.hpp"
+#include "conformance/manifest.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::conformance {

@@ -2,8 +2,9 @@
 // Conformance runner. Exact equality is the only tolerance: the decoder is integer only.
 #include "conformance/runner.hpp"
 
-#include "conformance/digest.hpp"
-#include "tetrakis/tetrakis.hpp"
+#include <span>
+
+#include "conformance/decode_cut.hpp"
 
 namespace tetrakis::conformance {
 namespace {
@@ -39,37 +40,6 @@ bool runVector(const Vector& vector, std::span<const uint8_t> stream, std::ostre
 }
 
 }  // namespace
-
-Cut decodeCut(std::span<const uint8_t> prefix, int level) {
-  Cut cut;
-  cut.bytes = prefix.size();
-  cut.level = level;
-  auto decoder = Decoder::open(prefix);
-  if (!decoder) {
-    cut.status = decoder.status().code();
-    return cut;
-  }
-  if (level > 0) {
-    const auto up_to = [&](uint32_t coarsest) {
-      return std::min(static_cast<uint32_t>(level), coarsest);
-    };
-    const tks_info info = decoder->info();
-    const auto set =
-        decoder->setLevels(up_to(info.coarsest_level), up_to(info.texture_coarsest_level));
-    if (!set.ok()) cut.status = set.code();
-  }
-  if (decoder->info().has_heights) {
-    const auto heights = decoder->heights();
-    if (heights) cut.heights = sampleDigest(*heights, decoder->info().sample);
-    if (!heights) cut.status = heights.status().code();
-  }
-  if (decoder->info().has_texture) {
-    const auto texture = decoder->texture();
-    if (texture) cut.texture = sampleDigest(*texture, decoder->info().texture_sample);
-    if (!texture) cut.status = texture.status().code();
-  }
-  return cut;
-}
 
 Result<VectorSummary> runVectors(const std::string& directory, std::ostream& log) {
   const auto vectors = readManifest(directory);

@@ -2,9 +2,7 @@
 // Runs conformance vectors: decodes every cut of every stream and compares with the manifest.
 #pragma once
 
-#include <cstdint>
 #include <ostream>
-#include <span>
 #include <string>
 
 #include "base/status.hpp"
@@ -20,9 +18,5 @@ struct VectorSummary {
 /// for each difference, to `log`. Fails with TKS_IO or TKS_CORRUPT for the manifest alone: a stream
 /// that is missing or decodes differently counts as failed.
 Result<VectorSummary> runVectors(const std::string& directory, std::ostream& log);
-
-/// What this library's decoder makes of `prefix` at a mip level (Cut::level); the manifest's
-/// digests come from here.
-Cut decodeCut(std::span<const uint8_t> prefix, int level = 0);
 
 }  // namespace tetrakis::conformance

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline ground {
 
 namespace {
@@ -67,7 +69,7 @@ class BoxProfile {
 
 HalfAngles halfAngles(const Camera& camera) {
   constexpr double kRadian = std::numbers::pi / 180;
-  const double tan_y = std::tan(camera.fov_y * kRadian / 2);
+  const double tan_y = portable::tan(camera.fov_y * kRadian / 2);
   return {tan_y * camera.width / camera.height, tan_y};
 }
 

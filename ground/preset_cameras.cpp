@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/portable_math.hpp"
 #include "ground/box_view.hpp"
 #include "ground/vec3.hpp"
 
@@ -22,7 +23,7 @@ Camera obliqueView(const Bounds& bounds) {
   camera.name = "oblique";
   camera.fov_y = kOverviewAngle;
   camera.target = centreOf(bounds);
-  camera.eye = add(camera.target, Vec3{0, std::sin(kElevation), std::cos(kElevation)});
+  camera.eye = add(camera.target, Vec3{0, portable::sin(kElevation), portable::cos(kElevation)});
   return seeingAll(camera, bounds);
 }
 
@@ -66,10 +67,10 @@ Camera lowViewFrom(double distance, const Bounds& bounds) {
   camera.name = "low";
   const double clearance = 0.01 * extent;
   const double above_middle = bounds.high[1] - centre[1] + clearance;
-  const double border_angle = std::atan(above_middle / distance);
+  const double border_angle = portable::atan(above_middle / distance);
   const double tan_half = halfAngles(camera).tan_y;
-  const double pitch = std::min(border_angle + std::atan(0.6 * tan_half), 80 * kRadian);
-  const double reach = above_middle / std::tan(pitch);
+  const double pitch = std::min(border_angle + portable::atan(0.6 * tan_half), 80 * kRadian);
+  const double reach = above_middle / portable::tan(pitch);
   camera.eye = {centre[0], centre[1] + above_middle, bounds.low[2] + distance};
   camera.target = {centre[0], centre[1], camera.eye[2] - reach};
   return camera;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline texture {
 
 namespace {
@@ -26,7 +28,7 @@ double distortionAt(const EncodedTexture& encoded, uint64_t bytes) {
 
 /// By how many dB one error is worse than another.
 double lossOf(double squares, double other) {
-  return 10 * std::log10((1 + squares) / (1 + other));
+  return 10 * portable::log10((1 + squares) / (1 + other));
 }
 
 /// By how many dB prefixes of `a` are worse than those of `b`: the mean over a half, a quarter, an

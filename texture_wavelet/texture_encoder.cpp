@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/portable_math.hpp"
 #include "lattice/validity_encoder.hpp"
 #include "texture_wavelet/colour/colour_levels.hpp"
 #include "texture_wavelet/colour_planes.hpp"
@@ -56,7 +57,7 @@ std::array<int64_t, 4> prioritiesOf(size_t planes, const ColourTransform& colour
       *std::min_element(weights.begin(), weights.begin() + static_cast<int>(planes));
   std::array<int64_t, 4> priorities{};
   for (size_t c = 0; c < planes; ++c) {
-    const double priority = std::round(8 * std::log2(energies[c] / usual));
+    const double priority = std::round(8 * portable::log2(energies[c] / usual));
     priorities[c] = static_cast<int64_t>(std::clamp(priority, -128.0, 128.0));
   }
   return priorities;
@@ -236,13 +237,14 @@ EncodedTexture encode(const WaveletCoding& coding) {
   const bool whole = header.wavelet.fraction_bits == 0;
   const double rounded_squares = whole ? roundedSquaresOf(coding, colours, lifted) : 0;
   const TexturePlan plan(header, lifted);
-  TransformedPlanes planes{plan,
-                           colours.colour,
-                           few.squares,
-                           forwardPlanes(header, plan.layout().pyramid(), lifted, options.threads,
-                                         std::move(colours.planes)),
-                           colours.bridges.share * std::exp2(-2 * header.wavelet.fraction_bits),
-                           worthOf(priorityMapOf(header.priorities, header.extent()))};
+  TransformedPlanes planes{
+      plan,
+      colours.colour,
+      few.squares,
+      forwardPlanes(header, plan.layout().pyramid(), lifted, options.threads,
+                    std::move(colours.planes)),
+      colours.bridges.share * portable::exp2(-2 * header.wavelet.fraction_bits),
+      worthOf(priorityMapOf(header.priorities, header.extent()))};
   const uint64_t counted = countedSamples(source.texels, source.counted(purpose));
   encoded.tracks = encodePlanes(std::move(planes), untilReached(options, counted));
   header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);

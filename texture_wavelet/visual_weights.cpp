@@ -14,6 +14,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline texture {
 
 namespace {
@@ -23,14 +25,14 @@ constexpr uint8_t kLevels = 6;  // coarser ones are seen as they are
 
 double lumaSensitivity(double frequency) {
   const auto curve = [](double f) {
-    return 2.6 * (0.0192 + 0.114 * f) * std::exp(-std::pow(0.114 * f, 1.1));
+    return 2.6 * (0.0192 + 0.114 * f) * portable::exp(-portable::pow(0.114 * f, 1.1));
   };
   constexpr double kPeak = 8;
   return frequency <= kPeak ? 1 : curve(frequency) / curve(kPeak);
 }
 
 double colourSensitivity(double frequency) {
-  return std::exp(-0.09 * frequency);
+  return portable::exp(-0.09 * frequency);
 }
 
 /// The middle of a band: three quarters of the level's highest frequency, along both axes for HH.
@@ -50,7 +52,7 @@ BandWeights visualWeights(uint32_t planes) {
         const double frequency = frequencyOf(level, diagonal);
         const double seen = colour ? colourSensitivity(frequency) : lumaSensitivity(frequency);
         weights.priority[c][static_cast<size_t>(2 * (level - 1) + diagonal)] =
-            std::max<int64_t>(std::lround(16 * std::log2(seen)), -BandWeights::kMaxPriority);
+            std::max<int64_t>(std::lround(16 * portable::log2(seen)), -BandWeights::kMaxPriority);
       }
     }
   }

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline wavelet {
 
 namespace {
@@ -124,7 +126,7 @@ int SynthesisNorms::fine(const Subband& band) const {
 }
 
 double SynthesisNorms::energy(const Subband& band) const {
-  return std::exp2(2.0 * fine(band) / kFineSteps);
+  return portable::exp2(2.0 * fine(band) / kFineSteps);
 }
 
 }  // namespace tetrakis::inline wavelet

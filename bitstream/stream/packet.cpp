@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/portable_math.hpp"
 #include "bitstream/stream/fields.hpp"
 
 namespace tetrakis::inline stream {
@@ -41,7 +42,7 @@ double powerOfTwo(int eighths) {
 uint8_t qualityOf(double rmse) {
   assert(!std::isnan(rmse));
   if (!(rmse > 0)) return 0;
-  return static_cast<uint8_t>(std::clamp(std::ceil(8 * std::log2(rmse)) + 64, 1.0, 255.0));
+  return static_cast<uint8_t>(std::clamp(std::ceil(8 * portable::log2(rmse)) + 64, 1.0, 255.0));
 }
 
 double rmseOf(uint8_t quality) {
@@ -59,7 +60,7 @@ uint8_t slopeByte(double slope, double steepest) {
   assert(!std::isnan(slope) && slope <= steepest);
   if (!(slope > 0)) return 0;
   return static_cast<uint8_t>(
-      std::clamp(std::round(255 + 4 * std::log2(slope / steepest)), 1.0, 255.0));
+      std::clamp(std::round(255 + 4 * portable::log2(slope / steepest)), 1.0, 255.0));
 }
 
 double slopeOf(uint8_t slope) {

@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline drawing {
 
 namespace {
@@ -20,7 +22,7 @@ double entropyOf(std::span<const uint32_t> counts) {
   double all = 0, bits = 0;
   for (const uint32_t count : counts) all += count;
   for (const uint32_t count : counts) {
-    if (count > 0) bits += count * std::log2(all / count);
+    if (count > 0) bits += count * portable::log2(all / count);
   }
   return bits;
 }

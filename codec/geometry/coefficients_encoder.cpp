@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/parallel.hpp"
+#include "base/portable_math.hpp"
 #include "wavelet/band_plan.hpp"
 #include "wavelet/wavelet_header.hpp"
 
@@ -56,7 +57,7 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
   const PlaneLayout layout(
       specOf(wavelet), Pyramid(heights.extent(), heights.valid, {flat.numbers, areas}), priorities);
   Transformed of{layout, transformed(heights, wavelet, layout, options.threads),
-                 options.share * std::exp2(-2 * wavelet.fraction_bits), worthOf(priorities)};
+                 options.share * portable::exp2(-2 * wavelet.fraction_bits), worthOf(priorities)};
   const std::vector<Region> regions = regionsOf(heights.width, heights.height, options.region_log2);
   assert(!regions.empty());
   const auto source_of = [&](size_t region) { return of.sourceOf(regions[region]); };

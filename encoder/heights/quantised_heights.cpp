@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/portable_math.hpp"
 #include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "codec/geometry/quantiser/bridged_steps.hpp"
 #include "codec/geometry/quantiser/stand_in_choice.hpp"
@@ -141,11 +142,11 @@ double QuantisedHeights::counted() const {
 }
 
 double QuantisedHeights::validityWorth() const {
-  return std::exp2(2.0 * steps.range_bits - 4);
+  return portable::exp2(2.0 * steps.range_bits - 4);
 }
 
 double QuantisedHeights::mostOfASample() const {
-  return std::exp2(2.0 * steps.range_bits + 4);
+  return portable::exp2(2.0 * steps.range_bits + 4);
 }
 
 double QuantisedHeights::squaresOf(const HeightSteps& other) const {

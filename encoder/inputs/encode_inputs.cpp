@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline inputs {
 
 Purpose purposeOf(const EncodeInputs& inputs) {
@@ -18,7 +20,7 @@ uint64_t limitOf(const EncodeInputs& inputs) {
 }
 
 double worstMeanSquare(double peak, double psnr) {
-  return peak * peak / std::pow(10, psnr / 10);
+  return peak * peak / portable::pow(10, psnr / 10);
 }
 
 }  // namespace tetrakis::inline inputs

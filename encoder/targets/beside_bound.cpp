@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/portable_math.hpp"
 #include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/ways/heights_for_target.hpp"
@@ -30,7 +31,7 @@ double psnrOf(const EncodeInputs& inputs, const CodedHeights& heights) {
       sampleErrorsOf(heights, codewordsOf(heights.tracks), inputs.options.threads).mean_square;
   const SampleRange range = rangeOf(*inputs.heights, steps.valid);
   const double peak = range.high - range.low;
-  const double psnr = 10 * std::log10(peak * peak / std::max(squares, least));
+  const double psnr = 10 * portable::log10(peak * peak / std::max(squares, least));
   return peak > 0 ? std::clamp(psnr, kLeastPsnr, kMostPsnr) : kLeastPsnr;
 }
 

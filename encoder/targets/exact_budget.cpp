@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable_math.hpp"
 #include "encoder/heights/ways/restored_heights.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/exact_candidates.hpp"
@@ -120,7 +121,7 @@ bool pays(const std::vector<double>& tried, const std::vector<double>& lossy) {
   constexpr double kUnseen = 65025e-6;  // 60 dB
   double logarithms = 0;
   for (size_t i = 0; i < lossy.size(); ++i)
-    logarithms += std::log(std::max(tried[i], kUnseen) / std::max(lossy[i], kUnseen));
+    logarithms += portable::log(std::max(tried[i], kUnseen) / std::max(lossy[i], kUnseen));
   return tried.back() <= lossy.back() && logarithms <= 0;
 }
 

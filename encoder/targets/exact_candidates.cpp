@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable_math.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/ways/corrected_heights.hpp"
 #include "encoder/heights/ways/relative_heights.hpp"
@@ -47,7 +48,7 @@ bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
   double logarithms = 0;
   for (const double part : {1. / 16, 1. / 8, 1. / 4, 1. / 2, 1.}) {
     const double bytes = part * most * static_cast<double>(tried.bytes());
-    logarithms += std::log(squares_after(tried, bytes) / squares_after(lossy, bytes / 1.03));
+    logarithms += portable::log(squares_after(tried, bytes) / squares_after(lossy, bytes / 1.03));
   }
   return logarithms <= 0;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/portable_math.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/views/errors_of_prefixes.hpp"
 
@@ -30,7 +31,7 @@ bool mapsPay(const EncodeInputs& inputs, const Selection& with, const Selection&
   constexpr double kNone = 1e-6;  // squared parts of 255
   double logarithms = 0;
   for (size_t i = 0; i < mapped.size(); ++i)
-    logarithms += std::log(std::max(mapped[i], kNone) / std::max(plain[i], kNone));
+    logarithms += portable::log(std::max(mapped[i], kNone) / std::max(plain[i], kNone));
   return logarithms < 0;
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "base/portable_math.hpp"
 #include "base/white_level.hpp"
 #include "codec/mesh/budget_mesh.hpp"
 #include "codec/mesh/screen/screen_weights.hpp"
@@ -22,7 +23,7 @@ namespace {
 /// Takes columns, rows and heights to the camera's picture. metres of a height: at + by * height.
 ScreenView screenViewOf(const Camera& camera, const GroundFrame& frame, double at, double by) {
   const ViewAxes axes = viewAxes(camera.eye, camera.target, camera.up);
-  const double tan_y = std::tan(camera.fov_y * std::numbers::pi / 360);
+  const double tan_y = portable::tan(camera.fov_y * std::numbers::pi / 360);
   const double tan_x = tan_y * camera.width / camera.height;
   const Vec3 corner = {-(frame.width - 1.0) / 2 * frame.spacing_x - camera.eye[0],
                        at - camera.eye[1],

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/portable_math.hpp"
 #include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/textures/coded_texture.hpp"
 #include "encoder/views/view_inputs.hpp"
@@ -55,7 +56,7 @@ class TileWorths {
     if (!(most > 0)) return {};
     constexpr double kTop = kPriorities - 1;
     for (const double density : densities) {
-      const double wanted = density > 0 ? kTop + full * std::log2(density / most) / 2 : 0;
+      const double wanted = density > 0 ? kTop + full * portable::log2(density / most) / 2 : 0;
       map_.priorities.push_back(static_cast<uint8_t>(std::clamp(std::round(wanted), 0.0, kTop)));
     }
     const auto ends = std::minmax_element(map_.priorities.begin(), map_.priorities.end());

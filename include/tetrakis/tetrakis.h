@@ -265,13 +265,13 @@ tks_status tks_find_outliers(const tks_heights* heights, tks_outliers* out);
  * 0 means its default. */
 typedef struct tks_limits {
   size_t size;          /* sizeof(tks_limits) */
-  uint64_t max_samples; /* heights, refused by tks_open; default 2^28 */
+  uint64_t max_samples; /* heights, refused by tks_open; default 2^28; 32-bit programs: < 2^29 */
   uint64_t max_texels;  /* likewise; default 2^28 */
   uint64_t max_memory;  /* bytes that a decoder and one call together may allocate, the caller's
-                           arrays not counted; default 8 GiB. Each call is judged by what it is
-                           asked for: of a stream that is too large as a whole, levels, windows
-                           and meshes of few triangles may fit. tks_check_memory says what calls
-                           for its parts take */
+                           arrays not counted; default 8 GiB, in 32-bit programs 2. Each call is
+                           judged by what it is asked for: of a stream that is too large as a
+                           whole, levels, windows and meshes of few triangles may fit.
+                           tks_check_memory says what calls for its parts take */
 } tks_limits;
 
 typedef struct tks_decoder tks_decoder;

@@ -330,7 +330,7 @@ class Decoder {
     const uint64_t count = uint64_t{window.width} * window.height * items;
     if (const auto fits = checkMemory(what, &window, 0, count * sizeof(T)); !fits)
       return fits.status();
-    std::vector<T> out(count);
+    std::vector<T> out(static_cast<size_t>(count));
     const tks_status status = decode(decoder_.get(), &window, out.data(), out.size());
     if (status != TKS_OK) return failure(status);
     return out;

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline allocation {
 
 namespace {
@@ -46,7 +48,7 @@ std::vector<double> correctedErrors(const ErrorGrid& modelled,
     for (const size_t column : columns) {
       const double model = modelled.errors[row * width + column];
       const double truth = measured[factors.size()];
-      factors.push_back(model > 0 && truth > 0 ? std::log(truth / model) : 0);
+      factors.push_back(model > 0 && truth > 0 ? portable::log(truth / model) : 0);
     }
   }
   std::vector<double> errors;
@@ -59,7 +61,7 @@ std::vector<double> correctedErrors(const ErrorGrid& modelled,
         return std::lerp(factor[x.before], factor[x.after], x.rest);
       };
       const double factor = std::lerp(along(y.before), along(y.after), y.rest);
-      errors.push_back(modelled.errors[row * width + column] * std::exp(factor));
+      errors.push_back(modelled.errors[row * width + column] * portable::exp(factor));
     }
   }
   return errors;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline allocation {
 
 namespace {
@@ -13,9 +15,10 @@ namespace {
 /// before, from, to: errors at the node before that of the place, at it, and at the next one.
 double between(const PairErrors::Place& place, double before, double from, double to) {
   if (place.rest == 0) return from;
-  if (place.last) return to + (from - to) * std::pow(1 - place.rest, place.power(before, from, to));
+  if (place.last)
+    return to + (from - to) * portable::pow(1 - place.rest, place.power(before, from, to));
   if (from <= 0 || to <= 0) return from + (to - from) * place.rest;
-  return from * std::pow(to / from, place.rest);
+  return from * portable::pow(to / from, place.rest);
 }
 
 }  // namespace
@@ -23,7 +26,8 @@ double between(const PairErrors::Place& place, double before, double from, doubl
 double PairErrors::Place::power(double before, double from, double to) const {
   constexpr double kLeast = 0.5, kMost = 2;
   if (!(before > from && from > to) || ratio <= 1) return 1;
-  return std::clamp(std::log((before - to) / (from - to)) / std::log(ratio), kLeast, kMost);
+  return std::clamp(portable::log((before - to) / (from - to)) / portable::log(ratio), kLeast,
+                    kMost);
 }
 
 PairErrors::PairErrors(PairNodes nodes, std::vector<double> errors)
@@ -39,7 +43,7 @@ PairErrors::Place PairErrors::placeOf(const std::vector<double>& nodes, double s
       std::find_if(nodes.begin(), nodes.end(), [&](double node) { return node < square; });
   const auto node = static_cast<size_t>(next - nodes.begin()) - 1;
   if (next != nodes.end())
-    return {node, std::log(nodes[node] / square) / std::log(nodes[node] / *next)};
+    return {node, portable::log(nodes[node] / square) / portable::log(nodes[node] / *next)};
   // The first node, that of no coefficients, says nothing of others.
   const double ratio = node > 1 ? nodes[node - 1] / nodes[node] : 1;
   return {node, 1 - square / nodes[node], true, ratio};

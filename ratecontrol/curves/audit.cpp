@@ -9,6 +9,8 @@
 #include <span>
 #include <utility>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline curves {
 
 namespace {
@@ -77,8 +79,9 @@ class MeasuringPlan {
   /// and that they are no more than a few bytes apart: passes of little gain are those that dip.
   uint64_t wantedBetween(const RatePoint& a, const RatePoint& b) const {
     constexpr double kDecibelsPerSample = 2.5e-6, kMost = 6;
-    const double gain =
-        b.distortion > 0 ? std::min(kMost, 10 * std::log10(a.distortion / b.distortion)) : kMost;
+    const double gain = b.distortion > 0
+                            ? std::min(kMost, 10 * portable::log10(a.distortion / b.distortion))
+                            : kMost;
     const double wanted =
         std::ceil(gain / (kDecibelsPerSample * static_cast<double>(scope_.samples)));
     const uint64_t bytes = b.bytes - a.bytes;
@@ -129,19 +132,19 @@ class Correction {
       const double stated = points[i].squares();
       if (stated <= 0) continue;
       const double squares = measure(points[i].bytes);
-      if (squares > 0) knots_.push_back({std::log(stated), std::log(squares / stated)});
+      if (squares > 0) knots_.push_back({portable::log(stated), portable::log(squares / stated)});
     }
   }
   /// The factor that corrects a stated distortion.
   double operator()(double squares) const {
     if (squares <= 0 || knots_.empty()) return 1;
-    const double x = std::log(squares);  // knots fall in x
+    const double x = portable::log(squares);  // knots fall in x
     const auto after =
         std::find_if(knots_.begin(), knots_.end(), [&](const Knot& k) { return k.x < x; });
-    if (after == knots_.begin()) return std::exp(knots_.front().ratio);
-    if (after == knots_.end()) return std::exp(knots_.back().ratio);
+    if (after == knots_.begin()) return portable::exp(knots_.front().ratio);
+    if (after == knots_.end()) return portable::exp(knots_.back().ratio);
     const Knot &a = *(after - 1), &b = *after;
-    return std::exp(a.ratio + (b.ratio - a.ratio) * (a.x - x) / (a.x - b.x));
+    return portable::exp(a.ratio + (b.ratio - a.ratio) * (a.x - x) / (a.x - b.x));
   }
 
  private:

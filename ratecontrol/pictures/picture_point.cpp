@@ -6,13 +6,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/portable_math.hpp"
 #include "ground/sky.hpp"
 
 namespace tetrakis::inline pictures {
 
 CameraPoints::CameraPoints(const Camera& camera) : height_(camera.height) {
   const ViewAxes axes = viewAxes(camera.eye, camera.target, camera.up);
-  const double tan_y = std::tan(camera.fov_y * std::numbers::pi / 360);
+  const double tan_y = portable::tan(camera.fov_y * std::numbers::pi / 360);
   const double pixel = 2 * tan_y / camera.height;
   origin_.right = scale(axes.right, pixel);
   origin_.down = scale(axes.up, -pixel);
@@ -48,7 +49,7 @@ SeenPoint seenAt(const PicturePoint& point, const GroundRays& ground, Extent tex
     return std::sqrt(texels_u * texels_u + texels_v * texels_v);
   };
   const double wide = std::max(texelsTo(point.right), texelsTo(point.down));
-  seen.level = wide > 0 ? std::max(0.0, std::log2(wide)) : 0;
+  seen.level = wide > 0 ? std::max(0.0, portable::log2(wide)) : 0;
   return seen;
 }
 

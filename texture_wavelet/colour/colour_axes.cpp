@@ -13,6 +13,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline colour {
 namespace {
 
@@ -22,7 +24,7 @@ Matrix3 fixedRotation() {
 }
 
 void rotateRows(Matrix3& rotation, size_t p, size_t q, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double c = portable::cos(angle), s = portable::sin(angle);
   for (size_t j = 0; j < 3; ++j) {
     const double a = rotation[p][j], b = rotation[q][j];
     rotation[p][j] = c * a + s * b;
@@ -83,9 +85,11 @@ Matrix3 lumaFirst(Matrix3 rotation, const ColourDetails& details) {
   std::array<double, 3> energies{};
   const auto& [first, second, third] = details.channels;
   for (size_t k = 0; k < details.count(); ++k) {
-    for (size_t i = 0; i < 3; ++i)
-      energies[i] += std::pow(
-          rotation[i][0] * first[k] + rotation[i][1] * second[k] + rotation[i][2] * third[k], 2);
+    for (size_t i = 0; i < 3; ++i) {
+      const double along =
+          rotation[i][0] * first[k] + rotation[i][1] * second[k] + rotation[i][2] * third[k];
+      energies[i] += along * along;
+    }
   }
   const auto strongest = std::max_element(energies.begin(), energies.end()) - energies.begin();
   std::swap(rotation[0], rotation[static_cast<size_t>(strongest)]);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline colour {
 
 namespace {
@@ -119,10 +121,10 @@ double bitsAlong(const std::array<double, 3>& axis, const ColourDetails& details
   for (; i + products.size() <= details.count(); i += products.size()) {
     for (size_t k = 0; k < products.size(); ++k) products[k] *= factor(i + k);
     if (*std::max_element(products.begin(), products.end()) < kLarge) continue;
-    for (double& product : products) bits += std::log2(std::exchange(product, 1));
+    for (double& product : products) bits += portable::log2(std::exchange(product, 1));
   }
-  for (; i < details.count(); ++i) bits += std::log2(factor(i));
-  for (const double product : products) bits += std::log2(product);
+  for (; i < details.count(); ++i) bits += portable::log2(factor(i));
+  for (const double product : products) bits += portable::log2(product);
   return details.weight * bits;
 }
 

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
+#include "base/portable_math.hpp"
 #include "texture_wavelet/colour/colour_axes.hpp"
 #include "texture_wavelet/colour/colour_fit.hpp"
 #include "texture_wavelet/colour/colour_level_fit.hpp"
@@ -40,15 +42,17 @@ Sample sampleOf(const Window& part, std::span<const int32_t* const> planes, Exte
 
 /// About the bits of a plane: log2(1 + |x - (west + north - northwest)|) a sample.
 double bitsOf(const std::vector<int32_t>& plane, uint32_t width, uint32_t height) {
-  double bits = 0;
+  constexpr double kLarge = 1e200;  // one logarithm for many factors, each below 1e20
+  double bits = 0, product = 1;
   for (uint32_t y = 1; y < height; ++y) {
     const int32_t *row = plane.data() + size_t{y} * width, *above = row - width;
     for (uint32_t x = 1; x < width; ++x) {
-      const auto residual = static_cast<float>(row[x] - row[x - 1] - above[x] + above[x - 1]);
-      bits += std::log2(1 + std::abs(residual));
+      const double residual = row[x] - row[x - 1] - above[x] + above[x - 1];
+      product *= 1 + std::abs(residual);
+      if (product > kLarge) bits += portable::log2(std::exchange(product, 1));
     }
   }
-  return bits;
+  return bits + portable::log2(product);
 }
 
 /// The estimated bits of all planes. The shears of coefficients are left out.

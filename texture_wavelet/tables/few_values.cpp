@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline tables {
 
 namespace {
@@ -42,12 +44,12 @@ Table tableOf(const std::vector<uint32_t>& counts) {
       const double gap = table.values[above] - table.values[above - 1];
       const double weight = counts[table.values[i]];
       weights += weight;
-      saved += weight * std::log2(gap);
+      saved += weight * portable::log2(gap);
     }
   }
   if (weights == 0) return table;
   table.saved = saved / weights;
-  table.squares = std::exp2(2 * table.saved);
+  table.squares = portable::exp2(2 * table.saved);
   return table;
 }
 

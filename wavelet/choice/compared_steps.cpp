@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline choice {
 
 ComparedSteps::ComparedSteps(const CostAtStep& plain, double target, double samples) {
@@ -18,20 +20,20 @@ ComparedSteps::ComparedSteps(const CostAtStep& plain, double target, double samp
 
 double ComparedSteps::ratio(const CostAtStep& way, double more_bits) const {
   const double target = logRatio(plain_.front(), way, more_bits);
-  if (plain_.size() == 1) return std::exp(target);
+  if (plain_.size() == 1) return portable::exp(target);
   double prefixes = 0;
   for (size_t i = 1; i < plain_.size(); ++i) prefixes += logRatio(plain_[i], way, more_bits);
-  return std::exp((target + prefixes / static_cast<double>(plain_.size() - 1)) / 2);
+  return portable::exp((target + prefixes / static_cast<double>(plain_.size() - 1)) / 2);
 }
 
 double ComparedSteps::ratioAtTarget(const CostAtStep& way, double more_bits) const {
-  return std::exp(logRatio(plain_.front(), way, more_bits));
+  return portable::exp(logRatio(plain_.front(), way, more_bits));
 }
 
 double ComparedSteps::logRatio(const Plain& plain, const CostAtStep& way, double more_bits) {
   constexpr double kLeastRatio = 0.05;
   const double change = way(plain.step).joint(plain.step) + more_bits - plain.joint;
-  return std::log(std::max(1 + change / plain.bits, kLeastRatio));
+  return portable::log(std::max(1 + change / plain.bits, kLeastRatio));
 }
 
 }  // namespace tetrakis::inline choice

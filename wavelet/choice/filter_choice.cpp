@@ -13,6 +13,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/portable_math.hpp"
 #include "wavelet/band_plan.hpp"
 #include "wavelet/choice/typical_parts.hpp"
 #include "wavelet/wavelet_header.hpp"
@@ -100,10 +101,10 @@ double bitsOf(const std::vector<float>& details, float step) {
   for (float d : details) {
     product *= 1 + d / step;
     if (product < kLarge) continue;
-    bits += std::log2(product);
+    bits += portable::log2(product);
     product = 1;
   }
-  return bits + std::log2(product);
+  return bits + portable::log2(product);
 }
 
 /// The estimate counts bits, not what their errors add up to, which is more where a filter is
@@ -169,7 +170,7 @@ Choice chooseLossy(const std::vector<PlanePart>& parts, int bits, const RateTarg
     for (const PlanePart& part : parts) appendDetails(part, header, false, details);
     if (usual == 0) {
       usual = stepOf(details);
-      finer = finerStep(details, usual, std::exp2(header.fraction_bits), samples, target);
+      finer = finerStep(details, usual, portable::exp2(header.fraction_bits), samples, target);
     }
     const double bits_usual = penalised(bitsOf(details, usual), filters, samples);
     const double bits_finer =

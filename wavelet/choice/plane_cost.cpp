@@ -9,6 +9,8 @@
 #include <numeric>
 #include <vector>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline choice {
 
 namespace {
@@ -82,7 +84,7 @@ class BitCounts {
       const double sum = std::accumulate(row.begin(), row.end(), 0u);
       if (sum == 0) continue;
       for (size_t i = 0; i < row.size(); ++i) {
-        if (row[i] > 0) bits += row[i] * (std::log2(sum / row[i]) + static_cast<double>(i));
+        if (row[i] > 0) bits += row[i] * (portable::log2(sum / row[i]) + static_cast<double>(i));
       }
     }
     return bits;

@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "base/portable_math.hpp"
 #include "wavelet/wavelet.hpp"
 
 namespace tetrakis::inline choice {
@@ -23,7 +24,7 @@ TypicalPlane::Part::Part(PlanePart part, const WaveletHeader& header, size_t sho
 TypicalPlane::TypicalPlane(const PlaneView<const int32_t>& plane, int bits, Purpose purpose,
                            Mask shown) {
   const WaveletHeader header = chooseWavelet(plane, bits, purpose);
-  unit_ = std::exp2(header.fraction_bits);
+  unit_ = portable::exp2(header.fraction_bits);
   size_t samples = 0;
   const Extent extent = plane.extent();
   const IsCoded is_shown = shown.all() ? IsCoded() : [&](size_t i) { return shown[i]; };
@@ -50,8 +51,8 @@ PlaneCost TypicalPlane::cost(double step) const {
 double TypicalPlane::step(double bits) const {
   constexpr int kMost = 60;
   int log2 = 0;
-  while (log2 < kMost && cost(std::exp2(log2)).bits > bits) ++log2;
-  return std::exp2(log2);
+  while (log2 < kMost && cost(portable::exp2(log2)).bits > bits) ++log2;
+  return portable::exp2(log2);
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "base/portable_math.hpp"
 #include "codec/geometry/corrections/exact_corrections_encoder.hpp"
 #include "wavelet/choice/typical_plane.hpp"
 
@@ -63,7 +64,7 @@ class TriedCuts {
 
   const ExactCut& at(int log2) {
     const auto [known, is_new] = cuts_.try_emplace(log2);
-    if (is_new) known->second = tried(std::exp2(log2));
+    if (is_new) known->second = tried(portable::exp2(log2));
     return known->second;
   }
 
@@ -89,7 +90,7 @@ class TriedCuts {
 }  // namespace
 
 double exactWorth(double bytes, double cut) {
-  return bytes * (1 + kHalving * std::log2(std::max(bytes, 1.) / std::max(cut, 1.)));
+  return bytes * (1 + kHalving * portable::log2(std::max(bytes, 1.) / std::max(cut, 1.)));
 }
 
 bool isWorth(double worth, double whole_bytes) {

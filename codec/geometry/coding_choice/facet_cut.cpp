@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/portable_math.hpp"
 #include "wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline coding_choice {
@@ -17,7 +18,7 @@ double correctionBytes(const HeightSteps& steps, double samples, const FacetShar
   constexpr double kNear = 0.7;    // bits of a sample on a facet
   constexpr double kSpread = 2.1;  // those of normal errors beyond log2 of their deviation
   const double spacings = std::max(rmse * steps.step / facets.spacing, 1.);
-  const double beyond = std::log2(spacings) + kSpread;
+  const double beyond = portable::log2(spacings) + kSpread;
   return samples * (facets.beyond * beyond + (1 - facets.beyond) * kNear) / 8;
 }
 
@@ -32,7 +33,7 @@ double chooseFacetCut(const HeightSteps& steps, Extent extent, const FacetShare&
   const auto samples = static_cast<double>(markedIn(extent, plane.valid));
   double least = std::numeric_limits<double>::infinity(), finest = 0;
   for (double log2 = steps.range_bits; log2 >= kFinest; log2 -= kHalfOctave) {
-    const PlaneCost cost = lossy.cost(std::exp2(log2));
+    const PlaneCost cost = lossy.cost(portable::exp2(log2));
     const double squares = cost.squares / samples;
     const double bytes =
         cost.bits / 8 + correctionBytes(steps, samples, facets, std::sqrt(squares));

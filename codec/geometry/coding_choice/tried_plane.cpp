@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "base/portable_math.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
 
 namespace tetrakis::inline coding_choice {
@@ -81,14 +82,14 @@ double TriedPlane::bitsOfAreas() const {
 
 double TriedPlane::step(double bits) const {
   constexpr int kMost = 60;
-  const auto fits = [&](int log2) { return cost(std::exp2(log2)).bits <= bits; };
+  const auto fits = [&](int log2) { return cost(portable::exp2(log2)).bits <= bits; };
   int too_fine = -1, enough = 0;
   for (; enough < kMost && !fits(enough); enough += 4) too_fine = enough;
   while (enough - too_fine > 1) {
     const int middle = (enough + too_fine) / 2;
     (fits(middle) ? enough : too_fine) = middle;
   }
-  return std::exp2(enough);
+  return portable::exp2(enough);
 }
 
 }  // namespace tetrakis::inline coding_choice

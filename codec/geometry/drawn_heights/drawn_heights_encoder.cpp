@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "base/portable_math.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "codec/drawing/drawing_encoding.hpp"
 #include "codec/drawing/drawing_pass.hpp"
@@ -40,7 +41,7 @@ std::optional<NumberedSteps> number(const PlaneView<const int32_t>& heights) {
 
 double squaredError(const PlaneView<const int32_t>& heights, const DrawnSurface& surface) {
   const std::vector<int32_t> shown = surface.heights();
-  const double unit = std::exp2(-DrawnSurface::kFractionBits);
+  const double unit = portable::exp2(-DrawnSurface::kFractionBits);
   double squares = 0;
   for (size_t i = 0; i < shown.size(); ++i) {
     if (!heights.valid[i]) continue;

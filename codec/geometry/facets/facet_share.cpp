@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/portable_math.hpp"
 #include "codec/geometry/facets/facet_rows.hpp"
 #include "codec/geometry/facets/facet_unit.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
@@ -43,8 +44,8 @@ class BandReader {
   FacetShare share(int unit) const {
     if (seen_ == 0) return {1, 1, unit};
     const auto seen = static_cast<double>(seen_);
-    return {static_cast<double>(beyond_) / seen, std::exp2(static_cast<double>(exponents_) / seen),
-            unit};
+    return {static_cast<double>(beyond_) / seen,
+            portable::exp2(static_cast<double>(exponents_) / seen), unit};
   }
 
  private:

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "base/portable_math.hpp"
 #include "codec/geometry/quantiser/height_steps.hpp"
 #include "tetrakis/tetrakis.h"
 
@@ -20,13 +21,13 @@ struct Exceptions {
   void add(uint32_t correction, size_t samples) {
     const auto signed_one = static_cast<double>(static_cast<int32_t>(correction));
     count += samples;
-    magnitude_bits += static_cast<double>(samples) * (1 + std::log2(1 + std::abs(signed_one)));
+    magnitude_bits += static_cast<double>(samples) * (1 + portable::log2(1 + std::abs(signed_one)));
   }
   /// The bits of the corrections that are not 0, and of their places among all samples.
   double bits(size_t samples) const {
     const double share = static_cast<double>(count) / static_cast<double>(samples);
     if (count == 0 || count == samples) return magnitude_bits;
-    const double entropy = -share * std::log2(share) - (1 - share) * std::log2(1 - share);
+    const double entropy = -share * portable::log2(share) - (1 - share) * portable::log2(1 - share);
     return magnitude_bits + static_cast<double>(samples) * entropy;
   }
 };

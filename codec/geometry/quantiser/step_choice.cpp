@@ -12,6 +12,7 @@
 #include <string>
 #include <type_traits>
 
+#include "base/portable_math.hpp"
 #include "base/samples.hpp"
 #include "codec/geometry/quantiser/other_steps.hpp"
 #include "codec/geometry/quantiser/value_choice.hpp"
@@ -229,7 +230,7 @@ class Stepper {
 };
 
 double powerOfTwoBelow(double x) {
-  return std::exp2(std::floor(std::log2(x)));
+  return portable::exp2(std::floor(portable::log2(x)));
 }
 
 double lossyStep(double range, double error) {

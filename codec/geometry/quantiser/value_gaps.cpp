@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/portable_math.hpp"
+
 namespace tetrakis::inline quantiser {
 
 namespace {
@@ -53,9 +55,9 @@ double ValueGaps::unevenness(const std::vector<uint32_t>& samples) const {
     if (square == 0) continue;
     count += samples[i];
     squares += samples[i] * square;
-    logarithms += samples[i] * std::log2(square);
+    logarithms += samples[i] * portable::log2(square);
   }
-  return count > 0 ? (std::log2(squares / count) - logarithms / count) / 2 : 0;
+  return count > 0 ? (portable::log2(squares / count) - logarithms / count) / 2 : 0;
 }
 
 double ValueGaps::gap(size_t i) const {

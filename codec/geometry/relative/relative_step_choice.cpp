@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/portable_math.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
 
 namespace tetrakis::inline relative {
@@ -219,7 +220,7 @@ double shortestDecimal(const Jumps& jumps, double step) {
   constexpr int kDigits = 8;
   const size_t most = jumps.misses(step) + jumps.beyond.size() / 1000;
   for (int digits = 1; digits <= kDigits; ++digits) {
-    const double unit = std::pow(10, std::floor(std::log10(step)) - digits + 1);
+    const double unit = portable::pow(10, std::floor(portable::log10(step)) - digits + 1);
     const double count = std::round(step / unit);
     const double decimal = unit < 1 ? count / std::round(1 / unit) : count * unit;
     if (decimal > 0 && jumps.misses(decimal) <= most) return decimal;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "conformance/decode_cut.hpp"
+
+#include <algorithm>
+
+#include "conformance/digest.hpp"
+#include "tetrakis/tetrakis.hpp"
+
+namespace tetrakis::conformance {
+
+Cut decodeCut(std::span<const uint8_t> prefix, int level) {
+  Cut cut;
+  cut.bytes = prefix.size();
+  cut.level = level;
+  auto decoder = Decoder::open(prefix);
+  if (!decoder) {
+    cut.status = decoder.status().code();
+    return cut;
+  }
+  if (level > 0) {
+    const auto up_to = [&](uint32_t coarsest) {
+      return std::min(static_cast<uint32_t>(level), coarsest);
+    };
+    const tks_info info = decoder->info();
+    const auto set =
+        decoder->setLevels(up_to(info.coarsest_level), up_to(info.texture_coarsest_level));
+    if (!set.ok()) cut.status = set.code();
+  }
+  if (decoder->info().has_heights) {
+    const auto heights = decoder->heights();
+    if (heights) cut.heights = sampleDigest(*heights, decoder->info().sample);
+    if (!heights) cut.status = heights.status().code();
+  }
+  if (decoder->info().has_texture) {
+    const auto texture = decoder->texture();
+    if (texture) cut.texture = sampleDigest(*texture, decoder->info().texture_sample);
+    if (!texture) cut.status = texture.status().code();
+  }
+  return cut;
+}
+
+}  // namespace tetrakis::conformance

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a decoder answers at a cut. Needs the library alone: no file, no manifest.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "conformance/manifest.hpp"
+
+namespace tetrakis::conformance {
+
+/// What this library's decoder makes of `prefix` at a mip level (Cut::level); the manifest's
+/// digests come from here.
+Cut decodeCut(std::span<const uint8_t> prefix, int level = 0);
+
+}  // namespace tetrakis::conformance

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// SHA-256 (FIPS 180-4), here so that every machine with a C++ compiler can check conformance.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace tetrakis::conformance {
+
+/// The digest of `bytes` as 64 lower-case hexadecimal digits.
+std::string sha256(std::span<const uint8_t> bytes);
+
+}  // namespace tetrakis::conformance
