@@ -20,7 +20,10 @@ inline Raster withFewTexels(const Raster& image, uint32_t levels, tks_sample sam
   for (size_t i = 0; i < image.data.size(); ++i) {
     const uint32_t level = std::to_integer<uint32_t>(image.data[i]) * levels / 256;
     const auto value = static_cast<uint16_t>(std::lround(most * std::sqrt(level / (levels - 1.))));
-    std::memcpy(out.data.data() + i * tks_sample_bytes(sample), &value, tks_sample_bytes(sample));
+    if (sample == TKS_U8)
+      out.data[i] = static_cast<std::byte>(value);
+    else
+      std::memcpy(out.data.data() + 2 * i, &value, sizeof value);
   }
   return out;
 }
