@@ -28,9 +28,9 @@ struct LateMask {
 };
 
 /// The late mask beside lifted samples, unless it is short or takes more bytes than one that comes
-/// first, of so many bytes, by more than a thousandth of the stream. Where bridges are needed, as a
-/// budget has no room for a mask that comes first, it may be any that leaves most of the budget to
-/// what comes ahead of it. target: what the bridges are for.
+/// first, of so many bytes, by more than a thousandth of the stream. Where a budget has no room
+/// for a mask that comes first, so that bridges are needed, only the codeword of the lifted samples
+/// has to be short: the mask itself will be left out. target: what the bridges are for.
 LateMask lateMaskOf(const PlaneView<const uint8_t>& valid, Mask lifted, uint64_t first_bytes,
                     const BridgeTarget& target);
 
