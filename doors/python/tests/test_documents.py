@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The example runs, and what README.md and docstrings show works."""
 
+import importlib.util
 import re
 import shutil
 import subprocess
@@ -35,6 +36,10 @@ def zarr_generation():
         return None
 
 
+def have(*packages):
+    return all(importlib.util.find_spec(name) for name in packages)
+
+
 def test_what_the_readme_shows_runs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     np.save("heights.npy", terrain(64, 64))
@@ -44,6 +49,8 @@ def test_what_the_readme_shows_runs(tmp_path, monkeypatch):
     assert len(blocks) >= 3
     for block in blocks:
         if "import zarr" in block and f"# Zarr {zarr_generation()}\n" not in block:
+            continue
+        if "import rasterio" in block and not have("rasterio", "xarray"):
             continue
         exec(block, names)
     assert "array" in names or not zarr_generation()

@@ -20,9 +20,11 @@ from ._errors import (
     TksUsageError,
 )
 from ._info import Info
+from ._rasterio import from_rasterio, to_geotiff
 from ._stream import Mesh, Stream, open, truncate
 from ._tks import tks_check, tks_decode, tks_encode, tks_version
 from ._version import __version__
+from ._xarray import from_xarray
 
 __all__ = [
     "Info",
@@ -39,10 +41,13 @@ __all__ = [
     "TksUsageError",
     "__version__",
     "encode",
+    "from_rasterio",
+    "from_xarray",
     "open",
     "tks_check",
     "tks_decode",
     "tks_encode",
     "tks_version",
+    "to_geotiff",
     "truncate",
 ]

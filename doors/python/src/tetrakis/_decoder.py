@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import builtins
 import ctypes
-from typing import Any, Optional, Tuple
+from typing import Any, List, Optional, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,7 @@ class Decoder:
 
     def __init__(self, data: builtins.bytes, limits: c.Limits, threads: int = 1) -> None:
         self._data = data
+        self._held = [(0, len(data))]
         self._handle = ctypes.c_void_p()
         self._levels = {c.PART_HEIGHTS: 0, c.PART_TEXTURE: 0}
         message = ctypes.create_string_buffer(1024)
@@ -33,6 +34,9 @@ class Decoder:
         return self
 
     def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    def close(self) -> None:
         c.lib.tks_close(self._handle)
         self._handle = ctypes.c_void_p()
 
@@ -110,6 +114,28 @@ class Decoder:
         target = (info.texture_shape or (0, 0), info.texture_dtype or np.dtype("u1"))
         return self._decode(call, window, target, out)
 
+    def missing(self, part: int, window: Optional[c.Window]) -> List[Tuple[int, int]]:
+        """(offset, count) of the bytes that a call still needs, of a stream with an index."""
+        level = self._levels[c.PART_TEXTURE if part == c.PART_TEXTURE else c.PART_HEIGHTS]
+        raw = c.Ranges()
+        of_level = window if level == 0 else None  # the C interface has windows of level 0 only
+        self.check(c.lib.tks_needed_ranges(self._handle, part, of_level, raw))
+        try:
+            needed = [(raw.ranges[i].offset, raw.ranges[i].size) for i in range(raw.count)]
+        finally:
+            c.lib.tks_free_ranges(raw)
+        return [gap for each in needed for gap in _without(each, self._held)]
+
+    def put(self, pieces: List[Tuple[int, builtins.bytes]]) -> None:
+        """Takes bytes from anywhere in the stream: (offset, bytes)."""
+        kept = [piece for piece in pieces if piece[1]]
+        if not kept:
+            return
+        ranges = (c.Range * len(kept))(*((offset, len(data)) for offset, data in kept))
+        data = (ctypes.c_char_p * len(kept))(*(data for _, data in kept))
+        self.check(c.lib.tks_put_ranges(self._handle, ranges, data, len(kept)))
+        self._held = sorted(self._held + [(offset, len(data)) for offset, data in kept])
+
     def verify(self) -> None:
         self.check(c.lib.tks_verify(self._handle))
 
@@ -141,6 +167,28 @@ class Decoder:
             c.lib.tks_free_mesh_tree(tree)
         if status != Status.OK:
             raise error(status, "The view must be a 4 x 4 matrix of finite numbers.")
+
+
+def header_bytes(data: builtins.bytes) -> int:
+    """How many bytes the header takes, or so many that more can be said; 0 of no stream."""
+    count = ctypes.c_uint64()
+    c.lib.tks_header_bytes(data, len(data), count)
+    return count.value
+
+
+def _without(wanted: Tuple[int, int], held: List[Tuple[int, int]]) -> List[Tuple[int, int]]:
+    """What of a range lies in none of those, which are in order."""
+    gaps = []
+    offset, end = wanted[0], sum(wanted)
+    for start, count in held:
+        if start >= end:
+            break
+        if start > offset:
+            gaps.append((offset, start - offset))
+        offset = max(offset, start + count)
+    if offset < end:
+        gaps.append((offset, end - offset))
+    return gaps
 
 
 def _inside(window: c.Window, shape: Tuple[int, ...]) -> Tuple[slice, slice]:

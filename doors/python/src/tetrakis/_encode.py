@@ -46,17 +46,23 @@ def _nodata(given: Union[float, str, None]) -> Tuple[Optional[float], bool]:
     return None, True
 
 
+def _layer(array: Any) -> Any:
+    """Rasters are read as (bands, rows, columns): without the axis of a single band."""
+    if not isinstance(array, np.ma.MaskedArray):
+        array = values.array(array, "Heights")
+    return array[0] if array.ndim == 3 and array.shape[0] == 1 else array
+
+
 def _filled(heights: np.ma.MaskedArray, nodata: Optional[float]) -> Tuple[NDArray[Any], Any]:
     """Heights whose masked samples are voids, and the nodata value to declare. Those of floats are
     NaN, which come back as whatever nodata is declared."""
     data = np.ma.getdata(heights)
     mask = np.ma.getmaskarray(heights)
-    if not mask.any():
+    if not mask.any() or data.dtype.kind not in "iuf":
         return data, nodata
+    data = values.exact(np.where(mask, data.dtype.type(0), data), "Heights")
     if data.dtype.kind == "f":
         return np.where(mask, data.dtype.type(np.nan), data), nodata
-    if data.dtype.kind not in "iu":
-        return data, nodata  # refused later, by its type
     if nodata is None:
         nodata = _unused_value(data[~mask], heights.fill_value)
     limits = np.iinfo(data.dtype)
@@ -68,9 +74,10 @@ def _filled(heights: np.ma.MaskedArray, nodata: Optional[float]) -> Tuple[NDArra
 def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
     """The struct, and the samples that it points to: they must live as long."""
     nodata, searched = _nodata(place["nodata"])
+    array = _layer(array)
     if isinstance(array, np.ma.MaskedArray):
         array, nodata = _filled(array, nodata)
-    data = values.samples(values.array(array, "Heights"), "Heights")
+    data = values.exact(array, "Heights")
     if data.ndim != 2:
         raise TksUsageError(f"Heights are (rows, columns), not an array of shape {data.shape}.")
     spacing_x, spacing_y = values.spacing(place["spacing"])
@@ -114,7 +121,9 @@ def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
     """The struct, and the texels that it points to: they must live as long."""
     if isinstance(array, np.ma.MaskedArray) and np.ma.getmaskarray(array).any():
         raise TksUsageError("A texture has no masked texels: give an alpha of 0 as last channel.")
-    data = values.samples(values.array(array, "A texture"), "A texture", values.TEXELS)
+    data = values.exact(values.array(array, "A texture"), "A texture", values.TEXELS)
+    if data.ndim == 3 and data.shape[0] == 1 and data.shape[2] > 4:
+        data = data[0]  # (bands, rows, columns), as rasters are read
     if data.ndim == 2:
         data = data[..., np.newaxis]
     if data.ndim != 3 or not 1 <= data.shape[2] <= 4:
@@ -212,14 +221,17 @@ def encode(
 
     Arrays
         heights: (rows, columns), from 1 x 1, of uint8, int8, uint16, int16, uint32, int32 or
-            float32; any strides and byte order. A sample v is the height ``v * scale + offset`` in
-            `unit`. NaN, samples equal to `nodata`, and masked samples of a masked array are voids.
+            float32; any strides and byte order. Lists, and arrays of other numbers, are taken if
+            float32, int32 or uint32 hold every value exactly; so is (1, rows, columns). A sample v
+            is the height ``v * scale + offset`` in `unit`. NaN, samples equal to `nodata`, and
+            masked samples of a masked array are voids.
             Integers with a mask and without `nodata` are given a nodata value that no sample has.
             nodata="auto" takes as such what files write where they have no height, if all other
             samples lie closer together than to it: -9999 and other rows of nines, -32768, -32767,
             -2147483648 and floats from 1e10 on.
         texture: (rows, columns) grey, or (rows, columns, channels) of 1 to 4 channels (grey, grey
-            and alpha, RGB, RGBA), of uint8 or uint16. Without `texture_alpha` the last of 2 or 4
+            and alpha, RGB, RGBA), of uint8 or uint16; other integers, and lists, become the smaller
+            of these that holds them. Without `texture_alpha` the last of 2 or 4
             channels is a further colour, such as near infrared. `texture_white_level`: the uint16
             that pictures show as white, and that errors count as parts of; found where it is 0
             (reflectances and cameras of 12 bits use a part of 16). No sample is changed.
@@ -251,8 +263,9 @@ def encode(
             or heights alone within max_error) also lays each region out in one piece, for windows
             over a network.
         threads: how many may work; the bytes never depend on it.
-        progress: called with a number from 0 to 1, in the thread that called `encode`; true stops.
-            What it raises, `encode` raises.
+        progress: called with a number from 0 to 1, in the thread that called `encode`. What it
+            raises ends the encode, which raises it; what it returns does not count, since progress
+            bars return what they like.
 
     Raises :class:`TksUsageError` (also a ValueError) for what makes no sense, and other
     :class:`TksError` with their stable `code`. Ctrl-C in the main thread raises KeyboardInterrupt

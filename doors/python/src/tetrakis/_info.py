@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Optional, Tuple, Union
 
 import numpy as np
@@ -140,3 +140,17 @@ def from_struct(raw: c.StreamInfo) -> Info:
         texture_geotransform=tuple(raw.texture_geotransform) if texture_placed else None,
         texture_registration=c.REGISTRATIONS[raw.texture_registration],
     )
+
+
+def of_window(info: Info, window: c.Window) -> Info:
+    """The info of a window of the heights."""
+    place = info.geotransform
+    if place is not None:
+        x, y = window.x, window.y
+        place = (
+            place[0] + x * place[1] + y * place[2],
+            *place[1:3],
+            place[3] + x * place[4] + y * place[5],
+            *place[4:],
+        )
+    return replace(info, shape=(window.height, window.width), geotransform=place)

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The bytes of a stream, wherever they lie."""
+"""Where the bytes of a stream lie: memory, a file, or a server that answers requests for ranges."""
 
 from __future__ import annotations
 
 import os
+import threading
 from typing import Any, BinaryIO, Optional, Union
 
 from . import _values as values
@@ -16,16 +17,115 @@ Source = Union[str, "os.PathLike[str]", BytesLike, BinaryIO]
 _PART = 1 << 26
 
 
+class Ranged:
+    """Bytes that are read where they are needed. Any number of threads may read."""
+
+    def read(self, offset: int, count: int) -> bytes:
+        """`count` bytes from `offset` on; fewer only where the source ends."""
+        raise NotImplementedError
+
+    def rest(self, offset: int) -> bytes:
+        """All bytes from `offset` on."""
+        parts = []
+        while True:
+            part = self.read(offset, _PART)
+            parts.append(part)
+            offset += len(part)
+            if len(part) < _PART:
+                return b"".join(parts)
+
+
+class File(Ranged):
+    """A file that can seek, such as one of fsspec. Who opened it closes it."""
+
+    def __init__(self, file: Any) -> None:
+        self._file = file
+        self._start = file.tell()
+        self._one_reads = threading.Lock()
+
+    def read(self, offset: int, count: int) -> bytes:
+        with self._one_reads:
+            self._file.seek(self._start + offset)
+            return _up_to(self._file, count)
+
+    def __reduce__(self) -> Any:
+        self._file.seek(self._start)
+        return File, (self._file,)
+
+
+class Path(File):
+    """A file by its name; another process opens it again."""
+
+    def __init__(self, path: Any) -> None:
+        self._path = path
+        try:
+            file = open(path, "rb", buffering=0)
+        except ValueError:
+            raise TksUsageError(f"{values.told(path)} is no path of a file.") from None
+        super().__init__(file)
+
+    def __reduce__(self) -> Any:
+        return Path, (self._path,)
+
+    def __del__(self) -> None:
+        if hasattr(self, "_file"):
+            self._file.close()
+
+
+class Remote(Ranged):
+    """What fsspec knows by its address: `s3://`, `gs://`, `zip://` and others."""
+
+    def __init__(self, url: str) -> None:
+        try:
+            import fsspec
+        except ImportError:
+            raise TksUsageError(
+                f"{values.told(url)} takes the package fsspec, which is not installed; give a "
+                "path, an http or https address, or a file that is open."
+            ) from None
+        self._url = url
+        self._files, self._path = fsspec.core.url_to_fs(url)
+        self._size = self._files.size(self._path)
+
+    def read(self, offset: int, count: int) -> bytes:
+        end = min(offset + count, self._size)
+        if offset >= end:
+            return b""
+        part: bytes = self._files.cat_file(self._path, start=offset, end=end)
+        return part
+
+    def __reduce__(self) -> Any:
+        return Remote, (self._url,)
+
+
+def ranged(source: Any) -> Optional[Ranged]:
+    """None where only a reading from front to end is possible, or the bytes are there already."""
+    if isinstance(source, str) and "://" in source:
+        if source.lower().startswith(("http://", "https://")):
+            from ._http import Http
+
+            return Http(source)
+        return Remote(source)
+    if isinstance(source, (str, os.PathLike)):
+        path = Path(source)
+        return path if path._file.seekable() else None
+    seekable = getattr(source, "seekable", None)
+    return File(source) if seekable is not None and seekable() else None
+
+
 def first_bytes(source: Any, limit: Optional[int]) -> bytes:
     """Up to `limit` bytes. What could change under the decoder is copied."""
     count = None if limit is None else values.unsigned(limit, "bytes", 63)
-    if isinstance(source, (str, os.PathLike)):
-        with _opened(source) as file:
-            return _of_file(file, count)
-    if hasattr(source, "read"):
-        return _of_file(source, count)
     if isinstance(source, bytes):
         return source[:count]
+    parts = ranged(source)
+    if parts is not None:
+        return parts.rest(0) if count is None else parts.read(0, count)
+    if isinstance(source, (str, os.PathLike)):  # a pipe
+        with open(source, "rb") as file:
+            return _up_to(file, count)
+    if hasattr(source, "read"):
+        return _up_to(source, count)
     return octets(source)[:count].tobytes()
 
 
@@ -40,14 +140,7 @@ def octets(data: BytesLike) -> memoryview:
     return view if plain else memoryview(view.tobytes())
 
 
-def _opened(path: Any) -> BinaryIO:
-    try:
-        return open(path, "rb")
-    except ValueError:
-        raise TksUsageError(f"{values.told(path)} is no path of a file.") from None
-
-
-def _of_file(file: Any, count: Optional[int]) -> bytes:
+def _up_to(file: Any, count: Optional[int]) -> bytes:
     """Files without a buffer may give less than they are asked for."""
     parts = []
     while count != 0:

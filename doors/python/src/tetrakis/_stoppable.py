@@ -37,7 +37,8 @@ def _run_here(call: Callable[[Any], T], progress: Optional[Progress]) -> T:
 
     def told(_user: Any, done: float) -> int:
         try:
-            return 1 if report(done) else 0
+            report(done)
+            return 0
         except BaseException as exception:  # it cannot cross C
             raised.append(exception)
             return 1
@@ -86,7 +87,9 @@ class _Elsewhere:
             done = self._told.get()
             if done is None:
                 return
-            self._answers.put(bool(self._progress and self._progress(done)))
+            if self._progress is not None:
+                self._progress(done)
+            self._answers.put(False)
 
     def _work(self) -> None:
         try:

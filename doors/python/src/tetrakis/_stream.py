@@ -5,17 +5,22 @@ from __future__ import annotations
 
 import builtins
 import ctypes
-from typing import Any, NamedTuple, Optional
+import math
+from contextlib import contextmanager
+from typing import Any, Iterator, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _library as c
+from . import _picture as picture
 from . import _values as values
+from ._access import Access, access
 from ._decoder import Decoder
 from ._errors import TksUsageError
 from ._ground import mesh_place, mesh_uv
-from ._info import Info
+from ._indexing import selection
+from ._info import Info, of_window
 from ._source import BytesLike, Source, first_bytes
 
 
@@ -48,7 +53,11 @@ def open(
 ) -> "Stream":
     """Opens a stream, or any prefix of one that holds its header.
 
-    source: a path, the bytes themselves, or a file open for reading bytes (of fsspec, say).
+    source: a path, the bytes themselves, a file open for reading bytes, an http or https address,
+        or any other address that the package fsspec knows, if it is installed ("s3://...").
+        Streams with an index (``encode(index="windows")``) are read by ranges: a window or a level
+        fetches the bytes that it needs, and a file has to stay open for that. Others are read at
+        once.
     bytes: read no more than so many; the rest is not fetched.
     threads: how many one call may use. What is decoded never depends on it.
     max_samples, max_texels (2^28 each unless given), max_memory (bytes; 8 GiB unless given): what
@@ -65,7 +74,7 @@ def open(
         max_memory=values.unsigned(max_memory, "max_memory", 64),
     )
     threads = values.unsigned(threads, "threads")
-    return Stream(first_bytes(source, bytes), limits, threads)
+    return Stream(access(source, bytes, limits, threads))
 
 
 def truncate(stream: BytesLike, bytes: int) -> builtins.bytes:
@@ -82,23 +91,25 @@ class Stream:
 
     Each method decodes anew and keeps nothing, so any number of threads may use one stream: they
     run side by side, since decoding releases the GIL.
+
+    A stream is also an array of its heights (of its texture, where it has no heights):
+    ``stream.shape``, ``stream[0:64, ::4]``, ``numpy.asarray(stream)``.
     """
 
-    def __init__(self, data: builtins.bytes, limits: c.Limits, threads: int) -> None:
-        self._data: Optional[builtins.bytes] = data
-        self._limits = limits
-        self._threads = threads
-        self._info = self.describe()
+    def __init__(self, access: Access) -> None:
+        self._access = access
 
     def __enter__(self) -> "Stream":
-        self._prefix(None)
+        self._access.info()
         return self
 
     def __exit__(self, *_: Any) -> None:
         self.close()
 
     def __repr__(self) -> str:
-        info = self._info
+        if self.closed:
+            return "<tetrakis.Stream, closed>"
+        info = self.info
         parts = [
             f"{name} {' x '.join(map(str, shape))} {dtype}"
             for name, shape, dtype in (
@@ -108,28 +119,107 @@ class Stream:
             if shape
         ]
         parts.append(f"{info.available_bytes} of {info.stream_bytes} bytes")
-        return f"<tetrakis.Stream: {', '.join(parts)}{', closed' if self.closed else ''}>"
+        return f"<tetrakis.Stream: {', '.join(parts)}>"
+
+    def _repr_html_(self) -> str:
+        """For notebooks: a picture of 256 samples or fewer a side, and what it is of."""
+        info = self.info
+        facts: dict[str, Any] = {
+            "heights": info.shape and f"{' × '.join(map(str, info.shape))} {info.dtype}",
+            "texture": info.texture_shape
+            and f"{' × '.join(map(str, info.texture_shape))} {info.texture_dtype}",
+            "bytes": f"{info.available_bytes} of {info.stream_bytes}",
+            "lossless": info.lossless or None,
+            "largest error": info.max_error and f"{info.max_error} {info.unit or ''}",
+            "CRS": info.crs and info.crs[:60],
+        }
+        return picture.page(picture.png(self._thumbnail(info)), facts)
+
+    def _thumbnail(self, info: Info) -> NDArray[Any]:
+        if info.texture_shape is not None:
+            level = _level_for(info.texture_shape, info.texture_coarsest_level)
+            return picture.eight_bits(self.texture(level), info.texture_white_level or 65535)
+        level = _level_for(info.shape or (1, 1), info.coarsest_level)
+        return picture.relief(self.surface(level), (info.spacing or (1.0, 1.0))[0])
 
     def close(self) -> None:
         """Lets go of the bytes. Calls of other threads that have begun go on to their end."""
-        self._data = None
+        self._access.close()
 
     @property
     def closed(self) -> bool:
-        return self._data is None
+        return self._access.closed
 
     @property
     def info(self) -> Info:
-        """What the stream says of itself at level 0, as an :class:`Info`."""
-        self._prefix(None)
-        return self._info
+        """What the stream says of itself at level 0, as an :class:`Info`, by the bytes that have
+        been read: of a large file or address with an index these are the first."""
+        return self._access.info()
 
     def describe(
-        self, level: int = 0, texture_level: int = 0, bytes: Optional[int] = None
+        self,
+        level: int = 0,
+        texture_level: int = 0,
+        bytes: Optional[int] = None,
+        *,
+        window: Optional[values.WindowLike] = None,
     ) -> Info:
-        """`info` of mip levels, or of the first `bytes` bytes."""
-        with self._decoder(level, texture_level, bytes) as decoder:
-            return decoder.info()
+        """`info` of mip levels, of the first `bytes` bytes, or of a window of the heights: its
+        `shape` and `geotransform`."""
+        with self._access.glance(bytes) as decoder:
+            decoder.set_levels(*_levels(level, texture_level))
+            info = decoder.info()
+        if window is None:
+            return info
+        part = values.window(window, info.shape or (0, 0))
+        return info if part is None else of_window(info, part)
+
+    @property
+    def shape(self) -> Tuple[int, ...]:
+        """(rows, columns) of the heights; of a stream without heights that of the texture."""
+        info = self.info
+        return info.shape or info.texture_shape or ()
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """The type of the samples that have `shape`."""
+        info = self.info
+        return info.dtype or info.texture_dtype or np.dtype("u1")
+
+    @property
+    def ndim(self) -> int:
+        """2, or 3 for a texture of several channels without heights."""
+        return len(self.shape)
+
+    @property
+    def size(self) -> int:
+        """How many samples there are."""
+        return math.prod(self.shape)
+
+    def __len__(self) -> int:
+        return self.shape[0]
+
+    def __getitem__(self, key: Any) -> Any:
+        """What ``numpy.asarray(stream)[key]`` gives, for integers and slices: decodes a window."""
+        return self.read("heights" if self.info.shape is not None else "texture", key)
+
+    def read(self, component: str, key: Any, level: int = 0) -> Any:
+        """The samples that an index of integers and slices selects of "heights" or "texture"."""
+        values.choice(component, ("heights", "texture"), "component")
+        of_texture = component == "texture"
+        info = self.describe(0, level) if of_texture else self.describe(level)
+        shape = (info.texture_shape if of_texture else info.shape) or (0, 0)
+        window, inner, empty = selection(key, shape)
+        if empty:
+            return np.empty(shape, info.texture_dtype if of_texture else info.dtype)[key]
+        read = self.texture if of_texture else self.heights
+        return read(level, (window.x, window.y, window.width, window.height))[inner]
+
+    def __array__(self, dtype: Any = None, copy: Optional[bool] = None) -> NDArray[Any]:
+        if copy is False:
+            raise ValueError("An array of a stream is decoded, hence new: copy=False has none.")
+        samples = self.heights() if self.info.shape is not None else self.texture()
+        return samples if dtype is None else samples.astype(dtype, copy=False)
 
     def heights(
         self,
@@ -150,10 +240,8 @@ class Stream:
             or NaN without one.
         out: an array in C order to write to, of the right shape and type.
         """
-        masked = values.flag(masked, "masked")
-        with self._decoder(level, 0, bytes) as decoder:
-            info = decoder.info()
-            part = values.window(window, info.shape or (0, 0))
+        parts = [c.PART_HEIGHTS] + [c.PART_VALIDITY] * values.flag(masked, "masked")
+        with self._part(parts, level, window, bytes) as (decoder, info, part):
             samples = decoder.heights(info, part, out)
             if not masked:
                 return samples
@@ -170,9 +258,8 @@ class Stream:
         """Heights in `info.unit` (scale and offset are applied): float32 (rows, columns), voids
         NaN. Prefixes may say more than whole samples can show, so this is what to draw.
         Arguments are those of :meth:`heights`."""
-        with self._decoder(level, 0, bytes) as decoder:
-            info = decoder.info()
-            return decoder.surface(info, values.window(window, info.shape or (0, 0)), out)
+        with self._part([c.PART_HEIGHTS], level, window, bytes) as (decoder, info, part):
+            return decoder.surface(info, part, out)
 
     def validity(
         self,
@@ -182,9 +269,8 @@ class Stream:
     ) -> NDArray[Any]:
         """bool (rows, columns): True where a sample is a height, False where it is void.
         Arguments are those of :meth:`heights`."""
-        with self._decoder(level, 0, bytes) as decoder:
-            info = decoder.info()
-            return decoder.validity(info, values.window(window, info.shape or (0, 0)))
+        with self._part([c.PART_VALIDITY], level, window, bytes) as (decoder, info, part):
+            return decoder.validity(info, part)
 
     def texture(
         self,
@@ -196,9 +282,8 @@ class Stream:
     ) -> NDArray[Any]:
         """Texels: (rows, columns) of a grey texture, else (rows, columns, channels), of
         `info.texture_dtype`. Arguments are those of :meth:`heights`, counted in texels."""
-        with self._decoder(0, level, bytes) as decoder:
-            info = decoder.info()
-            return decoder.texture(info, values.window(window, info.texture_shape or (0, 0)), out)
+        with self._part([c.PART_TEXTURE], level, window, bytes) as (decoder, info, part):
+            return decoder.texture(info, part, out)
 
     def mesh(
         self,
@@ -228,7 +313,7 @@ class Stream:
             raise TksUsageError("A mesh takes one triangle or more; None means all samples.")
         values.choice(coordinates, ("local", "crs"), "coordinates")
         matrix = None if view is None else values.matrix(view)
-        with self._decoder(0, 0, bytes) as decoder:
+        with self._access.prefix(bytes) as decoder:
             info = decoder.info()
             if coordinates == "crs" and info.shape and info.geotransform is None:
                 raise TksUsageError("The stream does not say where its heights lie.")
@@ -244,25 +329,41 @@ class Stream:
     def verify(self) -> None:
         """Checks the syntax of the whole stream. Raises :class:`TksTruncatedError` if it is a
         prefix, :class:`TksCorruptError` if it is damaged."""
-        with self._decoder(0, 0, None) as decoder:
+        with self._access.whole() as decoder:
             decoder.verify()
 
-    def _prefix(self, count: Optional[int]) -> builtins.bytes:
-        data = self._data
-        if data is None:
-            raise TksUsageError("The stream is closed.")
-        return data if count is None else data[: values.unsigned(count, "bytes", 63)]
+    @contextmanager
+    def _part(
+        self,
+        parts: Sequence[int],
+        level: int,
+        window: Optional[values.WindowLike],
+        count: Optional[int],
+    ) -> Iterator[Tuple[Decoder, Info, Optional[c.Window]]]:
+        """A decoder at `level` with the bytes that these parts of the window need, its info, and
+        the window. A whole plane takes all bytes, so that their checksum can be looked at."""
+        of_texture = parts[0] == c.PART_TEXTURE
+        levels = _levels(0, level) if of_texture else _levels(level, 0)
+        with self._access.glance(None) as decoder:
+            decoder.set_levels(*levels)
+            info = decoder.info()
+        part = values.window(window, (info.texture_shape if of_texture else info.shape) or (0, 0))
+        if count is None and (part is not None or level > 0):
+            with self._access.part(levels, [(each, part) for each in parts]) as decoder:
+                yield decoder, info, part
+            return
+        with self._access.prefix(count) as decoder:
+            decoder.set_levels(*levels)
+            yield decoder, info, part
 
-    def _decoder(self, level: int, texture_level: int, count: Optional[int]) -> Decoder:
-        decoder = Decoder(self._prefix(count), self._limits, self._threads)
-        try:
-            decoder.set_levels(
-                values.unsigned(level, "level"), values.unsigned(texture_level, "level")
-            )
-        except BaseException:
-            decoder.__exit__()
-            raise
-        return decoder
+
+def _levels(heights: int, texture: int) -> Tuple[int, int]:
+    return values.unsigned(heights, "level"), values.unsigned(texture, "level")
+
+
+def _level_for(shape: Sequence[int], coarsest: int) -> int:
+    """The finest level of 256 samples or fewer a side."""
+    return min(coarsest, max(0, (max(shape[:2]) - 1).bit_length() - 8))
 
 
 def _masked(samples: NDArray[Any], valid: NDArray[Any], info: Info) -> np.ma.MaskedArray:

@@ -193,6 +193,40 @@ def samples(array: NDArray[Any], what: str, allowed: Sequence[np.dtype] = SAMPLE
     return np.asarray(array, native, order="C")
 
 
+def exact(array: NDArray[Any], what: str, allowed: Sequence[np.dtype] = SAMPLES) -> NDArray[Any]:
+    """As `samples`, and arrays of other numbers whose every value one of the types holds: those
+    that lists, NumPy's defaults and scientific files have."""
+    native = array.dtype.newbyteorder("=")
+    if native in allowed or native.kind not in "iuf" or array.size == 0:
+        return samples(array, what, allowed)
+    kept = _as_float(array, allowed) if native.kind == "f" else _as_integers(array, allowed)
+    if kept is None:
+        names = ", ".join(str(dtype) for dtype in allowed)
+        raise TksUsageError(
+            f"{what} of type {array.dtype} have values that none of the types {names} holds "
+            "exactly. Convert with astype() to the one that is near enough for you."
+        )
+    return np.asarray(kept, order="C")
+
+
+def _as_float(array: NDArray[Any], allowed: Sequence[np.dtype]) -> Optional[NDArray[Any]]:
+    single = np.dtype("f4")
+    with np.errstate(over="ignore"):
+        kept = array.astype(single)
+    same = (kept == array) | (np.isnan(kept) & np.isnan(array))
+    return kept if single in allowed and same.all() else None
+
+
+def _as_integers(array: NDArray[Any], allowed: Sequence[np.dtype]) -> Optional[NDArray[Any]]:
+    """Heights have 32 bits, so that their type does not depend on what they are."""
+    low, high = int(array.min()), int(array.max())
+    for dtype in (np.dtype("i4"), np.dtype("u4")) if len(allowed) > len(TEXELS) else TEXELS:
+        limits = np.iinfo(dtype)
+        if limits.min <= low and high <= limits.max:
+            return array.astype(dtype)
+    return None
+
+
 def output(out: Optional[NDArray[Any]], shape: Tuple[int, ...], dtype: np.dtype) -> NDArray[Any]:
     """`out` if it can take the samples, else a new array."""
     if out is None:
