@@ -325,10 +325,27 @@ TEST_F(CliPlace, LocalGridsHaveTheSpacingOfTheirUnit) {
   }
 }
 
+/// As old programs and those of other languages write them: GDAL, which judges, reads them too.
+TEST_F(CliPlace, OddWorldFilesAreReadAsGdalDoes) {
+  ASSERT_EQ(cli("synth --size 17 -o s").code, 0);
+  ASSERT_EQ(cli("-q encode s/height.tif --lossless -f -o p.tks").code, 0);
+  ASSERT_EQ(cli("decode p.tks -f --height h.png").code, 0);
+  for (const char* text : {"10.5\r\n0\r\n0\r\n-10.25\r\n400005.25\r\n5300034.875\r\n\x1a",
+                           "10.5\n0\n0\n-10.25\n400005.25\n5300034.875\x1a",
+                           "10.5\n0\n0\n-10.25\n400005.25\n5300034.875\n17\nmade by hand\n",
+                           "10,5\n0,0\n0\n-10,25\n400005,25\n5300034,875\n",
+                           "\n 10.5 m\n\n+0\n0\n-1.025e1\n400005.25\n5300034.875"}) {
+    write("h.pgw", text);
+    ASSERT_EQ(cli("-q encode h.png --lossless -f -o s.tks").code, 0) << text;
+    EXPECT_EQ(Json(placeOf("s.tks", "heights")), gdalinfo("h.png")["geoTransform"]) << text;
+  }
+}
+
 TEST_F(CliPlace, BrokenWorldFilesAreRefusedWithOneSentence) {
   ASSERT_TRUE(tools::writeHeights(path("h.png"), hills(9)).ok());
-  for (const char* text : {"", "1 2 3 4 5", "1 2 3 4 5 6 7", "1 0 0 -1 nan 0", "1 0 0 -1 1e300 0",
-                           "1 0 0 -1 5,5 0", "a map"}) {
+  for (const char* text :
+       {"", "1\n2\n3\n4\n5", "1 2 3 4 5 6", "1\n0\n0\n-1\nnan\n0", "1\n0\n0\n-1\n1e300\n0",
+        "0\n0\n0\n-1\n5\n0", "1\n0\n0\n-1\nx5\n0", "a map"}) {
     write("h.pgw", text);
     const Outcome run = cli("encode h.png --lossless -f -o s.tks");
     EXPECT_EQ(run.code, 2) << text;

@@ -345,15 +345,27 @@ TEST_F(GeoTiff, LayoutsThatAreNotReadExactlyAreRefused) {
     EXPECT_EQ(read.status().code(), TKS_USAGE) << what << ": " << read.status().message();
     tiff = plain;
   };
-  tiff.remove(TinyTiff::kBitsPerSample);
-  expectRefused("bits per sample unstated");
-  tiff.shorts(TinyTiff::kBitsPerSample, {4});
-  expectRefused("four bits");
   tiff.shorts(TinyTiff::kPhotometric, {0});
   expectRefused("white is zero");
   tiff.shorts(TinyTiff::kPhotometric, {3});
   tiff.shorts(TinyTiff::kColorMap, std::vector<uint16_t>(3 * 256));
   expectRefused("palette");
+}
+
+/// Where nothing is stated, a sample has one bit (TIFF 6.0, BitsPerSample).
+TEST_F(GeoTiff, FewBitsAreReadAsTheyAre) {
+  for (const uint16_t bits : {uint16_t{1}, uint16_t{4}}) {
+    TinyTiff few(
+        5, 1, 1, bits,
+        bits == 1 ? std::vector<uint8_t>{0b10110000} : std::vector<uint8_t>{0x1F, 0x02, 0x30});
+    if (bits == 1) few.remove(TinyTiff::kBitsPerSample);
+    const auto read = readHeights(save("a.tif", few.bytes()));
+    ASSERT_TRUE(read.ok()) << read.status().message();
+    EXPECT_EQ(read->sample, TKS_U8);
+    const std::vector<int> wanted =
+        bits == 1 ? std::vector{1, 0, 1, 1, 0} : std::vector{1, 15, 0, 2, 3};
+    for (size_t i = 0; i < wanted.size(); ++i) EXPECT_EQ(int(read->data[i]), wanted[i]) << i;
+  }
 }
 
 /// A few bytes may declare any size.

@@ -169,10 +169,37 @@ TEST_F(ImageAlpha, NodataBecomesAlpha) {
   const auto read = readImage(save("a.tif", wide.bytes()));
   ASSERT_TRUE(read.ok());
   EXPECT_EQ(read->channels, 2u);
-  TinyTiff narrow(4, 1, 1, 4, {0x0F, 0x50});  // 15 becomes 255
+  TinyTiff narrow(4, 1, 1, 4, {0x0F, 0x50});  // 15 becomes 255, which is no nodata value
   narrow.ascii(kNodata, "15");
-  expectPixels(readImage(save("a.tif", narrow.bytes()), &note), {0, 255, 85, 0});
+  expectPixels(readImage(save("a.tif", narrow.bytes()), &note), {0, 255, 255, 0, 85, 255, 0, 255});
   EXPECT_NE(note.find("nodata"), std::string::npos);
+}
+
+/// Palettes and shades as well: what counts is the sample that the file stores.
+TEST_F(ImageAlpha, NodataIsWhatIsStored) {
+  TinyTiff tiff(3, 1, 1, 8, {1, 0, 255});
+  tiff.ascii(TinyTiff::kGdalNodata, "1");
+  tiff.shorts(TinyTiff::kPhotometric, {0});
+  std::string note;
+  expectPixels(readImage(save("a.tif", tiff.bytes()), &note), {254, 0, 255, 255, 0, 255});
+  std::vector<uint16_t> colours(3 * 256);
+  for (size_t i = 0; i < 3; ++i) colours[256 * i + 1] = uint16_t(257 * (i + 10));
+  tiff.shorts(TinyTiff::kPhotometric, {3});
+  tiff.shorts(TinyTiff::kColorMap, colours);
+  expectPixels(readImage(save("b.tif", tiff.bytes()), &note),
+               {10, 11, 12, 0, 0, 0, 0, 255, 0, 0, 0, 255});
+  EXPECT_NE(note.find("nodata value have alpha 0"), std::string::npos) << note;
+}
+
+/// A file that calls its last channel alpha and leaves it at 0 shows nothing.
+TEST_F(ImageAlpha, AnAlphaThatHidesEverythingIsTold) {
+  for (const uint8_t alpha : {uint8_t{0}, uint8_t{1}}) {
+    TinyTiff tiff(2, 1, 4, 8, {1, 2, 3, 0, 4, 5, 6, alpha});
+    tiff.shorts(TinyTiff::kExtraSamples, {2});
+    std::string note;
+    ASSERT_TRUE(readImage(save("a.tif", tiff.bytes()), &note).ok());
+    EXPECT_EQ(note.find("hides every texel") != std::string::npos, alpha == 0) << note;
+  }
 }
 
 /// 1 x 2 pixels, of which the second is left out.

@@ -312,7 +312,7 @@ TEST_F(ImageFiles, FewBitsAreWidenedToFullRange) {
   expectPixels(readImage(save("b.tif", bilevel.bytes())), {255, 0, 255, 0, 0, 0, 0, 0, 255});
 }
 
-TEST_F(ImageFiles, WhiteIsZeroIsInvertedUpToEightBits) {
+TEST_F(ImageFiles, WhiteIsZeroIsTurnedOver) {
   TinyTiff bilevel(9, 1, 1, 1, {0b10100000, 0b10000000});
   bilevel.shorts(TinyTiff::kPhotometric, {0});
   expectPixels(readImage(save("a.tif", bilevel.bytes())), {0, 255, 0, 255, 255, 255, 255, 255, 0});
@@ -321,7 +321,13 @@ TEST_F(ImageFiles, WhiteIsZeroIsInvertedUpToEightBits) {
   expectPixels(readImage(save("b.tif", grey.bytes())), {255, 55});
   TinyTiff deep(1, 1, 1, 16, {1, 2});
   deep.shorts(TinyTiff::kPhotometric, {0});
-  EXPECT_EQ(readImage(save("c.tif", deep.bytes())).status().code(), TKS_USAGE);
+  expectPixels(readImage(save("c.tif", deep.bytes())), {0xFE, 0xFD});
+  TinyTiff with_alpha(1, 1, 2, 8, {10, 20});
+  with_alpha.shorts(TinyTiff::kPhotometric, {0});
+  with_alpha.shorts(TinyTiff::kExtraSamples, {2});
+  std::string note;
+  expectPixels(readImage(save("d.tif", with_alpha.bytes()), &note), {245, 20});
+  EXPECT_NE(note.find("white as 0"), std::string::npos) << note;
 }
 
 TEST_F(ImageFiles, FilesThatEndEarlyAreRefused) {

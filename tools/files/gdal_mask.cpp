@@ -14,12 +14,6 @@ namespace {
 
 using Mask = std::vector<uint8_t>;
 
-uint16_t shortTag(TIFF* tiff, uint32_t tag) {
-  uint16_t value = 0;
-  TIFFGetFieldDefaulted(tiff, tag, &value);
-  return value;
-}
-
 /// Where a row or a tile of the page goes.
 struct Block {
   uint32_t x, y, width, height;

@@ -11,6 +11,7 @@
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/files.hpp"
 #include "tools/files/gdal_mask.hpp"
+#include "tools/files/pictures/picture_header.hpp"
 #include "tools/files/pictures/png.hpp"
 #include "tools/files/pictures/raster.hpp"
 #include "tools/files/pictures/tiff.hpp"
@@ -63,7 +64,7 @@ Result<tks_sample> heightSampleOf(const Raster& raster) {
   const int stored = raster.stored_bits ? raster.stored_bits : bits;
   const auto* type = std::find_if(kSampleTypes.begin(), kSampleTypes.end(),
                                   [&](const auto& known) { return known.stored == shape.sample; });
-  if (type == kSampleTypes.end() || (raster.stored_bits != 0 && raster.stored_bits != bits)) {
+  if (type == kSampleTypes.end() || (stored != bits && !raster.as_stored)) {
     return Status(TKS_USAGE, raster.name + " has samples of " + std::to_string(stored) +
                                  " bits, heights have 8, 16 or 32: convert it (gdal_translate -co "
                                  "NBITS=" +
@@ -130,7 +131,7 @@ Result<std::vector<uint8_t>> maskOf(const Raster& raster, uint32_t width, uint32
 /// The nodata value is as given, else as the file declares it.
 Result<Reading> readRasterHeights(const std::string& path, const std::optional<double>& nodata,
                                   Notes& notes) {
-  auto raster = openRaster(path);
+  auto raster = openRaster(path, kMostHeights);
   if (!raster.ok()) return raster.status();
   const auto sample = heightSampleOf(*raster);
   if (!sample.ok()) return sample.status();

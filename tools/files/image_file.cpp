@@ -10,7 +10,9 @@
 #include "tools/files/files.hpp"
 #include "tools/files/gdal_mask.hpp"
 #include "tools/files/pictures/alpha.hpp"
+#include "tools/files/pictures/picture_header.hpp"
 #include "tools/files/pictures/raster.hpp"
+#include "tools/files/pictures/shown_colours.hpp"
 #include "tools/files/pictures/tag_number.hpp"
 #include "tools/files/pictures/tiff.hpp"
 #include "tools/files/place/pam.hpp"
@@ -81,7 +83,14 @@ bool isWidened(const ImageFile& image) {
 }
 
 /// What has become of the mask.
-enum class Masked { kNo, kAsAlpha, kBesideAlpha, kNodataAsAlpha };
+enum class Masked {
+  kNo,
+  kAsAlpha,
+  kBesideAlpha,
+  kNodataAsAlpha,
+  kNodataBesideAlpha,
+  kNodataEverywhere
+};
 
 bool hasAlpha(const std::vector<BandColour>& colours) {
   return std::find(colours.begin(), colours.end(), BandColour::kAlpha) != colours.end();
@@ -107,12 +116,14 @@ Result<std::string> arrangeBands(const Raster& raster, const std::string& path, 
   return "bands taken in the order " + bands + ", as their colours say";
 }
 
-/// Whether the samples of one or three colours are what the file holds, its nodata value too.
-bool keepsValues(const Raster& raster, const ImageFile& image) {
-  const int bits = raster.stored_bits;
-  const bool whole = bits == 8 || bits == 16 || bits == 32;
-  return whole && !raster.palette && !raster.cmyk && !raster.white_is_zero &&
-         image.channels % 2 != 0;
+/// Whether alpha is 0 everywhere.
+bool hidesAll(const ImageFile& image) {
+  if (!image.hasAlpha()) return false;
+  const size_t sample = tks_sample_bytes(image.sample), pixel = image.channels * sample;
+  for (size_t at = pixel - sample; at < image.data.size(); at += pixel)
+    for (size_t i = 0; i < sample; ++i)
+      if (image.data[at + i] != std::byte{0}) return false;
+  return true;
 }
 
 std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked,
@@ -123,6 +134,8 @@ std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked,
   };
   if (raster.palette) add("palette converted to RGB");
   if (raster.cmyk) add("CMYK converted to RGB");
+  if (raster.white_is_zero) add("shades turned over, because it stores white as 0");
+  if (raster.fourth_reserved) add("fourth channel left out, because the file does not use it");
   if (raster.shape.sample == PictureSample::kU32) add("16 of its 32 bits hold all its values");
   if (raster.alpha == Raster::Alpha::kAssociated) add("colours divided by their alpha");
   if (raster.orientation != 1) add("turned upright as its orientation tag says");
@@ -131,15 +144,23 @@ std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked,
   const int bits = raster.stored_bits;
   if (isWidened(image)) add("its 16 bits say no more than 8, which would take far fewer bytes");
   if (raster.shape.sample == PictureSample::kU16 && bits > 8 && bits < 16)
-    add((std::to_string(bits) + " bits stretched to 16").c_str());
+    add((std::to_string(bits) + (raster.as_stored && !raster.cmyk
+                                     ? " bits kept as they are, with a white level"
+                                     : " bits stretched to 16"))
+            .c_str());
   if (image.hasFurtherColour())
     add("last channel taken for a colour, because the file does not call it alpha");
   if (masked == Masked::kAsAlpha) add("mask kept as alpha");
   if (masked == Masked::kNodataAsAlpha) {
     add("texels of its nodata value have alpha 0");
-  } else if (!raster.nodata.empty() && !keepsValues(raster, image)) {
+  } else if (masked == Masked::kNodataEverywhere) {
+    add("nodata value not applied, because all texels have it");
+  } else if (masked == Masked::kNodataBesideAlpha) {
     add("nodata value not applied and not kept");
   }
+  if (raster.sparse) add("strips or tiles that the file leaves out filled as GDAL does");
+  if (hidesAll(image))
+    add("its alpha hides every texel; gdal_translate -b 1 -b 2 -b 3 leaves an alpha out");
   if (masked == Masked::kBesideAlpha) add("mask not applied and not kept beside its last channel");
   if (raster.further_pages) add("further pages left out");
   if (raster.unread_place) add("place in GML, or in damaged tags, not read");
@@ -155,23 +176,30 @@ Result<std::vector<uint8_t>> maskOf(const Raster& raster, const std::string& pat
   return readMaskPage(raster.file.path(), width, height);
 }
 
-/// As GDAL's mask does: texels that have the nodata value in all channels are not there. An alpha
-/// goes before it, and so does a picture of which nothing else is there.
-Masked applyNodata(const Raster& raster, ImageFile& image) {
+/// As GDAL's mask does: texels that have the nodata value in all samples that the file stores are
+/// not there. Empty: none is declared.
+std::vector<uint8_t> nodataMask(const Raster& raster, const ImageFile& stored) {
   const std::optional<double> nodata = tagNumber(raster.nodata);
-  if (!nodata || !keepsValues(raster, image)) return Masked::kNo;
-  const std::vector<uint8_t> mask = maskOfValue(image, *nodata);
+  return nodata ? maskOfValue(stored, *nodata) : std::vector<uint8_t>();
+}
+
+/// An alpha goes before it, and so does a picture of which nothing else is there.
+Masked applyNodata(const std::vector<uint8_t>& mask, ImageFile& image) {
+  if (mask.empty()) return Masked::kNo;
+  if (image.channels % 2 == 0) return Masked::kNodataBesideAlpha;
   const auto there = std::count(mask.begin(), mask.end(), 1);
-  if (there == 0 || static_cast<size_t>(there) == mask.size()) return Masked::kNo;
+  if (static_cast<size_t>(there) == mask.size()) return Masked::kNo;
+  if (there == 0) return Masked::kNodataEverywhere;
   image = withAlpha(image, mask);
   return Masked::kNodataAsAlpha;
 }
 
 /// Pixels that a mask leaves out get alpha 0; an image of two or four channels has no room for it.
-Result<Masked> applyMask(const Raster& raster, const std::string& path, ImageFile& image) {
+Result<Masked> applyMask(const Raster& raster, const std::string& path,
+                         const std::vector<uint8_t>& nodata, ImageFile& image) {
   const auto mask = maskOf(raster, path);
   if (!mask.ok()) return mask.status();
-  if (std::find(mask->begin(), mask->end(), 0) == mask->end()) return applyNodata(raster, image);
+  if (std::find(mask->begin(), mask->end(), 0) == mask->end()) return applyNodata(nodata, image);
   if (image.channels % 2 == 0) return Masked::kBesideAlpha;
   image = withAlpha(image, *mask);
   return Masked::kAsAlpha;
@@ -214,7 +242,7 @@ bool isNamedAsHeights(const std::string& path) {
 Result<ImageFile> readImage(const std::string& path, std::string* note) {
   if (isNamedAsHeights(path))
     return Status(TKS_USAGE, quoted(path) + " is a file of heights: a texture is a picture");
-  auto raster = openRaster(path);
+  auto raster = openRaster(path, kMostTexels);
   if (!raster.ok()) return raster.status();
   const PictureShape& shape = raster->shape;
   if (shape.channels > 4) {
@@ -222,8 +250,6 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
                                  " channels: a texture has 1 to 4, which gdal_translate -b 1 -b 2 "
                                  "-b 3 picks");
   }
-  if (raster->sparse)
-    return Status(TKS_IO, "cannot read " + raster->name + ": a part of its samples is missing");
   const auto sample = sampleOf(*raster);
   if (!sample.ok()) return sample.status();
   auto data = textureSamples(*raster, *sample);
@@ -232,16 +258,22 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
                   static_cast<uint32_t>(shape.channels), *sample, std::move(*data)};
   const auto arranged = arrangeBands(*raster, path, image);
   if (!arranged.ok()) return arranged.status();
+  if (raster->fourth_reserved) {
+    image.opaque = true;
+    image = withoutFurtherColour(image);
+  }
+  const std::vector<uint8_t> nodata = nodataMask(*raster, image);
+  if (Status shown = showColours(*raster, image); !shown.ok()) return shown;
   if (raster->alpha == Raster::Alpha::kMultiplied && !isOpaque(image)) {
     return Status(TKS_USAGE, raster->name +
                                  " has an alpha that reading multiplies into the colours: convert "
                                  "it to PNG");
   }
   if (raster->alpha == Raster::Alpha::kAssociated) divideByAlpha(image);
-  const auto masked = applyMask(*raster, path, image);
+  const auto masked = applyMask(*raster, path, nodata, image);
   if (!masked.ok()) return masked.status();
   const tks_image known = asImage(image);
-  image.white_level = tks_find_white_level(&known);
+  if (image.white_level == 0) image.white_level = tks_find_white_level(&known);
   if (note) *note = noteOn(*raster, image, *masked, *arranged);
   if (raster->orientation != 1) return turnedUpright(image, raster->orientation);
   Notes notes;

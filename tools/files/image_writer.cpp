@@ -21,7 +21,7 @@ constexpr unsigned kAll = kGrey | kGreyAlpha | kRgb | kRgba;
 
 /// A format by OpenImageIO's name, and what comes back of it. A table, because the library can be
 /// asked neither which depths nor which channels a format takes (it converts, and DPX even aborts).
-/// Left out: formats of floats alone (OpenEXR, HDR, Zfile), which no texture is read from, and
+/// Left out: bitmaps with alpha, which OpenImageIO 2.4 does not call so, formats of floats alone (OpenEXR, HDR, Zfile), which no texture is read from, and
 /// FITS, of which OpenImageIO 2.4 makes files that others do not read.
 struct Format {
   const char* name;
@@ -32,7 +32,7 @@ constexpr std::array kFormats{
     Format{"png", kAll, kAll},
     Format{"tiff", kAll, kAll},
     Format{"jpeg", kGrey | kRgb, 0, false},
-    Format{"bmp", kGrey | kRgb | kRgba, 0},
+    Format{"bmp", kGrey | kRgb, 0},
     Format{"gif", kRgb, 0, false},
     Format{"heif", kRgb | kRgba, 0, false},
     Format{"ico", kRgba, 0},

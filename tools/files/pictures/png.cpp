@@ -74,13 +74,6 @@ void noteChunks(spng_ctx* context, DecodedPng& png) {
 
 }  // namespace
 
-bool isPng(std::span<const std::byte> bytes) {
-  constexpr std::array<unsigned char, 4> kSignature{0x89, 'P', 'N', 'G'};
-  const auto signature = std::as_bytes(std::span(kSignature));
-  return bytes.size() >= signature.size() &&
-         std::equal(signature.begin(), signature.end(), bytes.begin());
-}
-
 Result<DecodedPng> decodePng(std::span<const std::byte> bytes, const std::string& name) {
   const Context context(spng_ctx_new(0));
   if (!context) return Status(TKS_NO_MEMORY, "out of memory");

@@ -13,9 +13,6 @@
 
 namespace tetrakis::tools {
 
-/// By the first half of the signature; decodePng checks the rest.
-bool isPng(std::span<const std::byte> bytes);
-
 struct DecodedPng {
   ImageFile image;
   int stored_bits = 0;    ///< 1, 2, 4, 8, 16; fewer than 8 were widened to full range

@@ -52,6 +52,13 @@ std::string_view textOf(std::span<const std::byte> file) {
 
 }  // namespace
 
+std::optional<std::array<uint64_t, 2>> readPnmSides(std::string_view file) {
+  Words words(file, 2);
+  const auto width = words.number(), height = words.number();
+  if (!width || !height) return std::nullopt;
+  return std::array{*width, *height};
+}
+
 std::optional<PnmHeader> readPnmHeader(std::span<const std::byte> file) {
   const std::string_view text = textOf(file);
   const std::string_view magic = text.substr(0, 2);

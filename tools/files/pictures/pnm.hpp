@@ -4,11 +4,13 @@
 // out one too low.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/status.hpp"
@@ -20,6 +22,10 @@ struct PnmHeader {
   uint64_t white = 0;  ///< the largest sample that there may be
   size_t end = 0;      ///< where the samples begin
 };
+
+/// Columns and rows of any portable picture, which begins with two letters; nothing where they are
+/// no numbers.
+std::optional<std::array<uint64_t, 2>> readPnmSides(std::string_view file);
 
 /// Nothing for other files: bitmaps have no white, floats another header.
 std::optional<PnmHeader> readPnmHeader(std::span<const std::byte> file);

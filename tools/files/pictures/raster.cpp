@@ -8,14 +8,16 @@
 #include <exception>
 #include <fstream>
 #include <new>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "tools/files/memory_limit.hpp"
-#include "tools/files/pictures/plain_tiff.hpp"
+#include "tools/files/pictures/jpeg2000.hpp"
+#include "tools/files/pictures/picture_header.hpp"
 #include "tools/files/pictures/png.hpp"
 #include "tools/files/pictures/stored_form.hpp"
-#include "tools/files/pictures/tiff.hpp"
+#include "tools/files/pictures/tiff_picture.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -28,65 +30,101 @@ Status outOfMemory(const std::string& name) {
   return {TKS_NO_MEMORY, name + " does not fit in memory"};
 }
 
-Result<bool> startsAsPng(const InputFile& file, const std::string& name) {
+/// "II" or "MM", and 42, or 43 for BigTIFF, in that order of bytes.
+Result<bool> startsAsTiff(const InputFile& file, const std::string& name) {
   std::array<char, 4> head{};
   std::ifstream stream(file.path(), std::ios::binary);
   if (!stream) return unreadable(name, std::generic_category().message(errno));
   stream.read(head.data(), head.size());
-  return isPng(std::as_bytes(std::span(head).first(static_cast<size_t>(stream.gcount()))));
+  const std::string_view text(head.data(), head.size());
+  for (const char version : {char{42}, char{43}})
+    if (text == std::string{'I', 'I', version, 0} || text == std::string{'M', 'M', 0, version})
+      return true;
+  return false;
 }
 
-Result<Raster> openPng(InputFile file, const std::string& name) {
-  const auto bytes = readBytes(file.path());
-  if (!bytes.ok()) return bytes.status();
-  auto png = decodePng(*bytes, name);
+Status takePng(Raster& raster, std::span<const std::byte> bytes) {
+  auto png = decodePng(bytes, raster.name);
   if (!png.ok()) return png.status();
-  const ImageFile& image = png->image;
-  Raster raster{std::move(file), name, nullptr, shapeOf(image)};
+  raster.shape = shapeOf(png->image);
   raster.stored_bits = png->stored_bits;
   raster.palette = png->palette;
   raster.profile = png->profile;
   raster.orientation = png->orientation;
   raster.further_pages = png->animated;
   raster.decoded = std::move(png->image.data);
-  return raster;
+  return {};
 }
 
-Result<std::unique_ptr<PictureReader>> openByOpenImageIo(const std::string& path) {
+Status openAsTiff(Raster& raster, uint64_t most_side) {
+  auto reader = openTiff(raster.file.path(), raster.name, most_side);
+  if (!reader.ok()) return reader.status();
+  raster.reader = std::move(*reader);
+  raster.shape = raster.reader->shape();
+  return {};
+}
+
+/// Its form has been read once: samples come as they are coded.
+Status openAsJpeg2000(Raster& raster, std::span<const std::byte> bytes, uint64_t most_side) {
+  const auto form = jpeg2000Form(bytes, raster.name);
+  if (!form.ok()) return form.status();
+  Status sides = checkSides(raster.name, form->width, form->height, most_side);
+  if (!sides.ok()) return sides;
+  raster.reader = openJpeg2000(raster.file.path(), *form);
+  raster.shape = raster.reader->shape();
+  raster.stored_bits = form->bits;
+  raster.as_stored = true;
+  raster.colours = form->colours;
+  if (form->associated_alpha) raster.alpha = Raster::Alpha::kAssociated;
+  return {};
+}
+
+/// OpenImageIO's formats, of which the header says what is to be read.
+Status openOther(Raster& raster, const PictureHeader& header) {
   const auto formats = pictureFormats();
   if (!formats.ok()) return formats.status();
-  auto reader = (*formats)->open(path);
-  if (!reader.ok() &&
-      reader.status().message().find("could not find a format reader") != std::string::npos) {
-    return Status(TKS_IO,
-                  "it is in no known picture format; of what GDAL reads gdal_translate IN OUT.tif "
-                  "makes a TIFF");
-  }
-  return reader;
+  auto reader = (*formats)->open(raster.file.path());
+  if (!reader.ok()) return unreadable(raster.name, reader.status().message());
+  raster.reader = std::move(*reader);
+  raster.shape = raster.reader->shape();
+  raster.fourth_reserved = header.fourth_reserved;
+  if (raster.reader->format() != header.format)
+    return unreadable(raster.name, "its reader takes it for " + raster.reader->format());
+  return checkShape(raster.name, header, raster.shape);
 }
 
-Result<Raster> openUnguarded(const std::string& path) {
+/// What is neither TIFF nor PNG.
+Status openCoded(Raster& raster, std::span<const std::byte> bytes, uint64_t most_side) {
+  if (isJpeg2000(bytes)) return openAsJpeg2000(raster, bytes, most_side);
+  const auto header = readPictureHeader(bytes, raster.name);
+  if (!header.ok()) return header.status();
+  if (header->format.empty())
+    return unreadable(raster.name,
+                      "it is in no picture format that is read; of what GDAL reads gdal_translate "
+                      "IN OUT.tif makes a TIFF");
+  Status sides = checkSides(raster.name, header->width, header->height, most_side);
+  if (!sides.ok()) return sides;
+  if (!header->refused.empty()) return {TKS_USAGE, header->refused};
+  return header->format == "png" ? takePng(raster, bytes) : openOther(raster, *header);
+}
+
+Result<Raster> openUnguarded(const std::string& path, uint64_t most_side) {
   auto file = InputFile::open(path);
   if (!file.ok()) return file.status();
-  const auto png = startsAsPng(*file, quoted(path));
-  if (!png.ok()) return png.status();
-  if (*png) return openPng(std::move(*file), quoted(path));
   Raster raster{std::move(*file), quoted(path), nullptr, {}};
-  raster.reader = openPlainTiff(raster.file.path());
-  raster.plain = raster.reader != nullptr;
-  if (!raster.plain) {
-    const Status taken = checkTiffSamples(raster.file.path(), raster.name);
-    if (!taken.ok()) return taken;
-    auto reader = openByOpenImageIo(raster.file.path());
-    if (!reader.ok()) return unreadable(raster.name, reader.status().message());
-    raster.reader = std::move(*reader);
+  const auto tiff = startsAsTiff(raster.file, raster.name);
+  if (!tiff.ok()) return tiff.status();
+  Status status;
+  if (*tiff) {
+    status = openAsTiff(raster, most_side);
+  } else {
+    const auto bytes = readBytes(raster.file.path());
+    if (!bytes.ok()) return bytes.status();
+    status = openCoded(raster, *bytes, most_side);
   }
-  raster.shape = raster.reader->shape();
-  if (raster.shape.depth > 1 || raster.shape.width < 1 || raster.shape.height < 1) {
-    return Status(TKS_USAGE, raster.name + " is not a flat picture");
-  }
-  Status status = checkSize(raster.name, raster.shape.samples(), sizeOf(raster.shape.sample));
-  if (status.ok()) status = noteStoredForm(raster);
+  if (!status.ok()) return status;
+  status = checkSize(raster.name, raster.shape.samples(), sizeOf(raster.shape.sample));
+  if (status.ok() && raster.reader) status = noteStoredForm(raster);
   if (!status.ok()) return status;
   return raster;
 }
@@ -105,9 +143,9 @@ Status checkSize(const std::string& name, uint64_t samples, size_t sample_bytes)
   return checkMemoryFor("reading " + name, kCopies * samples * sample_bytes);
 }
 
-Result<Raster> openRaster(const std::string& path) {
+Result<Raster> openRaster(const std::string& path, uint64_t most_side) {
   try {
-    return openUnguarded(path);
+    return openUnguarded(path, most_side);
   } catch (const std::bad_alloc&) {
     return outOfMemory(quoted(path));
   } catch (const std::exception& error) {

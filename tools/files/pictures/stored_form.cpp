@@ -2,8 +2,6 @@
 // How picture files store their samples, format by format.
 #include "tools/files/pictures/stored_form.hpp"
 
-#include <algorithm>
-#include <array>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,36 +16,22 @@ namespace tetrakis::tools {
 namespace {
 
 Status noteTiff(Raster& raster) {
-  constexpr const char* kPhotometric = "tiff:PhotometricInterpretation";
-  constexpr int kCieLab = 8, kIccLab = 9, kItuLab = 10;
-  raster.stored_bits = raster.reader->number("oiio:BitsPerSample");
   const auto form = tiffForm(raster.file.path());
   if (!form.ok()) return form.status();
-  raster.sparse = form->sparse;
-  // OpenImageIO cannot read those.
-  if (!form->whole || (form->sparse && !raster.plain))
+  if (!form->whole)
     return {TKS_IO, "cannot read " + raster.name + ": a part of its samples is missing"};
-  // OpenImageIO takes a missing BitsPerSample for 8, where TIFF means 1, and reads past the rows.
-  if (!form->states_bits)
-    return {TKS_USAGE, raster.name + " does not state its bits per sample: convert it to 8 bits"};
-  raster.white_is_zero =
-      raster.reader->has(kPhotometric) && raster.reader->number(kPhotometric) == 0;
-  // OpenImageIO inverts these up to 8 bits, alpha too, and leaves them alone above.
-  if (raster.white_is_zero &&
-      (raster.shape.sample != PictureSample::kU8 || raster.shape.channels > 1)) {
-    return {TKS_USAGE, raster.name + " stores white as 0: convert it to black as 0"};
-  }
-  // OpenImageIO hands these over as if they were RGB.
-  const int photometric = raster.reader->number(kPhotometric);
-  if (photometric == kCieLab || photometric == kIccLab || photometric == kItuLab)
-    return {TKS_USAGE, raster.name + " stores its colours as L*a*b*: convert it to RGB"};
+  raster.stored_bits = form->bits;
+  raster.as_stored = true;
+  raster.sparse = form->sparse;
+  raster.empty = form->empty;
+  raster.white_is_zero = form->white_is_zero;
   raster.further_pages = form->further_pages;
   raster.mask = form->mask;
   raster.nodata = form->nodata;
   if (form->associated_alpha) raster.alpha = Raster::Alpha::kAssociated;
-  const std::string colours = raster.reader->text("tiff:ColorSpace");
-  raster.palette = colours == "palette";
-  raster.cmyk = colours == "CMYK";
+  raster.palette = form->palette;
+  raster.map = form->map;
+  raster.cmyk = form->cmyk;
   if (!raster.palette && !raster.cmyk) raster.colours = form->colours;
   return {};
 }
@@ -61,8 +45,10 @@ Status noteJpeg(Raster& raster) {
 }
 
 /// Tags that no TIFF reader opens are none.
-Status keepGeoBox(std::span<const std::byte> bytes, Raster& raster) {
-  const GeoBox box = geoBoxOf(bytes);
+Status keepGeoBox(Raster& raster) {
+  const auto bytes = readBytes(raster.file.path());
+  if (!bytes.ok()) return bytes.status();
+  const GeoBox box = geoBoxOf(*bytes);
   raster.unread_place = box.gml || !box.tiff.empty();
   if (box.tiff.empty()) return {};
   auto file = Temporary::makeFile();
@@ -73,28 +59,6 @@ Status keepGeoBox(std::span<const std::byte> bytes, Raster& raster) {
   raster.geo_box = std::move(*file);
   raster.unread_place = false;
   return {};
-}
-
-/// OpenImageIO hands signed samples over shifted, and others than 8 and 16 bits rescaled. SIZ
-/// marker segment (ITU-T T.800, A.5.1): 38 bytes behind its length, for each component bits - 1,
-/// and 128 if signed.
-Status noteJpeg2000(Raster& raster) {
-  const auto bytes = readBytes(raster.file.path());
-  if (!bytes.ok()) return bytes.status();
-  constexpr std::array<std::byte, 4> kStart{std::byte{0xFF}, std::byte{0x4F}, std::byte{0xFF},
-                                            std::byte{0x51}};
-  constexpr ptrdiff_t kFirstComponent = 42;
-  const auto start = std::search(bytes->begin(), bytes->end(), kStart.begin(), kStart.end());
-  if (bytes->end() - start <= kFirstComponent)
-    return {TKS_IO, "cannot read " + raster.name + ": it ends early or is damaged"};
-  const auto depth = static_cast<unsigned>(start[kFirstComponent]);
-  if (depth & 128U) {
-    return {TKS_USAGE, raster.name +
-                           " holds signed JPEG 2000 samples, which reading would shift: "
-                           "convert it to TIFF"};
-  }
-  raster.stored_bits = static_cast<int>(depth) + 1;
-  return keepGeoBox(*bytes, raster);
 }
 
 /// Greymaps say which value is white, and OpenImageIO stretches the others to that.
@@ -139,14 +103,8 @@ Status noteStoredForm(Raster& raster) {
   raster.profile = raster.reader->has("ICCProfile");
   if (format == "tiff") return noteTiff(raster);
   if (format == "jpeg") return noteJpeg(raster);
-  if (format == "jpeg2000") return noteJpeg2000(raster);
+  if (format == "jpeg2000") return keepGeoBox(raster);
   if (format == "webp") return noteWebp(raster);
-  // OpenImageIO 2.4 reads each row of these from where the next one lies.
-  if (format == "fits") {
-    return {TKS_USAGE, raster.name +
-                           " is a FITS file, which is not read exactly: convert it to "
-                           "TIFF (gdal_translate)"};
-  }
   raster.stored_bits = raster.reader->number("oiio:BitsPerSample");
   if (format == "pnm") return notePnm(raster);
   if (format == "gif" || format == "ico") {

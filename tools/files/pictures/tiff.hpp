@@ -91,25 +91,31 @@ std::vector<T> tagValues(TIFF* tiff, uint32_t tag, TIFFDataType type) {
   return {values, values + count};
 }
 
+/// Of a tag of one or equal numbers, its default if it is missing; 0 if it has none.
+uint16_t shortTag(TIFF* tiff, uint32_t tag);
+
+/// Black as 0 where the tag is missing, as GDAL has it.
+uint16_t photometricOf(TIFF* tiff);
+
 /// Up to its terminating zero; "" if the tag is no text.
 std::string tagText(TIFF* tiff, uint32_t tag);
 
 /// What the first directory says of its samples.
 struct TiffForm {
-  bool states_bits = false;  ///< per sample; TIFF's default is 1
+  int bits = 0;  ///< of a sample
+  bool white_is_zero = false, palette = false;
+  bool cmyk = false;    ///< four inks
   bool whole = true;    ///< all strips or tiles lie inside the file, but for those that are missing
-  bool sparse = false;  ///< some, not all, are missing
+  bool sparse = false;  ///< some are missing
+  bool empty = false;   ///< all are
   bool associated_alpha = false;
-  std::vector<BandColour> colours{};  ///< of each sample
+  std::vector<BandColour> colours{};          ///< of each sample
+  std::vector<std::array<uint8_t, 3>> map{};  ///< of a palette: the colour of each place
   std::string nodata{};        ///< GDAL's nodata value as it is written; "": none is declared
   bool mask = false;           ///< there is a mask page for the first
   bool further_pages = false;  ///< other than that, and smaller versions of the first (overviews)
 };
 Result<TiffForm> tiffForm(const std::string& path);
-
-/// TKS_USAGE for samples that neither heights nor textures have: complex numbers, integers of 64
-/// bits. `path` need be no TIFF.
-Status checkTiffSamples(const std::string& path, const std::string& name);
 
 /// Whether the file leaves out a strip or tile, as GDAL's sparse files do: a void without bytes.
 bool isMissing(TIFF* tiff, uint32_t strip_or_tile);

@@ -23,6 +23,17 @@ int keepError(TIFF*, void* text, const char*, const char* format, va_list values
 
 }  // namespace
 
+uint16_t shortTag(TIFF* tiff, uint32_t tag) {
+  uint16_t value = 0;
+  return TIFFGetFieldDefaulted(tiff, tag, &value) ? value : uint16_t{0};
+}
+
+uint16_t photometricOf(TIFF* tiff) {
+  uint16_t value = PHOTOMETRIC_MINISBLACK;
+  TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &value);
+  return value;
+}
+
 std::string tagText(TIFF* tiff, uint32_t tag) {
   const std::vector<char> text = tagValues<char>(tiff, tag, TIFF_ASCII);
   return {text.begin(), std::find(text.begin(), text.end(), '\0')};

@@ -2,6 +2,7 @@
 #include "tools/files/place/world_file.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <filesystem>
@@ -36,20 +37,33 @@ std::vector<fs::path> candidates(const std::string& picture) {
   return paths;
 }
 
-/// Numbers between blanks; nothing if anything else is there.
-std::optional<std::vector<double>> numbersIn(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n";
-  std::vector<double> numbers;
-  for (size_t at = text.find_first_not_of(kBlanks); at != text.npos;
-       at = text.find_first_not_of(kBlanks, at)) {
-    const size_t end = std::min(text.find_first_of(kBlanks, at), text.size());
-    std::string_view word = text.substr(at, end - at);
-    if (word.starts_with('+')) word.remove_prefix(1);
-    double number = 0;
-    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc() || stop != word.data() + word.size()) return std::nullopt;
-    numbers.push_back(number);
-    at = end;
+/// As GDAL reads it: "." or "," before the decimals, and what stands behind the number is ignored;
+/// nothing where there is none.
+std::optional<double> numberIn(std::string line) {
+  std::replace(line.begin(), line.end(), ',', '.');
+  const size_t start = line.find_first_not_of(" \t+");
+  if (start == line.npos) return std::nullopt;
+  double number = 0;
+  const auto [stop, error] =
+      std::from_chars(line.data() + start, line.data() + line.size(), number);
+  return error == std::errc() ? std::optional(number) : std::nullopt;
+}
+
+/// Of the first six lines that are not blank; nothing if one holds none. Further lines, and the
+/// Ctrl-Z with which programs of DOS end a text, are not read.
+std::optional<std::array<double, 6>> firstNumbers(std::string_view text) {
+  constexpr std::string_view kEnds = "\r\n";
+  std::array<double, 6> numbers{};
+  size_t count = 0;
+  while (count < numbers.size()) {
+    const size_t start = text.find_first_not_of(" \t\r\n");
+    if (start == text.npos) return std::nullopt;
+    text.remove_prefix(start);
+    const size_t end = std::min(text.find_first_of(kEnds), text.size());
+    const auto number = numberIn(std::string(text.substr(0, end)));
+    if (!number) return std::nullopt;
+    numbers[count++] = *number;
+    text.remove_prefix(end);
   }
   return numbers;
 }
@@ -71,12 +85,16 @@ Result<std::optional<GeoTransform>> readWorldFile(const std::string& picture) {
     if (!fs::is_regular_file(path, ignored)) continue;
     const auto bytes = readBytes(path.string());
     if (!bytes.ok()) return bytes.status();
-    const auto numbers = numbersIn({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+    const auto numbers =
+        firstNumbers({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
     const Status damaged(TKS_IO, "cannot read " + quoted(path.string()) +
-                                     ": a world file holds six numbers; repair or remove it");
-    if (!numbers || numbers->size() != 6) return damaged;
+                                     ": a world file holds six numbers, one a line; "
+                                     "repair or remove it");
+    if (!numbers) return damaged;
     // In the file's order: A D B E, then the middle of the first sample.
-    const std::vector<double>& n = *numbers;
+    const std::array<double, 6>& n = *numbers;
+    // GDAL takes no steps of 0 either.
+    if ((n[0] == 0 && n[2] == 0) || (n[1] == 0 && n[3] == 0)) return damaged;
     const GeoTransform transform{n[4] - (n[0] + n[2]) / 2, n[0], n[2],
                                  n[5] - (n[1] + n[3]) / 2, n[1], n[3]};
     if (!isSound(transform)) return damaged;

@@ -1,0 +1,301 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Pictures of every kind that GDAL writes come back from a stream as GDAL reads them.
+
+pictures_as_gdal.py TETRAKIS: the program. Interleavings, tilings, compressions, colour spaces,
+numbers of bits; what is refused has a sentence, an exit code of 1 or 2, and leaves no output.
+"""
+import itertools
+import os
+import subprocess
+import sys
+import tempfile
+
+try:
+    import numpy as np
+    from osgeo import gdal
+except ImportError:
+    sys.exit(77)
+
+gdal.UseExceptions()
+gdal.PushErrorHandler("CPLQuietErrorHandler")
+WIDTH, HEIGHT = 37, 21
+TETRAKIS = os.path.abspath(sys.argv[1])
+failures = []
+counted = 0
+
+
+def expect(holds, kind, what):
+    if not holds:
+        failures.append(f"{kind}: {what}")
+
+
+def run(*arguments):
+    return subprocess.run([TETRAKIS, *arguments], capture_output=True, text=True, timeout=60)
+
+
+def refuses(kind, outcome):
+    """A refusal: no signal, one sentence, no file."""
+    expect(outcome.returncode in (1, 2), kind, f"exit code {outcome.returncode}")
+    expect(outcome.stderr.count("\n") == 1, kind, f"says {outcome.stderr!r}")
+    left = [name for name in os.listdir(".") if name.endswith(".tks") or name.startswith(".tet")]
+    expect(not left, kind, f"leaves {left}")
+
+
+def texture(kind, name):
+    """What comes back, as bands of a TIFF; nothing if it is refused."""
+    global counted
+    counted += 1
+    for old in ("t.tks", "t.tif"):
+        if os.path.exists(old):
+            os.remove(old)
+    made = run("encode", "--texture", name, "--lossless", "--threads", "1", "-o", "t.tks")
+    if made.returncode != 0:
+        refuses(kind, made)
+        return None, made.stderr
+    back = run("decode", "t.tks", "--texture", "t.tif")
+    expect(back.returncode == 0, kind, back.stderr)
+    return bands("t.tif"), made.stderr
+
+
+def heights(kind, name):
+    global counted
+    counted += 1
+    for old in ("t.tks", "t.tif"):
+        if os.path.exists(old):
+            os.remove(old)
+    made = run("encode", name, "--lossless", "--threads", "1", "-o", "t.tks")
+    if made.returncode != 0:
+        refuses(kind, made)
+        return None, made.stderr
+    back = run("decode", "t.tks", "--height", "t.tif")
+    expect(back.returncode == 0, kind, back.stderr)
+    return bands("t.tif"), made.stderr
+
+
+def bands(name):
+    samples = gdal.Open(name).ReadAsArray()
+    return samples[None] if samples.ndim == 2 else samples
+
+
+def noise(channels, most, dtype, seed=1):
+    """Few values: streams are made quickly."""
+    random = np.random.default_rng(seed)
+    values = np.linspace(0, most, 5).astype(np.float64)
+    steps = np.add.outer(np.arange(HEIGHT) // 4, np.arange(WIDTH) // 5)
+    drawn = [values[(steps + i + random.integers(0, 2)) % 5] for i in range(channels)]
+    return np.array(drawn).astype(dtype)
+
+
+def write(name, samples, driver="GTiff", options=(), nodata=None, colours=None, alpha=False):
+    types = {"uint8": gdal.GDT_Byte, "uint16": gdal.GDT_UInt16, "uint32": gdal.GDT_UInt32,
+             "int16": gdal.GDT_Int16, "int32": gdal.GDT_Int32, "float32": gdal.GDT_Float32,
+             "float64": gdal.GDT_Float64}
+    memory = gdal.GetDriverByName("MEM").Create(
+        "", samples.shape[2], samples.shape[1], len(samples), types[samples.dtype.name])
+    for i, band in enumerate(samples):
+        memory.GetRasterBand(i + 1).WriteArray(band)
+        if nodata is not None:
+            memory.GetRasterBand(i + 1).SetNoDataValue(nodata)
+    if colours is not None:
+        memory.GetRasterBand(1).SetColorTable(colours)
+    if len(samples) >= 3 and driver != "GTiff":
+        for i, colour in enumerate((gdal.GCI_RedBand, gdal.GCI_GreenBand, gdal.GCI_BlueBand)):
+            memory.GetRasterBand(i + 1).SetColorInterpretation(colour)
+    if alpha:
+        memory.GetRasterBand(len(samples)).SetColorInterpretation(gdal.GCI_AlphaBand)
+    gdal.GetDriverByName(driver).CreateCopy(name, memory, options=list(options))
+
+
+def layouts():
+    """Interleavings by tilings."""
+    for interleave, tile in itertools.product(("PIXEL", "BAND"), (0, 16)):
+        options = [f"INTERLEAVE={interleave}"]
+        if tile:
+            options += ["TILED=YES", f"BLOCKXSIZE={tile}", f"BLOCKYSIZE={tile}"]
+        else:
+            options += ["BLOCKYSIZE=8"]
+        yield options
+
+
+def widened(samples, bits):
+    """Fewer than 8 bits, as 8."""
+    most = (1 << bits) - 1
+    return (samples.astype(np.int64) * 255 + most // 2) // most
+
+
+def check_textures_by_layout():
+    """Greys and RGB, with and without alpha, in every layout and compression."""
+    compressions = [["COMPRESS=NONE"], ["COMPRESS=LZW", "PREDICTOR=2"], ["COMPRESS=JPEG"],
+                    ["COMPRESS=WEBP", "WEBP_LOSSLESS=YES"], ["COMPRESS=ZSTD"], ["COMPRESS=LERC"],
+                    ["COMPRESS=PACKBITS"]]
+    for layout, compression in itertools.product(layouts(), compressions):
+        for channels in (1, 2, 3, 4):
+            options = [*layout, *compression]
+            if channels % 2 == 0:
+                options.append("ALPHA=NON-PREMULTIPLIED")
+            if channels >= 3:
+                options.append("PHOTOMETRIC=RGB")
+            kind = f"{channels} channels {' '.join(options)}"
+            if "WEBP" in compression[0] and (channels < 3 or "BAND" in layout[0]):
+                continue  # no such file can be
+            write("f.tif", noise(channels, 255, np.uint8), options=options)
+            got, told = texture(kind, "f.tif")
+            wanted = bands("f.tif")
+            expect(got is not None and np.array_equal(got, wanted), kind,
+                   told if got is None else "other samples")
+
+
+def check_colour_spaces():
+    for layout in layouts():
+        for space, channels, dtype, most in (("CMYK", 4, np.uint8, 255),
+                                             ("CMYK", 4, np.uint16, 65535),
+                                             ("MINISWHITE", 1, np.uint8, 255),
+                                             ("MINISWHITE", 1, np.uint16, 65535),
+                                             ("CIELAB", 3, np.uint8, 255),
+                                             ("ICCLAB", 3, np.uint8, 255),
+                                             ("ITULAB", 3, np.uint8, 255)):
+            kind = f"{space} of {np.dtype(dtype)} {' '.join(layout)}"
+            write("f.tif", noise(channels, most, dtype),
+                  options=[*layout, f"PHOTOMETRIC={space}"])
+            got, told = texture(kind, "f.tif")
+            if "LAB" in space:
+                expect(got is None and "makes RGB" in told or "converts it" in told, kind, told)
+                continue
+            stored = noise(channels, most, dtype).astype(np.int64)
+            if space == "CMYK":
+                wanted = ((most - stored[:3]) * (most - stored[3]) + most // 2) // most
+            else:
+                wanted = most - stored
+            expect(got is not None and np.array_equal(got, wanted), kind, told)
+    for extra in ([], ["TILED=YES"]):
+        options = ["COMPRESS=JPEG", "PHOTOMETRIC=YCBCR", *extra]
+        write("f.tif", noise(3, 255, np.uint8), options=options)
+        got, told = texture("YCbCr", "f.tif")
+        expect(np.array_equal(got, bands("f.tif")), f"YCbCr {extra}", told)
+
+
+def check_numbers_of_bits():
+    """As stored from 9 bits on, and all heights."""
+    for bits in (*range(1, 8), 9, 10, 11, 12, 13, 14, 15, *range(17, 32)):
+        dtype = np.uint8 if bits < 8 else np.uint16 if bits < 16 else np.uint32
+        samples = noise(1, (1 << bits) - 1, dtype)
+        for layout in list(layouts())[:2]:  # of one channel planes are no others than pixels
+            kind = f"{bits} bits {' '.join(layout)}"
+            write("f.tif", samples, options=[*layout, f"NBITS={bits}"])
+            stored = bands("f.tif")
+            expect(np.array_equal(stored, samples), kind, "GDAL writes others")
+            got, told = heights(kind, "f.tif")
+            expect(got is not None and np.array_equal(got, stored), kind, f"heights: {told}")
+            if bits > 16:
+                continue
+            got, told = texture(kind, "f.tif")
+            wanted = widened(stored, bits) if bits < 8 else stored
+            expect(got is not None and np.array_equal(got, wanted), kind, f"texture: {told}")
+    for layout in layouts():
+        kind = f"RGB of 12 bits {' '.join(layout)}"
+        write("f.tif", noise(3, 4095, np.uint16), options=[*layout, "NBITS=12"])
+        got, told = texture(kind, "f.tif")
+        expect(got is not None and np.array_equal(got, bands("f.tif")), kind, told)
+    for bits, dtype in ((16, np.float32), (24, np.float32), (32, np.float32)):
+        for layout in list(layouts())[:2]:
+            kind = f"floats of {bits} bits {' '.join(layout)}"
+            samples = (noise(1, 1000, dtype) + np.float32(0.4375)) * np.float32(0.3)
+            write("f.tif", samples, options=[*layout, f"NBITS={bits}"] if bits < 32 else layout)
+            got, told = heights(kind, "f.tif")
+            expect(got is not None and np.array_equal(got, bands("f.tif")), kind, told)
+
+
+def check_palettes():
+    """The class of the nodata value is transparent, others opaque."""
+    table = gdal.ColorTable()
+    for i in range(16):
+        table.SetColorEntry(i, (16 * i, 255 - 16 * i, 7 * i, 255))
+    for layout, bits, nodata in itertools.product(layouts(), (4, 8), (None, 3)):
+        kind = f"palette of {bits} bits, nodata {nodata} {' '.join(layout)}"
+        options = [*layout] + ([f"NBITS={bits}"] if bits < 8 else [])
+        samples = noise(1, 12, np.uint8)
+        write("f.tif", samples, options=options, nodata=nodata, colours=table)
+        got, told = texture(kind, "f.tif")
+        if got is None:
+            expect(False, kind, told)
+            continue
+        entries = np.array([gdal.Open("f.tif").GetRasterBand(1).GetColorTable().GetColorEntry(i)
+                            for i in range(16)])
+        wanted = entries[samples[0]].transpose(2, 0, 1)
+        expect(np.array_equal(got[:3], wanted[:3]), kind, "other colours")
+        expect(len(got) == (3 if nodata is None else 4), kind, f"{len(got)} channels")
+        if nodata is not None:
+            expect(np.array_equal(got[3] == 0, samples[0] == nodata), kind, "other alpha")
+
+
+def check_sparse():
+    for layout, nodata, channels, all_out in itertools.product(
+            layouts(), (None, 9), (1, 3), (False, True)):
+        kind = f"sparse {channels} channels, nodata {nodata}, all {all_out} {' '.join(layout)}"
+        created = gdal.GetDriverByName("GTiff").Create(
+            "f.tif", 80, 70, channels, gdal.GDT_Byte, options=[*layout, "SPARSE_OK=TRUE"])
+        for i in range(channels):
+            if nodata is not None:
+                created.GetRasterBand(i + 1).SetNoDataValue(nodata)
+            if not all_out:
+                created.GetRasterBand(i + 1).WriteArray(
+                    np.full((5, 16), 100 + i, np.uint8), 0, 0)
+        created = None
+        stored = bands("f.tif")
+        got, told = texture(kind, "f.tif")
+        if got is None:
+            expect(False, kind, told)
+            continue
+        expect(np.array_equal(got[:channels], stored), kind, "other samples")
+        if nodata is not None and not all_out:
+            expect(np.array_equal(got[-1] == 0, (stored == nodata).all(axis=0)), kind,
+                   "other alpha")
+        if channels > 1 or not all_out:
+            continue
+        got, told = heights(kind, "f.tif")
+        expect(got is not None and np.array_equal(got, stored), kind, f"heights: {told}")
+
+
+def check_jpeg2000():
+    """All depths, signed too; with --lossless as GDAL's driver writes them."""
+    options = ["QUALITY=100", "REVERSIBLE=YES", "YCBCR420=NO"]
+    for bits, channels in itertools.product((1, 4, 8, 10, 12, 15, 16, 17, 20, 24, 28), (1, 3, 4)):
+        dtype = np.uint8 if bits <= 8 else np.uint16 if bits <= 16 else np.uint32
+        kind = f"JPEG 2000 of {channels} x {bits} bits"
+        samples = noise(channels, (1 << bits) - 1, dtype)
+        write("f.jp2", samples, "JP2OpenJPEG", [*options, f"NBITS={bits}"], alpha=channels == 4)
+        stored = bands("f.jp2")
+        if channels == 1:
+            got, told = heights(kind, "f.jp2")
+            expect(got is not None and np.array_equal(got, stored), kind, f"heights: {told}")
+        got, told = texture(kind, "f.jp2")
+        if bits > 16:
+            expect(got is None and "65535" in told, kind, told)
+            continue
+        wanted = widened(stored, bits) if bits < 8 else stored.astype(np.int64)
+        if channels == 4 and bits > 8:
+            most = (1 << bits) - 1
+            wanted[3] = (wanted[3] * 65535 + most // 2) // most
+        expect(got is not None and np.array_equal(got, wanted), kind, told)
+    for dtype, low in ((np.int16, -3000), (np.int32, -300000)):
+        samples = (noise(1, 6000, np.float64) + low).astype(dtype)
+        write("f.jp2", samples, "JP2OpenJPEG", options)
+        got, told = heights(f"JPEG 2000 of {dtype}", "f.jp2")
+        expect(got is not None and np.array_equal(got, samples), f"JPEG 2000 of {dtype}", told)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        for check in (check_textures_by_layout, check_colour_spaces, check_numbers_of_bits,
+                      check_palettes, check_sparse, check_jpeg2000):
+            check()
+        os.chdir("/")
+    print(f"{counted} files")
+    for failure in failures[:40]:
+        print(failure)
+    sys.exit(1 if failures else 0)
+
+
+main()

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Samples as a TIFF packs them into its rows.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "tools/files/pictures/picture_formats.hpp"
+
+namespace tetrakis::tools {
+
+/// By the tags SampleFormat and BitsPerSample.
+struct TiffSample {
+  uint16_t format = 0, bits = 0;
+};
+
+/// The smallest type that holds all values; kOther: there is none.
+PictureSample typeOf(TiffSample stored);
+
+/// Fills `samples`, of type typeOf(stored), from a row whose words libtiff has put into the order
+/// of the host.
+void unpackRow(std::span<const std::byte> packed, TiffSample stored, std::span<std::byte> samples);
+
+/// The value in all `samples` of the type, the nearest one where the type does not hold it, and 0
+/// for NaN in integers: what GDAL has in blocks that a file leaves out.
+void fillSamples(double value, PictureSample type, std::span<std::byte> samples);
+
+}  // namespace tetrakis::tools
