@@ -160,7 +160,8 @@ Texels decodeLines(const TextureHeader& header, const Codewords& codewords, cons
   if (memory != nullptr && memory->drawing) return memory->drawing(codewords.front().size());
   if (header.direct()) return decodeDirect(header, codewords.front(), view);
   Codewords coefficients = codewords;
-  const auto opening = takeOpening(header, memory ? &memory->opening : nullptr, coefficients.front());
+  const auto opening =
+      takeOpening(header, memory ? &memory->opening : nullptr, coefficients.front());
   const bool growing = memory != nullptr && memory->opening.whole != nullptr;
   TrackMemory* const tracks = growing ? &memory->tracks : nullptr;
   ColourPlanes colours(header, *opening, view, tracks);

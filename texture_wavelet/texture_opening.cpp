@@ -61,7 +61,8 @@ std::shared_ptr<const TextureOpening> takeOpening(const TextureHeader& header,
   const auto drawn = take(header.overlay_bytes, codeword);
   const bool whole = alpha.size() == header.alpha_bytes && drawn.size() == header.overlay_bytes;
   if (memory != nullptr && whole && memory->whole != nullptr) return memory->whole;
-  auto opening = std::make_shared<const TextureOpening>(decodeOpening(header, alpha, drawn, memory));
+  auto opening =
+      std::make_shared<const TextureOpening>(decodeOpening(header, alpha, drawn, memory));
   if (memory != nullptr && whole) memory->whole = opening;
   return opening;
 }
