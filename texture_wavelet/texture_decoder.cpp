@@ -144,9 +144,9 @@ class ColourPlanes {
 
 uint64_t TextureMemory::bytes() const {
   uint64_t bytes = tracks.bytes();
-  if (opening) {
-    bytes += opening->seen.size() + opening->coded.size() + opening->lifted.size();
-    bytes += opening->overlay.indices.size() * sizeof(DrawnIndex);
+  if (const TextureOpening* const whole = opening.whole.get()) {
+    bytes += whole->seen.size() + whole->coded.size() + whole->lifted.size();
+    bytes += whole->overlay.indices.size() * sizeof(DrawnIndex);
   }
   return bytes;
 }
@@ -156,12 +156,13 @@ namespace {
 /// A view of the lines that are coded.
 Texels decodeLines(const TextureHeader& header, const Codewords& codewords, const View& view,
                    const DecodeContext<TextureMemory>& context) {
-  if (header.direct()) return decodeDirect(header, codewords.front(), view);
   TextureMemory* const memory = context.memory;
+  if (memory != nullptr && memory->drawing) return memory->drawing(codewords.front().size());
+  if (header.direct()) return decodeDirect(header, codewords.front(), view);
   Codewords coefficients = codewords;
   const auto opening =
       takeOpening(header, memory ? &memory->opening : nullptr, coefficients.front());
-  const bool growing = memory != nullptr && memory->opening != nullptr;
+  const bool growing = memory != nullptr && memory->opening.whole != nullptr;
   TrackMemory* const tracks = growing ? &memory->tracks : nullptr;
   ColourPlanes colours(header, *opening, view, tracks);
   const Precision precision = colours.decode(coefficients, {context.threads, tracks});

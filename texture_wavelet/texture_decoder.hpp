@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <functional>
 
 #include "base/texels.hpp"
 #include "base/view.hpp"
@@ -17,8 +17,10 @@ namespace tetrakis::inline texture {
 /// What one call of decodeTexture() leaves to the next, whose tracks begin with the same bytes. It
 /// is empty before the first call.
 struct TextureMemory {
-  std::shared_ptr<const TextureOpening> opening;  ///< once it is whole
-  TrackMemory tracks;                             ///< likewise: what exists of them follows from it
+  OpeningMemory opening;
+  TrackMemory tracks;  ///< once the opening is whole: what exists of them follows from it
+  /// Of encoders, which have all of a drawing: what its first bytes show.
+  std::function<Texels(uint64_t bytes)> drawing = {};
 
   uint64_t bytes() const;
 };

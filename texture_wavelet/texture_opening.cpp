@@ -21,12 +21,13 @@ std::span<const uint8_t> take(uint64_t bytes, std::span<const uint8_t>& codeword
 }
 
 TextureOpening decodeOpening(const TextureHeader& header, std::span<const uint8_t> alpha,
-                             std::span<const uint8_t> drawn) {
+                             std::span<const uint8_t> drawn, const OpeningMemory* memory) {
   TextureOpening opening;
   if (header.alpha_bytes > 0) opening.seen = decodeValidity(alpha, header.extent());
   if (header.hidden) opening.coded = opening.seen;
   if (header.overlay_bytes > 0) {
-    opening.overlay = decodeOverlay(header, drawn);
+    opening.overlay = memory != nullptr && memory->overlay ? memory->overlay(drawn.size())
+                                                           : decodeOverlay(header, drawn);
     const std::vector<DrawnIndex>& indices = opening.overlay.indices;
     if (opening.coded.empty()) opening.coded.assign(indices.size(), 1);
     for (size_t i = 0; i < indices.size(); ++i) opening.coded[i] &= indices[i] == kSeeThrough;
@@ -54,14 +55,15 @@ void TextureOpening::paint(Extent whole, const View& view, Texels& texels) const
 }
 
 std::shared_ptr<const TextureOpening> takeOpening(const TextureHeader& header,
-                                                  std::shared_ptr<const TextureOpening>* memory,
+                                                  OpeningMemory* memory,
                                                   std::span<const uint8_t>& codeword) {
   const auto alpha = take(header.alpha_bytes, codeword);
   const auto drawn = take(header.overlay_bytes, codeword);
   const bool whole = alpha.size() == header.alpha_bytes && drawn.size() == header.overlay_bytes;
-  if (memory != nullptr && whole && *memory != nullptr) return *memory;
-  auto opening = std::make_shared<const TextureOpening>(decodeOpening(header, alpha, drawn));
-  if (memory != nullptr && whole) *memory = opening;
+  if (memory != nullptr && whole && memory->whole != nullptr) return memory->whole;
+  auto opening =
+      std::make_shared<const TextureOpening>(decodeOpening(header, alpha, drawn, memory));
+  if (memory != nullptr && whole) memory->whole = opening;
   return opening;
 }
 

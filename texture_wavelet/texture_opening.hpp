@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -28,10 +29,17 @@ struct TextureOpening {
   void paint(Extent whole, const View& view, Texels& texels) const;
 };
 
-/// Decodes what a track opens with, or a prefix of it, and takes it off the codeword. memory: keeps
-/// the opening of the same track once it is whole; null: there is none.
+/// What one call of takeOpening() leaves to the next, of the same track.
+struct OpeningMemory {
+  std::shared_ptr<const TextureOpening> whole;  ///< once it is
+  /// Of encoders, which have all of an overlay: what its first bytes show.
+  std::function<DrawnOverlay(uint64_t bytes)> overlay = {};
+};
+
+/// Decodes what a track opens with, or a prefix of it, and takes it off the codeword. memory: null:
+/// there is none.
 std::shared_ptr<const TextureOpening> takeOpening(const TextureHeader& header,
-                                                  std::shared_ptr<const TextureOpening>* memory,
+                                                  OpeningMemory* memory,
                                                   std::span<const uint8_t>& codeword);
 
 }  // namespace tetrakis::inline texture

@@ -50,6 +50,12 @@ class RangeDecoder {
     slack_ = missing_ > 3 ? 0xffffffff : (uint32_t{1} << (8 * missing_)) - 1;
   }
 
+  /// Whether the bytes decide a decision of which P(bit = 0) is `zero` units of 2^-16.
+  bool decides(uint32_t zero) const {
+    const uint64_t bound = (uint64_t{range_} * zero) >> AdaptiveBit::kPrecision;
+    return !exhausted_ && (slack_ == 0 || code_ >= bound || uint64_t{code_} + slack_ < bound);
+  }
+
   /// zero: P(bit = 0) in units of 2^-16, neither 0 nor 1.
   bool decodeOf(uint32_t zero) { return split(zero); }
 

@@ -67,7 +67,12 @@ DecodedGeometry decodeSteps(const TakenLayers& taken, const View& view,
   if (stated.late_mask && lifted.empty()) lifted = lateLifted(taken);
   std::vector<uint8_t> valid = validityOf(taken, lifted, context.memory);
   const JoinedCoefficients joined = joinCoefficients(taken);
-  if (header.drawn) return decodeDrawnHeights(header, joined.codewords.front(), valid, view.level);
+  if (header.drawn) {
+    const std::span<const uint8_t> codeword = joined.codewords.front();
+    return kept != nullptr && kept->drawing
+               ? kept->drawing(codeword.size())
+               : decodeDrawnHeights(header, codeword, valid, view.level);
+  }
   if (stated.bridge > 0 && lifted.empty())
     lifted = liftedSamples(valid, header.extent(), stated.bridge);
   std::optional<Mask> bridged;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/view.hpp"
@@ -20,6 +21,8 @@ struct HeightsMemory {
   std::vector<uint8_t> lifted;  ///< if voids are bridged, once all before the coefficients is there
   FlatAreas flat;               ///< likewise
   TrackMemory tracks;           ///< likewise: what exists of them follows from those
+  /// Of encoders, which have all of a drawing: what its first bytes show behind the opening.
+  std::function<DecodedGeometry(uint64_t bytes)> drawing = {};
 
   uint64_t bytes() const;
 };

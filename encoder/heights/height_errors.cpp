@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "base/samples.hpp"
+#include "codec/geometry/drawn_heights/drawn_heights_prefixes.hpp"
 #include "codec/geometry/steps/height_samples.hpp"
+#include "codec/geometry/taken_layers.hpp"
 
 namespace tetrakis::inline heights {
 
@@ -53,6 +55,15 @@ double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t 
       fraction_bits <= heights.header.wavelet.fraction_bits || isWhole(prefix, heights.tracks);
   const double left = may_be_exact ? heights.left : QuantisedHeights::kInexact;
   return unknown + std::max(squares, std::min(left, QuantisedHeights::kInexact));
+}
+
+HeightsMemory memoryFor(const CodedHeights& heights) {
+  HeightsMemory memory;
+  if (!heights.header.drawn) return memory;
+  const TakenLayers taken = takeApart(codewordsOf(heights.tracks), heights.header, heights.layers);
+  memory.drawing = prefixesOfDrawing(heights.header, joinCoefficients(taken).codewords.front(),
+                                     heights.quantised->steps.valid);
+  return memory;
 }
 
 SampleErrors sampleErrorsOf(const CodedHeights& heights, const Codewords& prefix,

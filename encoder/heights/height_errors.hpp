@@ -16,6 +16,9 @@ namespace tetrakis::inline heights {
 double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t threads,
                  HeightsMemory* memory = nullptr);
 
+/// The memory with which the first of such calls begins.
+HeightsMemory memoryFor(const CodedHeights& heights);
+
 /// Decoded samples against the input's, over the valid ones; in sample units.
 struct SampleErrors {
   double mean_square = 0, largest = 0;

@@ -56,7 +56,7 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
                         .floor = modelled ? 0 : meshFloor(source, inputs.options.triangles),
                         .shared = inputs.image != nullptr,
                         .order = trackOrderOf(inputs.options)};
-  HeightsMemory memory;
+  HeightsMemory memory = memoryFor(heights);
   memory.tracks.forgets = areTooLarge(heights.tracks, source.steps.steps.size());
   const auto measure = [&](const std::vector<Packet>& packets, uint64_t bytes) {
     return squaresOf(heights, prefixAfter(heights.accounted(), packets, bytes),
@@ -68,7 +68,7 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
 }
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture) {
-  TextureMemory memory;
+  TextureMemory memory = memoryFor(texture);
   memory.tracks.forgets = areTooLarge(texture.tracks, texture.source->texels.samples.size());
   const auto measure = [&](const std::vector<Packet>& packets, uint64_t bytes) {
     return squaresOf(texture, prefixAfter(texture.accounted(), packets, bytes),

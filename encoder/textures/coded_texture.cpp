@@ -9,6 +9,7 @@
 
 #include "base/samples.hpp"
 #include "encoder/textures/texture_options.hpp"
+#include "texture_wavelet/drawn/drawn_prefixes.hpp"
 #include "texture_wavelet/stored_texture_encoder.hpp"
 #include "texture_wavelet/texture_choice.hpp"
 
@@ -86,6 +87,18 @@ double squaresOf(const CodedTexture& texture, const Codewords& prefix, uint32_t 
   assert(prefix.size() == texture.tracks.size());
   const Texels shown = decodeTexture(texture.header, prefix, {}, {threads, memory});
   return countedSquares(texture.source->texels, shown, texture.seen());
+}
+
+TextureMemory memoryFor(const CodedTexture& texture) {
+  const TextureHeader& header = texture.header;
+  const std::span<const uint8_t> codeword = texture.tracks.front().codeword;
+  TextureMemory memory;
+  if (header.drawn()) memory.drawing = prefixesOfDrawing(header, codeword);
+  if (header.overlay_bytes > 0) {
+    const auto overlay = codeword.subspan(header.alpha_bytes, header.overlay_bytes);
+    memory.opening.overlay = prefixesOfOverlay(header, overlay);
+  }
+  return memory;
 }
 
 bool reachesPsnr(const EncodeInputs& inputs, const CodedTexture& texture, const Codewords& prefix) {

@@ -60,6 +60,9 @@ CodedTexture storeTexture(std::shared_ptr<const TextureSource> source);
 double squaresOf(const CodedTexture& texture, const Codewords& prefix, uint32_t threads,
                  TextureMemory* memory = nullptr);
 
+/// The memory with which the first of such calls begins.
+TextureMemory memoryFor(const CodedTexture& texture);
+
 /// Whether such a prefix reaches the PSNR of the options.
 bool reachesPsnr(const EncodeInputs& inputs, const CodedTexture& texture, const Codewords& prefix);
 

@@ -14,12 +14,18 @@ namespace {
 
 using ColourDecoding = DrawingDecoding<DrawnColour>;
 
+}  // namespace
+
 Texels formatOf(const TextureHeader& header) {
   return {header.width, header.height, header.channels,   header.sample == TKS_U8 ? 8 : 16,
           {},           header.opaque, header.white_level};
 }
 
-}  // namespace
+DrawnColours overlayColours(const Texels& format) {
+  DrawnColours colours(format);
+  colours.add(greyOf(format));
+  return colours;
+}
 
 /// Every 2^level-th texel is a grid of its own: no vertex needs one of a finer level.
 Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword, int level) {
@@ -38,10 +44,8 @@ Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codewor
 }
 
 DrawnOverlay decodeOverlay(const TextureHeader& header, std::span<const uint8_t> codeword) {
-  const Texels format = formatOf(header);
-  DrawnOverlay overlay{{}, DrawnColours(format)};
-  overlay.indices.assign(size_t{header.width} * header.height, kNoIndex);
-  overlay.colours.add(greyOf(format));
+  DrawnOverlay overlay{{}, overlayColours(formatOf(header))};
+  overlay.indices.assign(header.extent().samples(), kNoIndex);
   ColourDecoding io(codeword);
   DrawingPass(PlaneView<DrawnIndex>(overlay.indices, header.extent()), overlay.colours, io)
       .run(levelsOf(header.width, header.height));

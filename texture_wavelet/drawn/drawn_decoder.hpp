@@ -23,6 +23,12 @@ struct DrawnOverlay {
   DrawnColours colours;
 };
 
+/// The format of a texture, without samples.
+Texels formatOf(const TextureHeader& header);
+
+/// The colours of an overlay before any is coded.
+DrawnColours overlayColours(const Texels& format);
+
 /// codeword: any prefix of that of a texture's overlay. Safe on any bytes.
 DrawnOverlay decodeOverlay(const TextureHeader& header, std::span<const uint8_t> codeword);
 

@@ -2,6 +2,7 @@
 // tetrakis view: shows a stream in the browser. A server only on this machine's loopback address
 // hands out the stream, by byte ranges, and the files of the viewer, and nothing else.
 #include <httplib.h>
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstdlib>
@@ -90,11 +91,24 @@ std::string percentEncoded(const std::string& name) {
   return encoded;
 }
 
+/// The name in a Host field without its port, in lower case: names of hosts are the same in any
+/// case, and IPv6 addresses stand in brackets (RFC 3986, 3.2.2).
+std::string nameOfHost(std::string host) {
+  const size_t bracket = host.front() == '[' ? host.find(']') : 0;
+  const size_t colon = bracket == std::string::npos ? bracket : host.find(':', bracket);
+  host.resize(std::min(colon, host.size()));
+  for (char& letter : host)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return host;
+}
+
 /// A page elsewhere may not read the stream through a name of its own that leads here.
 bool asksForLoopback(const httplib::Request& request) {
+  if (request.get_header_value_count("Host") != 1) return false;
   const std::string host = request.get_header_value("Host");
-  const std::string name = host.substr(0, host.rfind(':'));
-  return name == kLoopback || name == "localhost";
+  if (host.empty()) return false;
+  const std::string name = nameOfHost(host);
+  return name == kLoopback || name == "localhost" || name == "[::1]";
 }
 
 Status addViewer(httplib::Server& server, const fs::path& folder) {

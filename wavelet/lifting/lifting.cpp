@@ -1,9 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wavelet/lifting/lifting.hpp"
 
+#include <cstddef>
+#include <vector>
+
 namespace tetrakis::inline lifting {
 
+namespace {
+
+/// Columns one by one: the kernel takes about as long for a few values as for a vector of them.
+void liftSingleColumns(const Rows<int32_t>& rows, FilterId id, Direction direction, bool wide) {
+  RowLifting lifting(rows.count);
+  std::vector<int32_t> column(rows.count);
+  for (uint32_t x = 0; x < rows.width; ++x) {
+    int32_t* const first = rows.first + x;
+    for (size_t y = 0; y < rows.count; ++y) column[y] = first[y * rows.pitch];
+    lifting.liftInPlace(column, id, direction, wide);
+    for (size_t y = 0; y < rows.count; ++y) first[y * rows.pitch] = column[y];
+  }
+}
+
+}  // namespace
+
 void liftColumns(const Rows<int32_t>& rows, FilterId id, Direction direction, bool wide) {
+  constexpr uint32_t kVector = 8;  // values of a vector of AVX2
+  if (rows.width < kVector) return liftSingleColumns(rows, id, direction, wide);
   const int shift = liftingFilter(id).shift;
   forEachRowStep(rows.count, id, direction, [&](ptrdiff_t t, const LiftingStep& step) {
     liftStep(rows.row(t), rows.sources(t, step.pairs), {step, shift, direction, wide}, rows.width);
@@ -28,6 +49,13 @@ void RowLifting::synthesise(int32_t* row, uint32_t length, FilterId id, bool wid
   halves_.copyFrom(row, length);
   run(id, Direction::kSynthesis, wide);
   halves_.putTogether(row);
+}
+
+void RowLifting::liftInPlace(std::span<int32_t> signal, FilterId id, Direction direction,
+                             bool wide) {
+  halves_.takeApart(signal.data(), static_cast<uint32_t>(signal.size()));
+  run(id, direction, wide);
+  halves_.putTogether(signal.data());
 }
 
 }  // namespace tetrakis::inline lifting

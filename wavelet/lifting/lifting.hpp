@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "wavelet/lifting/lifting_steps.hpp"
 
@@ -25,6 +26,8 @@ class RowLifting {
 
   void analyse(int32_t* row, uint32_t length, FilterId id, bool wide);
   void synthesise(int32_t* row, uint32_t length, FilterId id, bool wide);
+  /// Low values stay at even places, high ones at odd places, as in columns.
+  void liftInPlace(std::span<int32_t> signal, FilterId id, Direction direction, bool wide);
 
  private:
   void run(FilterId id, Direction direction, bool wide);

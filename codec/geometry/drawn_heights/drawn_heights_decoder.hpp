@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/drawn_heights/drawn_surface.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
 
 namespace tetrakis::inline drawn_heights {
@@ -16,5 +17,8 @@ namespace tetrakis::inline drawn_heights {
 /// with header.drawn. valid: of the whole plane; empty: all are valid. Safe on any bytes.
 DecodedGeometry decodeDrawnHeights(const GeometryHeader& header, std::span<const uint8_t> codeword,
                                    const std::vector<uint8_t>& valid, int level);
+
+/// What a surface shows. valid: of its plane, as above.
+DecodedGeometry decodedHeights(const DrawnSurface& surface, std::vector<uint8_t> valid);
 
 }  // namespace tetrakis::inline drawn_heights

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the prefixes of a drawing of heights show, for encoders that look at many of them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
+
+namespace tetrakis::inline drawn_heights {
+
+/// Returns what gives the same as decodeDrawnHeights() of the first bytes of the codeword at level
+/// 0, in less time. codeword: all of it, as an encoder wrote it. valid: as there.
+std::function<DecodedGeometry(uint64_t bytes)> prefixesOfDrawing(const GeometryHeader& header,
+                                                                 std::span<const uint8_t> codeword,
+                                                                 std::vector<uint8_t> valid);
+
+}  // namespace tetrakis::inline drawn_heights
