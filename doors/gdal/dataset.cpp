@@ -217,9 +217,12 @@ char** Dataset::GetFileList() {
 
 CPLErr Dataset::IBuildOverviews(const char*, int, const int*, int, const int*, GDALProgressFunc,
                                 void*, CSLConstList) {
+  return refuseOverviews(source_->name());
+}
+
+CPLErr refuseOverviews(const std::string& name) {
   CPLError(CE_Failure, CPLE_NotSupported,
-           "%s: A stream is its own overviews; none can be added or removed.",
-           source_->name().c_str());
+           "%s: A stream is its own overviews; none can be added or removed.", name.c_str());
   return CE_Failure;
 }
 

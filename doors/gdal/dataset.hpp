@@ -3,18 +3,33 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <gdal_pam.h>
 #include "doors/gdal/aux_xml.hpp"
+#include "doors/gdal/block_cache.hpp"
 #include "doors/gdal/crs.hpp"
 #include "doors/gdal/overview.hpp"
 #include "doors/gdal/source.hpp"
 
 namespace tetrakis::gdal {
+
+/// What newer headers of GDAL call the numbers of bands.
+#ifdef BANDMAP_TYPE
+using BandMap = BANDMAP_TYPE;
+#else
+using BandMap = int*;
+#endif
+
+/// A rectangle of samples, as GDAL counts them.
+struct SampleWindow {
+  int x, y, width, height;
+};
 
 class Dataset final : public GDALPamDataset {
  public:
@@ -37,6 +52,12 @@ class Dataset final : public GDALPamDataset {
   bool read(const tks_window& window, std::vector<std::byte>& out);
   /// Whether small parts take much less time than all.
   bool readsWindows() const { return finerLevel() == 0 && source_->regionSide() != 0; }
+  BlockCache& blocks() { return blocks_; }
+  /// Reads rows [top, bottom) with GDAL's own means; the last one says how to report progress.
+  using ReadStrip = std::function<CPLErr(int, int, GDALRasterIOExtraArg*)>;
+  /// Reads a window of bands strip by strip, the blocks of each of which are decoded before.
+  CPLErr readStrips(const SampleWindow& window, std::span<const int> bands,
+                    const GDALRasterIOExtraArg& extra, const ReadStrip& read);
   uint32_t level() const { return level_; }
   /// Of an overview: the raster that it is of.
   Dataset* raster() const { return raster_; }
@@ -45,6 +66,9 @@ class Dataset final : public GDALPamDataset {
   const std::vector<std::unique_ptr<Dataset>>& overviews() const { return overviews_; }
 
  protected:
+  CPLErr IRasterIO(GDALRWFlag flag, int x, int y, int width, int height, void* data, int columns,
+                   int rows, GDALDataType type, int bands, BandMap map, GSpacing pixel,
+                   GSpacing line, GSpacing band, GDALRasterIOExtraArg* extra) override;
   CPLXMLNode* SerializeToXML(const char* path) override;
   CPLErr IBuildOverviews(const char* resampling, int count, const int* factors, int bands,
                          const int* band_list, GDALProgressFunc progress, void* user,
@@ -75,6 +99,7 @@ class Dataset final : public GDALPamDataset {
   NodataValues nodataValues() const;
 
   std::shared_ptr<Source> source_;
+  BlockCache blocks_{*this};
   std::optional<double> void_value_;
   uint32_t level_ = 0;         ///< 0: the raster itself; else its overview of that number
   Dataset* raster_ = nullptr;  ///< of an overview; it lives longer
@@ -83,5 +108,8 @@ class Dataset final : public GDALPamDataset {
   StreamTexts texts_;
   std::vector<std::unique_ptr<Dataset>> overviews_;
 };
+
+/// An error: gdaladdo is for other formats.
+CPLErr refuseOverviews(const std::string& name);
 
 }  // namespace tetrakis::gdal

@@ -99,12 +99,6 @@ std::vector<tks_range> FileBytes::missingOf(std::span<const tks_range> ranges) c
   return missing;
 }
 
-uint64_t FileBytes::known() const {
-  uint64_t bytes = 0;
-  for (const auto& [place, run] : runs_) bytes += run.size();
-  return bytes;
-}
-
 uint64_t FileBytes::costOf(std::span<const tks_range> ranges) {
   uint64_t bytes = 0;
   for (const tks_range& range : requestsFor({ranges.begin(), ranges.end()})) bytes += range.size;
@@ -139,7 +133,8 @@ void FileBytes::take(uint64_t place, std::vector<uint8_t>&& bytes) {
 }
 
 std::optional<tks_range> FileBytes::read(std::span<const tks_range> ranges) {
-  const std::vector<tks_range> requests = requestsFor(missingOf(ranges));
+  // No byte is read twice: gaps that are read along may hold some that are there.
+  const std::vector<tks_range> requests = missingOf(requestsFor(missingOf(ranges)));
   std::vector<std::vector<uint8_t>> bytes;
   for (const tks_range& request : requests) bytes.emplace_back(request.size);
   const bool together = requests.size() > 1 && readSideBySide(file_.get(), requests, bytes);

@@ -34,8 +34,6 @@ class FileBytes {
   /// What was read from a place on without a gap. Valid until read().
   std::span<const uint8_t> at(uint64_t place) const;
 
-  /// How many bytes were read.
-  uint64_t known() const;
   /// How many are read for these ranges if nothing is known.
   static uint64_t costOf(std::span<const tks_range> ranges);
 

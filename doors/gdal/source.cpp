@@ -61,17 +61,27 @@ std::unique_ptr<Source> Source::open(const std::string& name, const OpenSettings
   return source;
 }
 
+std::optional<uint64_t> Source::findHeader() {
+  tks_status status = TKS_TRUNCATED;
+  uint64_t there = 0, wanted = kHeaderGuess;
+  while (status == TKS_TRUNCATED && there < std::min(wanted, end_)) {
+    there = std::min(wanted, end_);
+    const tks_range front{0, there, 0};
+    if (!read({&front, 1})) return std::nullopt;
+    status = tks_header_bytes(bytes_.at(0).data(), there, &wanted);
+  }
+  return there;
+}
+
 bool Source::readHeader() {
   if (VSIFSeekL(bytes_.file(), 0, SEEK_END) != 0) {
     reportFailure(TKS_IO, name_, "The length of the file cannot be found.");
     return false;
   }
   end_ = std::min<uint64_t>(VSIFTellL(bytes_.file()), settings_.bytes.value_or(UINT64_MAX));
-  tks_status status = TKS_TRUNCATED;
-  for (uint64_t size = 0; status == TKS_TRUNCATED && size < end_;) {
-    size = std::min(end_, std::max(kHeaderGuess, 4 * size));
-    status = openPrefix(size);
-  }
+  const std::optional<uint64_t> header = findHeader();
+  if (!header) return false;
+  const tks_status status = openPrefix(std::min(end_, std::max(kHeaderGuess, *header)));
   if (end_ == 0) message_ = "There are no bytes.";
   if (status != TKS_OK && status != TKS_IO) reportFailure(status, name_, message_);
   return status == TKS_OK;
@@ -208,11 +218,8 @@ bool Source::load(uint32_t level, const tks_window* window) {
   auto ranges = neededRanges(level, window);
   if (!ranges) return false;
   if (shares && cutShares(*ranges, enough)) return loadRanges(*ranges);
-  const uint64_t cost = FileBytes::costOf(*ranges);
-  if (cost >= first - first / 4) return reopen(first);
-  // Who has read most of it will read the rest. The whole stream decodes to the same.
-  if (bytes_.known() + cost > end_ - end_ / 4) return reopen(end_);
-  return loadRanges(*ranges);
+  const bool most = window == nullptr && FileBytes::costOf(*ranges) >= first - first / 4;
+  return most ? reopen(first) : loadRanges(*ranges);
 }
 
 std::string Source::checksum() const {

@@ -70,6 +70,9 @@ class Source {
   Source(std::string name, const OpenSettings& settings, File file)
       : name_(std::move(name)), settings_(settings), bytes_(std::move(file)) {}
   bool readHeader();
+  /// Reads the header, as far as there is one, and how many bytes it takes at least. Nothing after a
+  /// reported error.
+  std::optional<uint64_t> findHeader();
   bool checkLength();
   /// Reads up to this many bytes and opens them; TKS_IO after a reported error.
   tks_status openPrefix(uint64_t bytes);
