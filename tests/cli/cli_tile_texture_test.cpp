@@ -174,8 +174,8 @@ TEST_F(CliTileTexture, MeshesHaveTheColoursOfTheirPlaces) {
 
 TEST_F(CliTileTexture, SkirtsHangBelowTheEdgesOfTiles) {
   encode(3);
-  ASSERT_EQ(cli("-q tiles s.tks --format 3dtiles -o t").code, 0);
-  ASSERT_EQ(cli("-q tiles s.tks --format 3dtiles --skirts -o skirts").code, 0);
+  ASSERT_EQ(cli("-q tiles s.tks --format 3dtiles --no-skirts -o t").code, 0);
+  ASSERT_EQ(cli("-q tiles s.tks --format 3dtiles -o skirts").code, 0);
   size_t walls = 0;
   for (const std::string& file : filesBelow("t", ".glb")) {
     SCOPED_TRACE(file);
@@ -197,7 +197,10 @@ TEST_F(CliTileTexture, SkirtsHangBelowTheEdgesOfTiles) {
     expectPlaced(glb, pictureOf(glb));
   }
   EXPECT_GT(walls, 50U);
-  EXPECT_EQ(cli("tiles s.tks --skirts -o q").code, 1);
+  ASSERT_EQ(cli("-q tiles s.tks --format 3dtiles --skirts -o asked").code, 0);
+  EXPECT_EQ(filesBelow("asked", ".glb").size(), filesBelow("skirts", ".glb").size());
+  for (const char* flag : {"--skirts", "--no-skirts"})
+    EXPECT_EQ(cli(std::string("tiles s.tks -o q ") + flag).code, 1);
 }
 
 TEST_F(CliTileTexture, CutOutsKeepTheirAlpha) {

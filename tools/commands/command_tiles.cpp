@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -23,7 +24,8 @@ struct TilesArguments {
   StreamSource source;
   std::string folder, format = "quantized-mesh";
   uint32_t threads = hardwareThreads();
-  bool skirts = false, force = false;
+  std::optional<bool> skirts;
+  bool force = false;
 };
 
 /// A folder that is written beside its place and appears whole or not at all. One that is not empty
@@ -77,8 +79,8 @@ class TileFolder {
 Status makeTiles(const TilesArguments& arguments, bool quiet) {
   TileOptions options;
   if (arguments.format == "3dtiles") options.format = TileFormat::k3dTiles;
-  options.skirts = arguments.skirts;
-  if (options.skirts && options.format != TileFormat::k3dTiles)
+  options.skirts = arguments.skirts.value_or(options.format == TileFormat::k3dTiles);
+  if (arguments.skirts && options.format != TileFormat::k3dTiles)
     return {TKS_USAGE, "--skirts are for --format 3dtiles: viewers make those of quantized-mesh"};
   Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
@@ -116,7 +118,8 @@ void addTiles(CLI::App& app, CommandLine& line) {
                   "Of the tiles: quantized-mesh (default) or 3dtiles")
       ->check(silent(CLI::IsMember({"quantized-mesh", "3dtiles"})))
       ->type_name("NAME");
-  verb.add_flag("--skirts", arguments->skirts, "Hang walls below the edges of tiles (3dtiles)");
+  verb.add_flag("--skirts,!--no-skirts", arguments->skirts,
+                "Hang walls below the edges of tiles (3dtiles; default)");
   addThreads(verb, arguments->threads);
   addForce(verb, arguments->force);
   verb.callback([arguments, &line] {

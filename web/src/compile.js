@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The WebAssembly modules, compiled once for all terrains of a page.
 import {TksError} from './error.js';
+import {builtIn} from './node.js';
 
 const compiled = new Map();
 
@@ -11,8 +12,10 @@ const VECTOR_FUNCTION = new Uint8Array([
 ]);
 const hasVectors = () => WebAssembly.validate(VECTOR_FUNCTION);
 
-/** While it comes, where the server says that it is a module. */
+/** While it comes, where the server says that it is a module. Node fetches no files. */
 export async function compileAt(url) {
+  const files = String(url).startsWith('file:') && builtIn('node:fs');
+  if (files) return WebAssembly.compile(await files.promises.readFile(new URL(url)));
   const answer = await fetch(url);
   if (!answer.ok) throw new Error(`${url}: the server answered ${answer.status}`);
   return answer.headers.get('content-type') === 'application/wasm'
@@ -21,14 +24,34 @@ export async function compileAt(url) {
 }
 
 function unloadable(error) {
-  return new TksError('io', `The WebAssembly module cannot be loaded (${error.message}). ` +
-    'Bundlers may need {wasm: URL}.', {cause: error});
+  return new TksError('io', `The WebAssembly module cannot be loaded (${error.message}). Copy ` +
+    'tetrakis/tetrakis.wasm (of encode() tetrakis/tetrakis-encode.wasm) to the page and give ' +
+    'its address: {wasm: URL}.', {cause: error});
+}
+
+/** The bytes of a text in base64, compressed by gzip. */
+function unpacked(text) {
+  const bytes = Uint8Array.from(atob(text), (character) => character.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'));
+  return new Response(stream).arrayBuffer();
+}
+
+/** Its own file, or where a bundler has left that behind, what is packed in a script. */
+async function compileOwn(assets) {
+  const load = hasVectors() ? assets.full : assets.plain;
+  try {
+    return await load();
+  } catch (error) {
+    if (!hasVectors()) throw error;
+    const {module} = await assets.packed();
+    return WebAssembly.compile(await unpacked(module));
+  }
 }
 
 function compileOnce(assets, url) {
-  const load = hasVectors() ? assets.full : assets.plain, key = url ? String(url) : load;
+  const key = url ? String(url) : assets;
   if (!compiled.has(key)) {
-    const promise = (url ? compileAt(url) : load()).catch((error) => {
+    const promise = (url ? compileAt(url) : compileOwn(assets)).catch((error) => {
       compiled.delete(key);
       throw error;
     });

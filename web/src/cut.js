@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cuts tiles out of a stream: heights or texels at a grid of longitudes and latitudes, by the mip
 // level that suits their distance, for renderers that ask for tiles.
+import {filled} from './fill.js';
 import {groundScale} from './index.js';
 import {GROWTH} from './pace.js';
 import {placeOf, turnsTo} from './place.js';
@@ -34,7 +35,7 @@ function putTexel({data, width, height}, x, y, out, at) {
   }
 }
 
-const within = (value, most) => Math.min(Math.max(value, 0), most);
+const within = (value, least, most) => Math.min(Math.max(value, least), most);
 
 /** How far behind its bounds, which are those of some places on its border, a part may reach. */
 const MARGIN = 0.01;
@@ -49,6 +50,24 @@ function scanPlace({bounds, pixels}, {longitudes, latitudes}, tolerance, put) {
       if (latitude < south - along || latitude > north + along) return;
       scan.row(latitude, j * longitudes.length, west - across, east + across);
     });
+  }
+}
+
+/** Indices [from, to) of runs of numbers that do not fall. */
+function risingRuns(numbers) {
+  const falls = numbers.flatMap((number, i) => (i > 0 && number < numbers[i - 1] ? [i] : []));
+  return [0, ...falls].map((from, i) => [from, falls[i] ?? numbers.length]);
+}
+
+/** The same for all places of a grid: those beside the part count as the nearest of its bounds. */
+function scanAll({bounds, pixels}, {longitudes, latitudes}, tolerance, put) {
+  const [west, south, east, north] = bounds, middle = (west + east) / 2;
+  const nearest = longitudes.map((longitude) =>
+    within(longitude - 360 * Math.round((longitude - middle) / 360), west, east));
+  for (const [from, to] of risingRuns(nearest)) {
+    const scan = new Scan(pixels, nearest.slice(from, to), tolerance, put);
+    latitudes.forEach((latitude, j) =>
+      scan.row(within(latitude, south, north), j * longitudes.length + from, west, east));
   }
 }
 
@@ -82,50 +101,59 @@ export class Cutter {
       latitudes.at(-1) <= north;
   }
 
-  /** A raster of the part at a mip level; one decoding for all tiles that need it. */
-  #raster(part, level) {
-    const key = `${part} ${level}`;
+  /** A raster of the part at a mip level; one decoding for all tiles that need it. `around`: its
+   * voids have the height of what lies nearest. */
+  #raster(part, level, around) {
+    const key = `${part} ${level} ${around}`;
     if (!this.#rasters.has(key)) {
-      const isTexture = part === 'texture';
-      const options = isTexture
-        ? {texture: true, textureLevel: level}
-        : {surface: true, surfaceLevel: level, texture: false};
-      const promise = this.#terrain
-        .decode({bytes: this.#bytes, mesh: false, ...options})
-        .then((frame) => (isTexture ? frame.texture : frame.surface));
+      const promise = around ? this.#raster(part, level, false).then(filled)
+        : this.#decoded(part, level);
       promise.catch(() => this.#rasters.delete(key));
       this.#rasters.set(key, promise);
     }
     return this.#rasters.get(key);
   }
+  async #decoded(part, level) {
+    const isTexture = part === 'texture';
+    const options = isTexture
+      ? {texture: true, textureLevel: level}
+      : {surface: true, surfaceLevel: level, texture: false};
+    const frame = await this.#terrain.decode({bytes: this.#bytes, mesh: false, ...options});
+    return isTexture ? frame.texture : frame.surface;
+  }
 
-  /** Calls put(i, raster, x, y), at sample (x, y) of a mip level, for places on the part. */
-  async #each(part, longitudes, latitudes, put) {
+  /** Calls put(i, raster, x, y), at sample (x, y) of a mip level, for places on the part; `around`:
+   * for those beside it as well, at its border. */
+  async #each(part, {longitudes, latitudes, around = false}, put) {
     const {info} = this.#terrain, place = this.#places[part];
     const step = (longitudes.at(-1) - longitudes[0]) / (longitudes.length - 1);
     const coarsest = part === 'texture' ? info.textureCoarsestLevel : info.coarsestLevel;
     const level = Math.min(coarsest, this.finest(part, step)), side = 2 ** level;
-    const raster = await this.#raster(part, level);
+    const raster = await this.#raster(part, level, around);
+    const isOn = (column, row) =>
+      column >= 0 && row >= 0 && column <= place.width && row <= place.height;
     // Sample (x, y) of a mip level lies on sample (x 2^level, y 2^level), not on a cell of them.
     const putPlace = (i, column, row) => {
-      if (!(column >= 0 && row >= 0 && column <= place.width && row <= place.height)) return;
-      put(i, raster, within((column - 0.5) / side, raster.width - 1),
-        within((row - 0.5) / side, raster.height - 1));
+      if (around ? !isFinite(column + row) : !isOn(column, row)) return;
+      put(i, raster, within((column - 0.5) / side, 0, raster.width - 1),
+        within((row - 0.5) / side, 0, raster.height - 1));
     };
-    scanPlace(place, {longitudes, latitudes}, TOLERANCE * side, putPlace);
+    const scan = around ? scanAll : scanPlace;
+    scan(place, {longitudes, latitudes}, TOLERANCE * side, putPlace);
   }
-  /** Metres at a grid, row by row; NaN in voids and outside. Longitudes grow, latitudes fall. */
-  async heights(longitudes, latitudes) {
+  /** Metres at a grid, row by row. Longitudes grow, latitudes fall. In voids and outside NaN, or,
+   * `around`, those of the nearest ground. */
+  async heights(longitudes, latitudes, around = false) {
     const heights = new Float32Array(longitudes.length * latitudes.length).fill(NaN);
     const metres = groundScale(this.#terrain.info).height;
-    await this.#each('heights', longitudes, latitudes,
+    await this.#each('heights', {longitudes, latitudes, around},
       (i, raster, x, y) => (heights[i] = metres * heightAt(raster, x, y)));
     return heights;
   }
   /** RGBA likewise; transparent outside. */
   async texels(longitudes, latitudes) {
     const rgba = new Uint8ClampedArray(4 * longitudes.length * latitudes.length);
-    await this.#each('texture', longitudes, latitudes,
+    await this.#each('texture', {longitudes, latitudes},
       (i, raster, x, y) => putTexel(raster, x, y, rgba, 4 * i));
     return rgba;
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decoders as the page calls them: in a worker, or on its own thread.
-import {assets} from '#assets';
 import {abortable} from './abort.js';
+import {assets} from './assets.js';
 import {compile} from './compile.js';
 import {TksError} from './error.js';
 import {Operations} from './operations.js';

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Encodes in the browser: the encoder is a module of its own, loaded when it is first used.
-import {assets} from '#encode_assets';
 import {abortable} from './abort.js';
 import {compile} from './compile.js';
+import {assets} from './encode_assets.js';
 import {checkNames} from './encode_names.js';
 import {encodeWith} from './encoder.js';
 import {TksError} from './error.js';

@@ -21,7 +21,7 @@ function placesOf({z, x, y}) {
   };
 }
 
-/** RGBA of heights in metres: steps of 1/256 m from -32768 m to 32768 m. Voids are 0. */
+/** RGBA of heights in metres: steps of 1/256 m from -32768 m to 32768 m. NaN is 0. */
 function terrarium(heights) {
   const rgba = new Uint8ClampedArray(4 * heights.length);
   for (let i = 0; i < heights.length; ++i) {
@@ -35,11 +35,25 @@ function terrarium(heights) {
   return rgba;
 }
 
-/** Resolves when the map has drawn all that it has, in a picture that nothing else may bring. */
-const drawn = (map) => new Promise((resolve) => {
-  map.once('idle', resolve);
-  map.triggerRepaint();
-});
+/** Milliseconds by which most maps have drawn; what they lack then may never come. */
+const PATIENCE = 5000;
+const IS_WAITING = 'Tetrakis: the map has not drawn all that it has for 5 s. If it shows nothing, ' +
+  'its own worker may be missing: give its address to setWorkerUrl() of MapLibre.';
+
+/** Resolves when the map has drawn all that it has, in a picture that nothing else may bring;
+ * false: it takes long. */
+function drawn(map) {
+  return new Promise((resolve) => {
+    const end = (isIdle) => {
+      clearTimeout(timer);
+      map.off('idle', heard);
+      resolve(isIdle);
+    };
+    const heard = () => end(true), timer = setTimeout(end, PATIENCE, false);
+    map.once('idle', heard);
+    map.triggerRepaint();
+  });
+}
 
 /** One stream on the map. Made by TksProtocol.add(). */
 class TksMapSource {
@@ -57,27 +71,33 @@ class TksMapSource {
   get terrain() {
     return this.#terrain;
   }
+  /** West, south, east and north. */
+  get bounds() {
+    return boxOf((this.#cutter.place('heights') ?? this.#cutter.place('texture')).bounds);
+  }
 
   #source(part) {
     const source = {
       tiles: [`tks://${this.#name}/${part}/{z}/{x}/{y}`],
       tileSize: TILE,
-      bounds: boxOf(this.#cutter.place(part).bounds),
       // Where a pixel of a tile is no larger than a sample.
       maxzoom: Math.min(MOST_ZOOM, this.#cutter.finest(part, 360 / TILE)),
     };
+    // Tiles of heights are everywhere: where a map has none, its ground falls to 0.
     return part === 'heights'
       ? {type: 'raster-dem', encoding: 'terrarium', ...source}
-      : {type: 'raster', ...source};
+      : {type: 'raster', bounds: boxOf(this.#cutter.place(part).bounds), ...source};
   }
 
-  /** RGBA of a tile, or null where the stream does not reach. */
+  /** RGBA of a tile, or null where a texture does not reach. */
   async render(part, tile) {
     const {longitudes, latitudes} = placesOf(tile);
     if (!this.#cutter.place(part)) throw new TksError('usage', `This stream has no ${part}.`);
-    if (!this.#cutter.reaches(part, longitudes, latitudes)) return null;
-    if (part === 'texture') return this.#cutter.texels(longitudes, latitudes);
-    return terrarium(await this.#cutter.heights(longitudes, latitudes));
+    if (part === 'heights') {
+      return terrarium(await this.#cutter.heights(longitudes, latitudes, true));
+    }
+    return this.#cutter.reaches(part, longitudes, latitudes)
+      ? this.#cutter.texels(longitudes, latitudes) : null;
   }
 
   /** Has the map take its tiles of this stream anew; false: it has none. */
@@ -91,10 +111,13 @@ class TksMapSource {
   async refine(map, {bytes = Infinity, signal} = {}) {
     const gone = new AbortController(), leave = () => gone.abort();
     const either = signal ? AbortSignal.any([signal, gone.signal]) : gone.signal;
+    let isTold = false;
     map.on('remove', leave);
     try {
       for await (const _ of this.#cutter.refine({bytes, signal: either})) {
-        if (this.#refresh(map)) await abortable(drawn(map), either);
+        if (!this.#refresh(map) || (await abortable(drawn(map), either)) || isTold) continue;
+        isTold = true;
+        console.warn(IS_WAITING);
       }
     } catch (error) {
       if (error !== gone.signal.reason) throw error;  // nobody sees a map that was removed

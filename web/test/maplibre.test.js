@@ -49,7 +49,7 @@ test('tiles hold the heights of the surface and its colours', async () => {
   const source = await protocol.add('alps', input, {bounds});
   assert.equal(source.heights.type, 'raster-dem');
   assert.equal(source.heights.encoding, 'terrarium');
-  for (let i = 0; i < 4; ++i) assert.ok(Math.abs(source.heights.bounds[i] - bounds[i]) < 1e-6);
+  for (let i = 0; i < 4; ++i) assert.ok(Math.abs(source.bounds[i] - bounds[i]) < 1e-6);
   const {surface} = await source.terrain.decode({bytes: 4096, surface: true});
 
   const z = source.heights.maxzoom, tiles = 2 ** z;
@@ -76,7 +76,7 @@ test('tiles hold the heights of the surface and its colours', async () => {
   assert.ok(checked > 100);
   const colours = await source.render('texture', {z, x, y});
   assert.ok(new Set(new Uint32Array(colours.buffer)).size > 100);
-  assert.equal(await source.render('heights', {z, x: x + 100, y}), null);
+  assert.equal(await source.render('texture', {z, x: x + 100, y}), null);
   await assert.rejects(protocol.add('alps', input, {bounds}), /taken/);
   protocol.remove('alps');
   await assert.rejects(protocol.add('nowhere', input), /does not say where it lies/);
@@ -96,7 +96,7 @@ test('a place that goes across 180° has tiles on both sides', async () => {
     [-180, 360, [-170, 100]]]) {
     const name = `from${west}`, columns = across / 72;
     const source = await protocol.add(name, await inDegrees([west, columns, 0, 9, 0, -0.5]));
-    const [first, , last] = source.heights.bounds;
+    const [first, , last] = source.bounds;
     assert.deepEqual([first, last], [-180, 180]);
     for (const longitude of longitudes) {
       const z = 6, place = ((longitude + 180) / 360) * 2 ** z, x = Math.floor(place);
@@ -113,6 +113,52 @@ test('a place that goes across 180° has tiles on both sides', async () => {
   }
 });
 
+/** Height at a place, as tiles have it: in that of a zoom, the pixel that holds it. */
+async function heightOf(source, longitude, latitude, z) {
+  const up = Math.asinh(Math.tan((latitude * Math.PI) / 180)) / Math.PI;
+  const place = [((longitude + 180) / 360) * 2 ** z, ((1 - up) / 2) * 2 ** z];
+  const [x, y] = place.map(Math.floor);
+  const [column, row] = [place[0] - x, place[1] - y].map((part) => Math.floor(256 * part));
+  const [r, g, b] =
+    (await source.render('heights', {z, x, y})).subarray(4 * (256 * row + column));
+  return r * 256 + g + b / 256 - 32768;
+}
+
+test('beside the ground, and in voids, heights are those of its border', async () => {
+  const protocol = new TksProtocol();
+  // 1000 m in the west to 1630 m in the east; the outer columns and some in the middle are void.
+  const isVoid = (x) => x < 3 || x > 60 || (x >= 30 && x < 34);
+  const data = Int16Array.from({length: 64 * 32}, (_, i) =>
+    (isVoid(i % 64) ? -9999 : 1000 + 10 * (i % 64)));
+  for (const [crs, geotransform, side] of [
+    ['EPSG:4326', [7, 0.01, 0, 46, 0, -0.01], 0.01],
+    ['EPSG:32632', [4e5, 900, 0, 51e5, 0, -900], 0.01],
+    ['EPSG:4326', [179.8, 0.01, 0, 46, 0, -0.01], 0.01],
+  ]) {
+    const heights = {data, width: 64, height: 32, nodata: -9999, crs, geotransform};
+    const source = await protocol.add('edge', await encode({heights}));
+    await source.terrain.decode();
+    const {bounds: [, south, , north]} = source.texture ?? source, middle = (south + north) / 2;
+    const west = crs === 'EPSG:4326' ? geotransform[0] : 7.7, east = west + 64 * side;
+    for (const z of [3, 6, source.heights.maxzoom]) {
+      for (const latitude of [south - 20, south - 0.2, middle, north + 0.2, north + 20]) {
+        for (const [longitude, wanted] of [[west - 50, 1030], [west - 2, 1030], [east + 2, 1600],
+          [east + 50, 1600]]) {
+          const within = ((longitude + 540) % 360) - 180;
+          const got = await heightOf(source, within, latitude, z);
+          const most = z > 3 ? 80 : 350;  // a mip level of 2 x 1 samples
+          assert.ok(Math.abs(got - wanted) < most, `${crs}: ${got} at ${within} ${latitude}, ${z}`);
+        }
+      }
+    }
+    if (crs === 'EPSG:4326' && west < 100) {
+      const hole = await heightOf(source, west + 0.315, middle, source.heights.maxzoom);
+      assert.ok(Math.abs(hole - 1290) < 1 || Math.abs(hole - 1340) < 1, `${hole}`);
+    }
+    protocol.remove('edge');
+  }
+});
+
 test('bounds that are none are refused', async () => {
   const input = await readFile(new URL('regions_joint_index_40x33_50x47.tks', vectors));
   const protocol = new TksProtocol();
@@ -122,7 +168,7 @@ test('bounds that are none are refused', async () => {
       {code: 'usage', message: /`bounds` are \[west, south, east, north\]/}, String(bounds));
   }
   const source = await protocol.add('x', input, {bounds: [170, -10, -170, 10]});
-  assert.deepEqual(source.heights.bounds.map(Math.round), [-180, -10, 180, 10]);
+  assert.deepEqual(source.bounds.map(Math.round), [-180, -10, 180, 10]);
   const lost = await encode({heights: {data: new Int16Array(16), width: 4, height: 4,
     crs: 'EPSG:32632', geotransform: [1e150, 1, 0, 0, 0, -1]}});
   await assert.rejects(protocol.add('y', lost), {code: 'unsupported', message: /does not reach/});
@@ -158,20 +204,24 @@ class Drawing {
   }
 }
 
-test('refining ends, whether the map is idle, without the source, or removed', async () => {
+test('refining ends: the map is idle, without the source, removed, never idle', async (t) => {
   const input = await readFile(new URL('regions_joint_index_40x33_50x47.tks', vectors));
   const protocol = new TksProtocol(), bounds = [8, 46, 8.1, 46.07];
-  for (const [name, draws] of [['idle', true], ['without', true], ['removed', false]]) {
+  const warn = t.mock.method(console, 'warn', () => {});
+  for (const [name, draws] of [
+    ['idle', true], ['without', true], ['removed', false], ['never', false],
+  ]) {
     const source = await protocol.add(name, input, {bounds});
     const map = new Drawing(name === 'without' ? {} : {dem: source.heights}, draws);
     const refining = source.refine(map);
     if (name === 'removed') setTimeout(() => map.fire('remove'), 50);
-    const late = new Promise((_, reject) => setTimeout(reject, 3000, new Error(name)).unref());
+    const late = new Promise((_, reject) => setTimeout(reject, 9000, new Error(name)).unref());
     await Promise.race([refining, late]);
     assert.equal(map.refreshed, name === 'without' ? 0 : 1);
     assert.ok(source.terrain.loaded.bytes === input.length, name);
     protocol.remove(name);
   }
+  assert.deepEqual(warn.mock.calls.map(({arguments: [said]}) => /setWorkerUrl/.test(said)), [true]);
 });
 
 test('a name is taken from the beginning; who removes it ends its opening', async (t) => {
@@ -225,11 +275,11 @@ test('few places of a tile are projected, and the others lie where they would', 
 test('a stream that says where it lies needs no bounds', async () => {
   const input = await readFile(new URL('placed_joint_20x15_40x31.tks', vectors));
   const source = await new TksProtocol().add('placed', input);
-  const [west, south, east, north] = source.heights.bounds;
-  assert.ok(west < east && south < north, String(source.heights.bounds));
+  const [west, south, east, north] = source.bounds;
+  assert.ok(west < east && south < north, String(source.bounds));
   // UTM zone 32 and the texture's own place, which is near.
   for (let i = 0; i < 4; ++i) {
-    assert.ok(Math.abs(source.heights.bounds[i] - source.texture.bounds[i]) < 0.1);
+    assert.ok(Math.abs(source.bounds[i] - source.texture.bounds[i]) < 0.1);
   }
   const z = source.heights.maxzoom, tiles = 2 ** z;
   const x = Math.floor((((west + east) / 2 + 180) / 360) * tiles);

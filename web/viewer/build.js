@@ -18,6 +18,8 @@ const bundle = (names, options) => build({
   target: 'es2022',
   legalComments: 'linked',
   ...options,
+  // The viewer says where worker and modules lie: it needs none that are packed in scripts.
+  external: ['../dist/packed*', ...(options?.external ?? [])],
 });
 // What the first script shares with what draws is a file of its own (chunk.js). What reads GeoTIFFs
 // is as large as all the rest, and loaded when such a file is opened.
