@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "api/decoder.hpp"
@@ -21,49 +19,15 @@ void forget(tks_decoder& decoder) {
 
 namespace {
 
-using Tracks = std::map<uint32_t, std::vector<uint8_t>>;
-
-/// Whether each track begins with the bytes that it had. An index that names other tracks than the
-/// packets do gives tracks bytes that are not theirs, until the packets' own heads are there.
-bool haveGrown(const Tracks& before, const Tracks& now) {
-  return std::all_of(before.begin(), before.end(), [&](const auto& track) {
-    const auto& [number, had] = track;
-    const auto has = now.find(number);
-    return has != now.end() && had.size() <= has->second.size() &&
-           std::equal(had.begin(), had.end(), has->second.begin());
-  });
-}
-
-/// What was decoded stays only where it is still what the tracks say. With a gap prefixes are not
-/// rounded.
-void replacePackets(tks_decoder& decoder, TakenPackets taken) {
-  const auto& before = decoder.packets.payload.codewords;
-  const auto& now = taken.payload.codewords;
-  if (before[0] != now[0] || taken.has_gap != decoder.packets.has_gap) decoder.heights.reset();
-  if (!haveGrown(before[0], now[0])) decoder.heights_memory.clear();
-  if (!haveGrown(before[1], now[1])) decoder.texture_memory.clear();
-  decoder.packets = std::move(taken);
-}
-
-/// All bytes of the heights' tracks.
-uint64_t bytesOfHeights(const tks_decoder& decoder) {
-  uint64_t bytes = 0;
-  for (const auto& [number, codeword] : decoder.packets.payload.codewords[0])
-    bytes += codeword.size();
-  return bytes;
-}
-
-/// Takes the packets apart that are there now. What was decoded of tracks that go on stays.
-Status retakePackets(tks_decoder& decoder) {
-  if (onlyGrew(decoder)) {
-    const uint64_t before = bytesOfHeights(decoder);
-    const Status status = takeMorePackets(decoder);
-    if (bytesOfHeights(decoder) != before) decoder.heights.reset();
-    return status;
-  }
-  Result<TakenPackets> taken = takePackets(decoder);
-  if (taken.ok()) replacePackets(decoder, *std::move(taken));
-  return taken.status();
+/// Takes the packets apart that are there now. Heights that were decoded stay if nothing changes
+/// them: with a gap prefixes are not rounded.
+Status retakePackets(tks_decoder& decoder, std::span<const ByteRange> ranges) {
+  const uint64_t bytes = decoder.packets.payload.bytes[0];
+  const bool has_gap = decoder.packets.has_gap;
+  const Status status = takeMorePackets(decoder, ranges);
+  if (decoder.packets.payload.bytes[0] != bytes || decoder.packets.has_gap != has_gap)
+    decoder.heights.reset();
+  return status;
 }
 
 /// The stream ends for the decoder where it was.
@@ -96,8 +60,7 @@ Status check(const tks_decoder& decoder, std::span<const Run> runs) {
   return {};
 }
 
-/// Packets are looked at once, however many runs there are; behind the bytes that were there only
-/// those that are new.
+/// The time follows from the bytes of the runs, however many there are of the stream.
 Status put(tks_decoder& decoder, std::span<const Run> runs) {
   if (const Status status = check(decoder, runs); !status.ok()) return status;
   uint64_t more = 0;
@@ -113,10 +76,17 @@ Status put(tks_decoder& decoder, std::span<const Run> runs) {
                                 limit + "."});
   }
   const size_t front = decoder.data.size();
-  if (decoder.pieces.empty()) decoder.pieces.put(0, decoder.data);
-  for (const auto& [place, bytes] : runs) decoder.pieces.put(place, bytes);
-  decoder.data = decoder.pieces.from(0);
-  if (const Status status = retakePackets(decoder); !status.ok()) {
+  if (decoder.pieces.empty()) {
+    decoder.pieces.put(0, decoder.data);
+    decoder.data = decoder.pieces.from(0);
+  }
+  std::vector<ByteRange> ranges;
+  for (const auto& [place, bytes] : runs) ranges.push_back({place, place + bytes.size()});
+  for (const auto& [place, bytes] : runs) {
+    decoder.pieces.put(place, bytes);
+    decoder.data = decoder.pieces.from(0);
+  }
+  if (const Status status = retakePackets(decoder, ranges); !status.ok()) {
     decoder.data = decoder.data.first(front);
     return refuse(decoder, status);
   }

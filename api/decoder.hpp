@@ -12,6 +12,7 @@
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/stream/pieces.hpp"
+#include "bitstream/stream/scattered_packets.hpp"
 #include "codec/geometry/heights_decoder.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 #include "wavelet/pyramid.hpp"
@@ -33,6 +34,7 @@ struct tks_decoder {
   tetrakis::ParsedHeader parsed;
   tks_index index = TKS_INDEX_NONE;
   tetrakis::TakenPackets packets;
+  std::optional<tetrakis::ScatteredPackets> scattered;  ///< once bytes left a gap
   int heights_level = 0, texture_level = 0;
   std::optional<tetrakis::DecodedHeights> heights;  ///< of that level, decoded on first use
   bool remembers = false;  ///< what was decoded of tracks, so that more bytes cost what they tell
@@ -60,11 +62,9 @@ DecodedHeights decodeHeights(tks_decoder& decoder, const View& view);
 /// Takes the packets apart that are there. TKS_CORRUPT; TKS_LIMIT: they take too much memory.
 Result<TakenPackets> takePackets(const tks_decoder& decoder);
 
-/// Whether what is there of the stream goes on from what was taken apart, and has no gap.
-bool onlyGrew(const tks_decoder& decoder);
-
-/// Takes apart what is new, in time for that, if it onlyGrew(). On an error nothing changes.
-Status takeMorePackets(tks_decoder& decoder);
+/// Takes apart what these ranges of the stream have brought, in time for that. On an error nothing
+/// changes.
+Status takeMorePackets(tks_decoder& decoder, std::span<const ByteRange> ranges);
 
 /// Forgets what was decoded of tracks, and remembers no more of it.
 void forget(tks_decoder& decoder);

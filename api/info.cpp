@@ -25,8 +25,6 @@ Status verify(const tks_decoder& decoder) {
     return {TKS_CORRUPT, "Corrupt stream: " + std::to_string(decoder.data.size() - total) +
                              " bytes follow its end at byte " + std::to_string(total) + "."};
   }
-  if (!header.index.empty() && !describes(header.index, decoder.packets.payload.heads))
-    return wrongIndex();
   const std::span<const uint8_t> payload = decoder.data.subspan(decoder.parsed.bytes);
   if (header.payload_crc && *header.payload_crc != crc32(payload))
     return {TKS_CORRUPT, "The stream is damaged: the checksum of its payload does not match."};
@@ -46,12 +44,6 @@ void fillQuality(const tks_decoder& decoder, tks_info& info) {
     info.texture_psnr =
         rmse == 0 ? std::numeric_limits<double>::infinity() : 20 * std::log10(peak / rmse);
   }
-}
-
-uint64_t bytesOf(const std::map<uint32_t, std::vector<uint8_t>>& codewords) {
-  uint64_t bytes = 0;
-  for (const auto& [number, codeword] : codewords) bytes += codeword.size();
-  return bytes;
 }
 
 uint32_t sideOf(const RegionHeader& regions) {
@@ -106,8 +98,8 @@ void fillStream(const tks_decoder& decoder, tks_info& info) {
   info.stream_bytes = decoder.parsed.bytes + header.payload_bytes;
   info.available_bytes = decoder.data.size();
   info.packets = decoder.packets.payload.heads.size();
-  info.geometry_bytes = bytesOf(decoder.packets.payload.codewords[0]);
-  info.texture_bytes = bytesOf(decoder.packets.payload.codewords[1]);
+  info.geometry_bytes = decoder.packets.payload.bytes[0];
+  info.texture_bytes = decoder.packets.payload.bytes[1];
   info.has_heights = header.geometry.has_value();
   info.has_texture = header.texture.has_value();
   info.lossless = header.lossless;

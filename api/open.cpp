@@ -85,9 +85,7 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
 /// Whether a byte of the stream is there behind one that is missing.
 bool hasGap(const tks_decoder& decoder) {
   const uint64_t end = decoder.parsed.bytes + decoder.parsed.header.payload_bytes;
-  if (decoder.pieces.bytes() <= decoder.data.size() || decoder.data.size() >= end) return false;
-  const ByteRange rest{decoder.data.size(), end};
-  return decoder.pieces.missing(rest) != std::vector{rest};
+  return decoder.data.size() < end && decoder.pieces.hasAny({decoder.data.size(), end});
 }
 
 /// The bytes behind the header, up to the first that is missing.
@@ -103,7 +101,10 @@ Result<uint64_t> memoryFor(const tks_decoder& decoder, PayloadCount count) {
     count.bytes = decoder.pieces.bytes();
     count.packets = std::max<uint64_t>(count.packets, decoder.parsed.header.index.size());
   }
-  const uint64_t bytes = payloadBytes(count, trackCounts(decoder.parsed.header));
+  const bool scattered = decoder.scattered || hasGap(decoder);
+  const uint64_t bytes =
+      payloadBytes(count, trackCounts(decoder.parsed.header)) +
+      (scattered ? ScatteredPackets::bytesOf(decoder.parsed.header.index.size()) : 0);
   if (bytes + decoder.pieces.bytes() <= decoder.max_memory) return bytes;
   return Status(TKS_LIMIT, "Opening the stream takes " + describeBytes(bytes) +
                                " of memory; the limit (max_memory) is " +
@@ -122,19 +123,13 @@ Result<TakenPackets> takePackets(const tks_decoder& decoder) {
   if (!bytes.ok()) return bytes.status();
   Result<Demultiplexed> taken = demultiplex(payload, start, tracks, count->packets);
   if (!taken.ok()) return taken.status();
-  const bool has_gap = hasGap(decoder);
-  if (has_gap) {
-    const Status status = addScattered(decoder.pieces, decoder.parsed, *taken);
-    if (!status.ok()) return status;
-  }
-  return TakenPackets{*std::move(taken), *bytes, has_gap};
+  return TakenPackets{*std::move(taken), *bytes};
 }
 
-bool onlyGrew(const tks_decoder& decoder) {
-  return !decoder.packets.has_gap && !hasGap(decoder);
-}
+namespace {
 
-Status takeMorePackets(tks_decoder& decoder) {
+/// Of a stream that has only grown at its end.
+Status takeFollowing(tks_decoder& decoder) {
   const std::span<const uint8_t> payload = payloadOf(decoder);
   Demultiplexed& taken = decoder.packets.payload;
   Result<PayloadCount> count = countPackets(payload, decoder.parsed.bytes, taken.counts, taken.end);
@@ -144,6 +139,44 @@ Status takeMorePackets(tks_decoder& decoder) {
   if (!bytes.ok()) return bytes.status();
   decoder.packets.bytes = *bytes;
   return demultiplexMore(payload, decoder.parsed.bytes, taken);
+}
+
+/// What the front index says of the packets, compared with all that was there before the first gap.
+Status makeScattered(tks_decoder& decoder) {
+  const TakenPackets& before = decoder.packets;
+  decoder.scattered.emplace(decoder.parsed, before.payload);
+  const ByteRange front{decoder.parsed.bytes, decoder.parsed.bytes + before.payload.end.at + 1};
+  Status status = decoder.scattered->check(decoder.pieces, front);
+  if (!status.ok()) decoder.scattered.reset();
+  return status;
+}
+
+Status takeScattered(tks_decoder& decoder, std::span<const ByteRange> ranges) {
+  const Result<uint64_t> bytes = memoryFor(decoder, {});
+  if (!bytes.ok()) return bytes.status();
+  if (!decoder.scattered) {
+    if (Status status = makeScattered(decoder); !status.ok()) return status;
+  }
+  for (const ByteRange& range : ranges) {
+    if (Status status = decoder.scattered->check(decoder.pieces, range); !status.ok())
+      return status;
+  }
+  TakenPackets& taken = decoder.packets;
+  taken.bytes = *bytes;
+  for (const ByteRange& range : ranges)
+    decoder.scattered->take(decoder.pieces, range, taken.payload);
+  taken.has_gap = hasGap(decoder);
+  const auto [heights, texture] = decoder.scattered->settle(taken.has_gap, taken.payload);
+  if (heights) decoder.heights_memory.clear();
+  if (texture) decoder.texture_memory.clear();
+  return passHeads(payloadOf(decoder), decoder.parsed.bytes, taken.payload);
+}
+
+}  // namespace
+
+Status takeMorePackets(tks_decoder& decoder, std::span<const ByteRange> ranges) {
+  if (decoder.scattered || hasGap(decoder)) return takeScattered(decoder, ranges);
+  return takeFollowing(decoder);
 }
 
 }  // namespace tetrakis::inline api

@@ -8,7 +8,7 @@
 
 #include "bitstream/stream/correction_tracks.hpp"
 #include "bitstream/stream/indexed_packets.hpp"
-#include "bitstream/stream/pieces.hpp"
+#include "bitstream/stream/scattered_packets.hpp"
 #include "receiver/track_costs.hpp"
 
 namespace tetrakis::inline receiver {

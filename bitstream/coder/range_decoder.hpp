@@ -19,6 +19,7 @@ class RangeDecoder {
   explicit RangeDecoder(std::span<const uint8_t> bytes)
       : next_(bytes.data()), end_(next_ + bytes.size()) {
     for (int i = 0; i < 4; ++i) shiftIn();
+    if (code_ + slack_ == 0xffffffff) decideNothing();
   }
 
   /// Decodes one decision and updates the model. After exhausted() the result is meaningless and
@@ -93,6 +94,14 @@ class RangeDecoder {
       shiftIn();
     }
     return bit;
+  }
+
+  /// A code of FFFFFFFF is no less than the range, which no encoder writes: all decisions would be
+  /// 1 and take no bytes. So a codeword decides nothing while it may be one.
+  void decideNothing() {
+    exhausted_ = true;
+    slack_ = 0xffffffff;
+    next_ = end_;
   }
 
   void shiftIn() {

@@ -106,10 +106,11 @@ Codewords Demultiplexed::codewordsOf(Component component) const {
   return all;
 }
 
-bool Demultiplexed::nothingOf(Component component) const {
-  const auto& known = codewords[static_cast<size_t>(component)];
-  return std::all_of(known.begin(), known.end(),
-                     [](const auto& one) { return one.second.empty(); });
+void Demultiplexed::add(Component component, uint32_t track, std::span<const uint8_t> more) {
+  const auto c = static_cast<size_t>(component);
+  std::vector<uint8_t>& codeword = codewords[c][track];
+  codeword.insert(codeword.end(), more.begin(), more.end());
+  bytes[c] += more.size();
 }
 
 namespace {
@@ -189,18 +190,28 @@ Result<PayloadCount> countPackets(std::span<const uint8_t> payload, size_t origi
   return count;
 }
 
+namespace {
+
+void takeHead(const PacketPart& part, Demultiplexed& out) {
+  const auto component = static_cast<size_t>(part.head.component());
+  assert(part.head.track < out.counts[component].tracks);
+  if (part.begins) out.heads.push_back(part.head);
+  if (part.complete) out.quality[component] = part.head.quality;
+}
+
+}  // namespace
+
 Status demultiplexMore(std::span<const uint8_t> payload, size_t origin, Demultiplexed& out) {
   return forEachPacket(payload, origin, out.counts, out.end, [&](const PacketPart& part) {
-    const auto component = static_cast<size_t>(part.head.component());
-    assert(part.head.track < out.counts[component].tracks);
-    if (part.begins) out.heads.push_back(part.head);
-    const std::span<const uint8_t> bytes = newBytes(part);
-    if (part.complete || !part.head.whole()) {
-      std::vector<uint8_t>& codeword = out.codewords[component][part.head.track];
-      codeword.insert(codeword.end(), bytes.begin(), bytes.end());
-    }
-    if (part.complete) out.quality[component] = part.head.quality;
+    takeHead(part, out);
+    if (part.complete || !part.head.whole())
+      out.add(part.head.component(), part.head.track, newBytes(part));
   });
+}
+
+Status passHeads(std::span<const uint8_t> payload, size_t origin, Demultiplexed& out) {
+  return forEachPacket(payload, origin, out.counts, out.end,
+                       [&](const PacketPart& part) { takeHead(part, out); });
 }
 
 Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,

@@ -105,13 +105,16 @@ struct Demultiplexed {
   PayloadPlace end;  ///< of what was taken apart
   /// What is available of the tracks of each component, by number; of the others nothing is.
   std::array<std::map<uint32_t, std::vector<uint8_t>>, kComponents> codewords;
+  std::array<uint64_t, kComponents> bytes{};                ///< of those codewords together
   std::array<std::optional<uint8_t>, kComponents> quality;  ///< of the last complete packet of each
   std::vector<PacketHead> heads;                            ///< of every packet begun
 
   /// The bytes of each track of a component. There may be many tracks.
   Codewords codewordsOf(Component component) const;
   /// No byte of any track of the component is available.
-  bool nothingOf(Component component) const;
+  bool nothingOf(Component component) const { return bytes[static_cast<size_t>(component)] == 0; }
+  /// Adds to what is available of a track.
+  void add(Component component, uint32_t track, std::span<const uint8_t> more);
 };
 
 /// What a payload holds, for an idea of what it takes to take it apart.
@@ -131,5 +134,8 @@ Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origi
 /// Goes on where the payload ended before, in time for what is new. On an error some of it was
 /// taken: countPackets() tells of errors first.
 Status demultiplexMore(std::span<const uint8_t> payload, size_t origin, Demultiplexed& out);
+
+/// The same of heads and qualities alone, where the codewords have what packets hold already.
+Status passHeads(std::span<const uint8_t> payload, size_t origin, Demultiplexed& out);
 
 }  // namespace tetrakis::inline stream

@@ -3,45 +3,73 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
-#include <string>
 #include <utility>
-
-#include "bitstream/stream/indexed_packets.hpp"
 
 namespace tetrakis::inline stream {
 
+void ByteRun::prepend(std::span<const uint8_t> more) {
+  if (first_ < more.size()) {
+    const size_t free = more.size() + size();
+    std::vector<uint8_t> room(free + size());
+    std::copy(bytes().begin(), bytes().end(), room.begin() + static_cast<ptrdiff_t>(free));
+    room_ = std::move(room);
+    first_ = free;
+  }
+  first_ -= more.size();
+  std::copy(more.begin(), more.end(), room_.begin() + static_cast<ptrdiff_t>(first_));
+}
+
+void ByteRun::makeRoom(size_t more) {
+  const size_t needed = room_.size() + more;
+  if (needed > room_.capacity()) room_.reserve(std::max(needed, 2 * room_.capacity()));
+}
+
 void Pieces::put(uint64_t place, std::span<const uint8_t> bytes) {
-  if (bytes.empty()) return;
-  const uint64_t end = place + bytes.size();
-  auto run = runs_.upper_bound(place);  // the run that the bytes belong to, or the next one
-  if (run != runs_.begin() && std::prev(run)->first + std::prev(run)->second.size() >= place) {
-    --run;
+  for (const ByteRange& gap : missing({place, place + bytes.size()}))
+    fill(gap.begin, bytes.subspan(gap.begin - place, gap.end - gap.begin));
+}
+
+/// The run begins elsewhere from now on.
+Pieces::Runs::iterator Pieces::moved(Runs::iterator run, uint64_t place) {
+  auto node = runs_.extract(run);
+  node.key() = place;
+  return runs_.insert(std::move(node)).position;
+}
+
+/// None of the bytes is there. Of two runs that meet the shorter one is copied, so that a byte is
+/// copied once for each time that its run has doubled.
+void Pieces::fill(uint64_t place, std::span<const uint8_t> bytes) {
+  auto next = runs_.lower_bound(place);
+  const auto before = next == runs_.begin() ? runs_.end() : std::prev(next);
+  const bool goes_on = before != runs_.end() && before->first + before->second.size() == place;
+  const bool is_met = next != runs_.end() && next->first == place + bytes.size();
+  if (!goes_on && !is_met) {
+    runs_.emplace_hint(next, place, ByteRun())->second.append(bytes);
+  } else if (goes_on && (!is_met || before->second.size() >= next->second.size())) {
+    before->second.makeRoom(bytes.size() + (is_met ? next->second.size() : 0));
+    before->second.append(bytes);
+    if (is_met) {
+      before->second.append(next->second.bytes());
+      runs_.erase(next);
+    }
   } else {
-    run = runs_.emplace_hint(run, place, std::vector<uint8_t>());
+    next->second.prepend(bytes);
+    next = moved(next, place);
+    if (goes_on) {
+      next->second.prepend(before->second.bytes());
+      const uint64_t begin = before->first;
+      runs_.erase(before);
+      moved(next, begin);
+    }
   }
-  std::vector<uint8_t>& joined = run->second;
-  const auto append = [&](std::span<const uint8_t> more) {
-    joined.insert(joined.end(), more.begin(), more.end());
-    bytes_ += more.size();
-  };
-  for (;;) {
-    const uint64_t known = run->first + joined.size();
-    const auto next = std::next(run);
-    const uint64_t stop = next == runs_.end() ? end : std::min(end, next->first);
-    if (stop > known) append(bytes.subspan(known - place, stop - known));
-    if (next == runs_.end() || next->first > run->first + joined.size()) return;
-    bytes_ -= next->second.size();
-    append(next->second);
-    runs_.erase(next);
-  }
+  bytes_ += bytes.size();
 }
 
 std::span<const uint8_t> Pieces::from(uint64_t place) const {
   const auto after = runs_.upper_bound(place);
   if (after == runs_.begin()) return {};
   const auto& [begin, run] = *std::prev(after);
-  return place - begin < run.size() ? std::span(run).subspan(place - begin)
+  return place - begin < run.size() ? run.bytes().subspan(place - begin)
                                     : std::span<const uint8_t>();
 }
 
@@ -58,61 +86,9 @@ std::vector<ByteRange> Pieces::missing(ByteRange wanted) const {
   return gaps;
 }
 
-uint64_t openingBytes(const StreamHeader& header, Component component) {
-  if (component == Component::kGeometry) return header.layers.openingBytes();
-  return header.texture ? header.texture->alpha_bytes + header.texture->overlay_bytes : 0;
-}
-
-namespace {
-
-/// Drops the tracks behind the first of a component whose opening is not complete: they mean
-/// nothing without it.
-void dropUnopened(const StreamHeader& header, Demultiplexed& payload) {
-  for (size_t i = 0; i < kComponents; ++i) {
-    auto& tracks = payload.codewords[i];
-    const auto first = tracks.find(0);
-    const uint64_t opened = first == tracks.end() ? 0 : first->second.size();
-    if (opened >= openingBytes(header, static_cast<Component>(i))) continue;
-    std::erase_if(tracks, [](const auto& track) { return track.first > 0; });
-  }
-}
-
-}  // namespace
-
-Status addScattered(const Pieces& pieces, const ParsedHeader& parsed, Demultiplexed& payload) {
-  const uint64_t end = parsed.bytes + parsed.header.payload_bytes;
-  std::set<std::pair<Component, uint32_t>> ended;  // tracks whose next byte is missing
-  const auto before_end = [&](uint64_t from) {
-    const std::span<const uint8_t> bytes = pieces.from(from);
-    return bytes.first(std::min<uint64_t>(bytes.size(), end - std::min(from, end)));
-  };
-  for (const IndexedPacket& packet : IndexedPackets(parsed.header, parsed.bytes)) {
-    const PacketHead& entry = packet.entry.packet;
-    const auto component = static_cast<size_t>(entry.component());
-    const TrackCount& tracks = payload.counts[component];
-    if (entry.track >= tracks.tracks) {
-      return {TKS_CORRUPT, "Corrupt stream: its index names a track that there is not."};
-    }
-    const std::vector<uint8_t> head = headBytes(entry, tracks.named);
-    const std::span<const uint8_t> known = before_end(packet.begin),
-                                   bytes = before_end(packet.payload);
-    if (!std::equal(head.begin(), head.begin() + std::min(head.size(), known.size()),
-                    known.begin())) {
-      return {TKS_CORRUPT, "Corrupt stream: its index does not describe the packet at byte " +
-                               std::to_string(packet.begin) + "."};
-    }
-    const bool complete = bytes.size() >= entry.length();
-    const std::pair track(entry.component(), entry.track);
-    const bool is_new = packet.number >= payload.heads.size();
-    if (is_new && (complete || !entry.whole()) && !ended.contains(track)) {
-      std::vector<uint8_t>& codeword = payload.codewords[component][entry.track];
-      const auto taken = bytes.first(std::min<uint64_t>(bytes.size(), entry.length()));
-      codeword.insert(codeword.end(), taken.begin(), taken.end());
-    }
-    if (!complete) ended.insert(track);
-  }
-  dropUnopened(parsed.header, payload);
-  return {};
+bool Pieces::hasAny(ByteRange range) const {
+  const auto after = runs_.upper_bound(range.begin);
+  return (after != runs_.end() && after->first < range.end) || !from(range.begin).empty();
 }
 
 }  // namespace tetrakis::inline stream

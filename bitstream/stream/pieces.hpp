@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes of a stream that came in any order, and what of its packets they hold.
+// Bytes of a stream that came in any order.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <span>
 #include <vector>
-
-#include "base/status.hpp"
-#include "bitstream/stream/header.hpp"
-#include "bitstream/stream/packet.hpp"
 
 namespace tetrakis::inline stream {
 
@@ -19,10 +16,28 @@ struct ByteRange {
   bool operator==(const ByteRange&) const = default;
 };
 
+/// Bytes in one piece, which grows at both ends in time for what is added.
+class ByteRun {
+ public:
+  std::span<const uint8_t> bytes() const { return std::span(room_).subspan(first_); }
+  size_t size() const { return room_.size() - first_; }
+  void append(std::span<const uint8_t> more) {
+    room_.insert(room_.end(), more.begin(), more.end());
+  }
+  void prepend(std::span<const uint8_t> more);
+  /// So that nothing is allocated for the next `more` bytes that are appended.
+  void makeRoom(size_t more);
+
+ private:
+  std::vector<uint8_t> room_;
+  size_t first_ = 0;  ///< what lies before it is free
+};
+
 /// Runs of bytes by their places in the stream. No two of them touch.
 class Pieces {
  public:
-  /// Takes the bytes that are not there yet; of the others those that came first stay.
+  /// Takes the bytes that are not there yet; of the others those that came first stay. In whatever
+  /// order n bytes come, all of it takes time in proportion to n log n.
   void put(uint64_t place, std::span<const uint8_t> bytes);
 
   /// What is there from a place on, up to the first byte that is missing. Valid until put().
@@ -31,21 +46,20 @@ class Pieces {
   /// What is not there of a range, in the order of the bytes.
   std::vector<ByteRange> missing(ByteRange wanted) const;
 
+  /// Whether a byte of a range is there.
+  bool hasAny(ByteRange range) const;
+
   uint64_t bytes() const { return bytes_; }
   bool empty() const { return runs_.empty(); }
 
  private:
-  std::map<uint64_t, std::vector<uint8_t>> runs_;
+  using Runs = std::map<uint64_t, ByteRun>;
+
+  void fill(uint64_t place, std::span<const uint8_t> bytes);
+  Runs::iterator moved(Runs::iterator run, uint64_t place);
+
+  Runs runs_;
   uint64_t bytes_ = 0;
 };
-
-/// What a component's tracks need before any of their coefficients can be told: the first track
-/// begins with it.
-uint64_t openingBytes(const StreamHeader& header, Component component);
-
-/// Adds to what was taken from the first run of a stream with a front index the packets behind its
-/// end. Of each track that is what goes on where its bytes before end: a codeword has no gaps.
-/// TKS_CORRUPT where a packet's head is not the one that the index tells.
-Status addScattered(const Pieces& pieces, const ParsedHeader& parsed, Demultiplexed& payload);
 
 }  // namespace tetrakis::inline stream

@@ -67,7 +67,7 @@ GrowingTrack::GrowingTrack(std::vector<BandPlan> plan, int planes)
 
 /// Takes back what a shorter prefix told of the pass in which it ended.
 void GrowingTrack::goOn(std::span<const uint8_t> codeword) {
-  if (!decoder_ || lost_) {
+  if (!decoder_ || decoder_->exhausted() || lost_) {
     if (lost_) {
       passes_ = PassQueue(plan_, planes_);
       state_ = TrackState(plan_, planes_);

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "bitstream/coder/decision_bound.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_decoder.hpp"
 #include "codec/geometry/flat/flat_decoder.hpp"
 #include "codec/geometry/plane_corrections.hpp"
@@ -54,8 +55,38 @@ DecodedHeights heightsOf(DecodedGeometry steps, const TakenLayers& taken) {
   return heightsOf(table, taken.header, std::move(steps));
 }
 
-/// The steps that the first codewords hold: a drawing, or coefficients beside flat areas.
-DecodedGeometry decodeSteps(const TakenLayers& taken, const View& view,
+/// What is decoded for a view of the coded lines.
+struct DecodedView {
+  View view;
+  bool corrected = false;  ///< corrections reach it
+};
+
+/// Whether corrections of a plane in one track end before a row: each takes a decision, of which
+/// the bytes pay for so many.
+bool correctionsEndBefore(uint32_t row, const TakenLayers& taken, Mask valid) {
+  if (taken.corrections.size() > 1) return false;
+  const size_t end = size_t{row} * taken.header.width;
+  uint64_t left = mostDecisions(taken.corrections.front().size());
+  if (valid.all()) return end >= left;
+  for (const uint8_t one : valid.bytes().first(end)) {
+    left -= one;
+    if (left == 0) return true;
+  }
+  return false;
+}
+
+DecodedView decodedViewOf(const TakenLayers& taken, Mask valid, const View& asked) {
+  const bool corrected = asked.level == 0 && taken.isCorrected();
+  if (!asked.window) return {asked, corrected};
+  const View all = decodedView(taken.header, taken.stated, asked);
+  if (taken.header.direct()) return {all, corrected};
+  if (!corrected || correctionsEndBefore(asked.window->y, taken, valid)) return {asked, false};
+  return {all, true};
+}
+
+/// The steps that the first codewords hold: a drawing, or coefficients beside flat areas. view: the
+/// one that is asked for, which becomes the one that is decoded.
+DecodedGeometry decodeSteps(const TakenLayers& taken, DecodedView& view,
                             const DecodeContext<HeightsMemory>& context) {
   const GeometryHeader& header = taken.header;
   const GeometryLayers& stated = taken.stated;
@@ -66,12 +97,13 @@ DecodedGeometry decodeSteps(const TakenLayers& taken, const View& view,
   std::vector<uint8_t>& lifted = memory.lifted;
   if (stated.late_mask && lifted.empty()) lifted = lateLifted(taken);
   std::vector<uint8_t> valid = validityOf(taken, lifted, context.memory);
+  view = decodedViewOf(taken, valid, view.view);
   const JoinedCoefficients joined = joinCoefficients(taken);
   if (header.drawn) {
     const std::span<const uint8_t> codeword = joined.codewords.front();
     return kept != nullptr && kept->drawing
                ? kept->drawing(codeword.size())
-               : decodeDrawnHeights(header, codeword, valid, view.level);
+               : decodeDrawnHeights(header, codeword, valid, view.view.level);
   }
   if (stated.bridge > 0 && lifted.empty())
     lifted = liftedSamples(valid, header.extent(), stated.bridge);
@@ -80,34 +112,37 @@ DecodedGeometry decodeSteps(const TakenLayers& taken, const View& view,
   if (memory.flat.empty())
     memory.flat = flatAreasOf(taken, stated.late_mask ? *bridged : Mask(valid));
   return decodeCoefficients(header, joined.codewords,
-                            {std::move(valid), memory.flat.held(), bridged}, view,
+                            {std::move(valid), memory.flat.held(), bridged}, view.view,
                             {context.threads, kept != nullptr ? &memory.tracks : nullptr});
 }
 
-/// Decodes a view of the coded lines, with everything that the codewords hold for it.
-DecodedHeights decodeTaken(const TakenLayers& taken, const View& view,
+/// Decodes a view of the coded lines, with everything that the codewords hold for it. view: as of
+/// decodeSteps().
+DecodedHeights decodeTaken(const TakenLayers& taken, DecodedView& view,
                            const DecodeContext<HeightsMemory>& context) {
   const GeometryHeader& header = taken.header;
   if (header.stored()) {
     const std::vector<uint8_t> valid = validityOf(taken, {}, context.memory);
+    view = decodedViewOf(taken, valid, view.view);
     return decodeStoredHeights(header, joinCoefficients(taken).codewords.front(), valid,
-                               view.level);
+                               view.view.level);
   }
-  DecodedHeights decoded = heightsOf(decodeSteps(taken, view, context), taken);
-  if (view.level > 0 || !taken.isCorrected()) return decoded;
-  return corrected(std::move(decoded), taken, view, context.threads);
+  DecodedGeometry steps = decodeSteps(taken, view, context);
+  DecodedHeights decoded = heightsOf(std::move(steps), taken);
+  if (!view.corrected) return decoded;
+  return corrected(std::move(decoded), taken, view.view, context.threads);
 }
 
-/// Decodes a view of the coded lines; a window is cut out of what decodedView() says.
+/// Decodes a view of the coded lines; a window is cut out of what is decoded.
 DecodedHeights decodeLines(const TakenLayers& taken, const View& view,
                            const DecodeContext<HeightsMemory>& context) {
-  if (!view.window || !(taken.header.direct() || taken.isCorrected()))
-    return decodeTaken(taken, view, context);
-  const View all = decodedView(taken.header, taken.stated, view);
-  const DecodedHeights decoded = decodeTaken(taken, all, {context.threads});
+  DecodedView all{view};
+  DecodedHeights decoded = decodeTaken(taken, all, context);
+  const Extent plane = taken.header.extent();
+  if (!view.window || all.view.extentIn(plane) == view.extentIn(plane)) return decoded;
   const Window& window = *view.window;
-  return windowOf(decoded, {window.x - all.firstColumn(), window.y - all.firstRow(), window.width,
-                            window.height});
+  return windowOf(decoded, {window.x - all.view.firstColumn(), window.y - all.view.firstRow(),
+                            window.width, window.height});
 }
 
 }  // namespace

@@ -14,9 +14,11 @@ namespace tetrakis::conformance {
 
 using Bytes = std::vector<uint8_t>;
 
-/// Bytes that decide something everywhere. The first `ones` are FF, the very end of the range.
+/// Bytes that decide something everywhere. The first `ones` are FF, the very end of the range; but
+/// the fourth is FE, since four of FF decide nothing (docs/FORMAT.md, section 4).
 inline Bytes noise(size_t size, uint32_t seed, size_t ones = 0) {
   Bytes bytes(size, 255);
+  if (ones > 3) bytes[3] = 254;
   for (size_t i = ones; i < size; ++i)
     bytes[i] = static_cast<uint8_t>(samples::hash(static_cast<uint32_t>(i), seed, 41) >> 24);
   return bytes;

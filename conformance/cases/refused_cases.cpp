@@ -46,6 +46,51 @@ std::vector<VectorCase> unusualCases() {
           crafted("text_9x9", "text that is not UTF-8", streamOf(text, noise(60, 53)))};
 }
 
+/// Codewords of FF alone, which no encoder writes and which decide nothing, each before others.
+std::vector<VectorCase> onesCases() {
+  const Bytes ones(40, 255);
+  StreamHeader layers = heightsHeader(20, 17, TKS_F32, 12);
+  layers.layers.validity_bytes = layers.layers.flat_bytes = 40;
+  layers.layers.flat_areas = 1;
+  layers.layers.corrections = CorrectionKind::kSamples;
+  layers.layers.table_bytes = 40;
+  layers.layers.table_values = 9;
+  layers.layers.table_after = 20;
+  layers.layers.coefficient_bytes = 40;
+  Bytes of_layers;
+  for (int i = 0; i < 5; ++i) append(of_layers, ones);
+  StreamHeader masked = layers;
+  masked.layers = {.validity_bytes = 40};
+  Bytes of_masked = ones;
+  append(of_masked, noise(200, 55));
+  return {crafted("ones_9x9", "a codeword of FF decides nothing",
+                  streamOf(heightsHeader(9, 9, TKS_I16, 8), ones)),
+          crafted("ones_layers_20x17", "codewords of FF: all layers of heights",
+                  streamOf(layers, of_layers)),
+          crafted("ones_mask_20x17", "a mask of FF decides nothing, coefficients do",
+                  streamOf(masked, of_masked)),
+          crafted("ones_texels_13x11", "a codeword of FF: texels",
+                  streamOf(textureHeader(13, 11, 3, TKS_U8, 8), ones)),
+          crafted("ones_drawn_13x11", "a codeword of FF: a drawing",
+                  streamOf(textureHeader(13, 11, 3, TKS_U8, kDrawnPlanes), ones))};
+}
+
+/// An index that says something else than the packet does.
+VectorCase lyingIndex(const std::string& name, const std::string& purpose, const PacketHead& told) {
+  StreamHeader header = heightsHeader(9, 9, TKS_I16, 8);
+  header.index = {{told, 255}};
+  return crafted(name, purpose, streamOf(header, noise(60, 56)));
+}
+
+std::vector<VectorCase> indexCases() {
+  return {lyingIndex("index_quality_9x9", "an index with another quality changes nothing",
+                     {60 << 2, 0, 7}),
+          lyingIndex("index_head_9x9", "an index with another length changes nothing",
+                     {41 << 2 | 2, 0, 0}),
+          lyingIndex("index_component_9x9", "an index with a component that there is not",
+                     {60 << 2 | 1, 0, 0})};
+}
+
 /// Header fields, each of them wrong, in front of a sound packet.
 std::vector<VectorCase> refusedHeaders() {
   std::vector<VectorCase> cases;
@@ -261,7 +306,8 @@ std::vector<VectorCase> refusedPackets() {
 
 std::vector<VectorCase> unusualAndRefusedCases() {
   std::vector<VectorCase> all;
-  for (const auto& cases : {unusualCases(), refusedHeaders(), refusedPackets()})
+  for (const auto& cases :
+       {unusualCases(), onesCases(), indexCases(), refusedHeaders(), refusedPackets()})
     all.insert(all.end(), cases.begin(), cases.end());
   return all;
 }

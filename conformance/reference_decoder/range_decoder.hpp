@@ -14,10 +14,12 @@ class RangeDecoder {
  public:
   explicit RangeDecoder(std::span<const uint8_t> codeword) : codeword_(codeword) {
     for (int i = 0; i < 4; ++i) shiftIn();
+    may_be_beyond_ = code_ + slack_ == 0xFFFFFFFFu;
   }
 
   /// `zero` is P(0) in units of 2^-16. Nothing: the missing bytes decide, the track ends here.
   std::optional<int> decode(uint32_t zero) {
+    if (may_be_beyond_) return std::nullopt;
     const auto bound = static_cast<uint32_t>((uint64_t{range_} * zero) >> 16);
     if (code_ < bound && bound <= uint64_t{code_} + slack_) return std::nullopt;
     const int bit = code_ >= bound;
@@ -45,6 +47,7 @@ class RangeDecoder {
   std::span<const uint8_t> codeword_;
   size_t next_ = 0;
   uint32_t code_ = 0, slack_ = 0, range_ = 0xFFFFFFFFu;
+  bool may_be_beyond_ = false;  ///< all of the first four bytes that are there are FF
 };
 
 /// FORMAT 4, "Adaptive decision".

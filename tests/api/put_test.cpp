@@ -191,6 +191,35 @@ TEST(Put, InTheEndAnIndexThatLiesChangesNothing) {
   EXPECT_GT(taken, 20u);
 }
 
+/// Who has all bytes does not need the index; who takes bytes where it says is told.
+TEST(Put, AnIndexThatLiesIsNoDamageWithoutGaps) {
+  const samples::Raster heights = samples::make({samples::Pattern::kRidges, 40, 31, 1, TKS_I16});
+  const Bytes bytes = encodeRegions(&heights, nullptr, lossless());
+  const auto parsed = readHeader(bytes);
+  StreamHeader header = parsed->header;
+  ASSERT_GT(header.index.size(), 1u);
+  for (const bool length : {false, true}) {
+    header.index = parsed->header.index;
+    PacketHead& told = header.index.front().packet;
+    if (length) {
+      told.head += 4;
+    } else {
+      told.quality ^= 1;
+    }
+    Bytes lying = writeHeader(header);
+    const size_t begin = lying.size();
+    lying.insert(lying.end(), bytes.begin() + static_cast<ptrdiff_t>(parsed->bytes), bytes.end());
+    Stream stream(lying), grown(Prefix(lying).first(begin)), scattered(Prefix(lying).first(begin));
+    EXPECT_EQ(tks_verify(stream.get()), TKS_OK) << tks_message(stream.get());
+    EXPECT_EQ(squaredError(heights, stream.heights()), 0);
+    ASSERT_EQ(tks_append(grown.get(), lying.data() + begin, lying.size() - begin), TKS_OK);
+    EXPECT_EQ(squaredError(heights, grown.heights()), 0);
+    const size_t behind = begin + 1 + 2;  // in the payload of the first packet
+    ASSERT_EQ(tks_put(scattered.get(), behind, lying.data() + behind, 1), TKS_OK);
+    EXPECT_EQ(tks_append(scattered.get(), lying.data() + begin, 2 + 1), TKS_CORRUPT);
+  }
+}
+
 TEST(Put, WithoutAnIndexBytesComeInTheirOrder) {
   const samples::Raster heights = samples::make({samples::Pattern::kRidges, 30, 20, 1, TKS_I16});
   const Bytes bytes = encode(&heights, nullptr, lossless());

@@ -5,7 +5,9 @@
 #include <bit>
 #include <limits>
 #include <random>
+#include <span>
 
+#include "bitstream/coder/decision_bound.hpp"
 #include "bitstream/coder/range_decoder.hpp"
 #include "bitstream/coder/range_encoder.hpp"
 #include "bitstream/stream/fields.hpp"
@@ -64,6 +66,78 @@ TEST(RangeCoder, EveryPrefixDecidesAPrefixOfTheBits) {
       ASSERT_TRUE(std::equal(bits.begin(), bits.end(), coded.bits.begin())) << seed << " " << bytes;
       if (bits.size() == coded.bits.size()) continue;
       ASSERT_GT(coded.decided[bits.size()], bytes);
+    }
+  }
+}
+
+/// Bytes of which many are at an end of the range, and the first ones most of all.
+std::vector<uint8_t> extremeBytes(uint32_t seed) {
+  std::mt19937 random(seed);
+  std::vector<uint8_t> bytes(random() % 40);
+  const size_t ones = random() % 7;
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    const auto kind = random() % 4;
+    bytes[i] = static_cast<uint8_t>(i < ones || kind == 0 ? 0xff : kind == 1 ? 0 : random());
+  }
+  return bytes;
+}
+
+/// The decisions of one model and of even odds in turn, at most so many.
+std::vector<bool> decisionsOf(std::span<const uint8_t> bytes, size_t most) {
+  RangeDecoder decoder(bytes);
+  AdaptiveBit model;
+  std::vector<bool> bits;
+  while (bits.size() < most) {
+    const bool bit = bits.size() % 3 == 0 ? decoder.decodeEven() : decoder.decode(model);
+    if (decoder.exhausted()) break;
+    bits.push_back(bit);
+  }
+  return bits;
+}
+
+TEST(RangeCoder, APrefixOfAnyBytesDecidesAPrefix) {
+  for (uint32_t seed = 0; seed < 2000; ++seed) {
+    const std::vector<uint8_t> bytes = extremeBytes(seed);
+    std::vector<bool> before;
+    for (size_t size = 0; size <= bytes.size(); ++size) {
+      const std::vector<bool> bits = decisionsOf(std::span(bytes).first(size), 2000);
+      ASSERT_LT(bits.size(), 2000u);
+      ASSERT_GE(bits.size(), before.size()) << seed << " " << size;
+      ASSERT_TRUE(std::equal(before.begin(), before.end(), bits.begin())) << seed << " " << size;
+      before = bits;
+    }
+  }
+}
+
+TEST(RangeCoder, OnesAloneDecideNothing) {
+  for (size_t size = 0; size < 20; ++size) {
+    const std::vector<uint8_t> ones(size, 0xff);
+    EXPECT_TRUE(decisionsOf(ones, 1).empty()) << size;
+    RangeDecoder decoder(ones);
+    EXPECT_FALSE(decoder.hasPlenty(1));
+  }
+  for (size_t other = 0; other < 4; ++other) {
+    std::vector<uint8_t> bytes(8, 0xff);
+    bytes[other] = 0xfe;
+    EXPECT_FALSE(decisionsOf(bytes, 1).empty()) << other;
+  }
+}
+
+/// At the ends of the range a model gets as certain as one can, and decisions are cheapest.
+TEST(RangeCoder, BytesPayForDecisions) {
+  for (const uint8_t byte : {uint8_t{0}, uint8_t{0xff}}) {
+    for (const size_t size : {4u, 5u, 9u, 40u}) {
+      std::vector<uint8_t> bytes(size, byte);
+      if (byte == 0xff) bytes[3] = 0xfe;
+      RangeDecoder decoder(bytes);
+      AdaptiveBit model;
+      uint64_t decisions = 0;
+      for (; decisions <= mostDecisions(size); ++decisions) {
+        decoder.decode(model);
+        if (decoder.exhausted()) break;
+      }
+      EXPECT_LE(decisions, mostDecisions(size)) << size;
+      EXPECT_GT(decisions, mostDecisions(size) * 9 / 10 - 300'000) << size;
     }
   }
 }

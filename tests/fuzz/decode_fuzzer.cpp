@@ -1,23 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// libFuzzer target: everything a reader does with bytes from a stranger. Seeds:
-// conformance/vectors.
+// libFuzzer target: everything a reader does with bytes from a stranger, and in planes that are too
+// large for all of it, how long that takes. Seeds: conformance/vectors.
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <span>
+#include <string>
 
 #include "conformance/samples/header_seal.hpp"
+#include "tests/pace/pace.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
 
 namespace {
 
+tks_limits limitsOf(uint64_t samples, uint64_t memory) {
+  tks_limits limits = tetrakis::makeLimits();
+  limits.max_samples = limits.max_texels = samples;
+  limits.max_memory = memory;
+  return limits;
+}
+
 /// Small enough that an input costs milliseconds, large enough for several levels.
 tks_limits fuzzLimits() {
-  tks_limits limits = tetrakis::makeLimits();
-  limits.max_samples = limits.max_texels = 1 << 13;
-  limits.max_memory = 64 << 20;
-  return limits;
+  return limitsOf(1 << 13, 64 << 20);
+}
+
+/// Larger planes are only timed: a fault that costs time for each sample hides in small ones.
+void checkPace(std::span<const uint8_t> bytes) {
+  if (!tetrakis::Decoder::open(bytes, limitsOf(1 << 17, 256 << 20))) return;
+  static const double slow = tetrakis::test::slowness();
+  const std::string call = tetrakis::test::slowCall(bytes, slow);
+  if (call.empty()) return;
+  std::fprintf(stderr, "%s\n", call.c_str());
+  std::abort();
 }
 
 /// The promise of tks_mesh: indices stay inside.
@@ -109,7 +126,10 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   auto decoder = tetrakis::Decoder::open({data, size}, fuzzLimits());
-  if (!decoder) return 0;
+  if (!decoder) {
+    checkPace({data, size});
+    return 0;
+  }
   const tks_info& info = decoder->info();
   if (info.has_heights) {
     const auto first = decoder->heights();

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bitstream/stream/scattered_packets.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "bitstream/stream/indexed_packets.hpp"
+
+namespace tetrakis::inline stream {
+
+uint64_t openingBytes(const StreamHeader& header, Component component) {
+  if (component == Component::kGeometry) return header.layers.openingBytes();
+  return header.texture ? header.texture->alpha_bytes + header.texture->overlay_bytes : 0;
+}
+
+ScatteredPackets::ScatteredPackets(const ParsedHeader& parsed, const Demultiplexed& taken)
+    : header_(parsed.header),
+      counts_(taken.counts),
+      begin_(parsed.bytes),
+      end_(parsed.bytes + parsed.header.payload_bytes) {
+  const std::optional<PacketHead>& open = taken.end.open;
+  const size_t complete = taken.heads.size() - (open ? 1 : 0);
+  const uint64_t seen = open && !open->whole() ? taken.end.seen : 0;
+  std::array<std::map<uint32_t, uint32_t>, kComponents> last;
+  places_.reserve(header_.index.size());
+  for (const IndexedPacket& packet : IndexedPackets(header_, parsed.bytes)) {
+    const PacketHead& head = packet.entry.packet;
+    const auto number = static_cast<uint32_t>(packet.number);
+    const auto component = static_cast<size_t>(head.component());
+    places_.push_back({packet.begin, kNone});
+    const auto [before, is_first] = last[component].try_emplace(head.track, number);
+    if (!is_first) places_[std::exchange(before->second, number)].next = number;
+    if (number >= complete)
+      frontiers_[component].try_emplace(head.track, number, number == complete ? seen : 0);
+  }
+}
+
+bool ScatteredPackets::isNamed(const PacketHead& head) const {
+  return counts_[static_cast<size_t>(head.component())].named;
+}
+
+/// The packet that a byte behind the header belongs to.
+uint32_t ScatteredPackets::packetAt(uint64_t place) const {
+  const auto after = std::upper_bound(places_.begin(), places_.end(), place,
+                                      [](uint64_t at, const Place& p) { return at < p.begin; });
+  return static_cast<uint32_t>(after - places_.begin()) - (after == places_.begin() ? 0 : 1);
+}
+
+Status ScatteredPackets::checkHead(const Pieces& pieces, uint32_t packet) const {
+  const PacketHead& told = head(packet);
+  const uint64_t begin = places_[packet].begin;
+  if (told.track >= counts_[static_cast<size_t>(told.component())].tracks)
+    return {TKS_CORRUPT, "Corrupt stream: its index names a track that there is not."};
+  const std::vector<uint8_t> bytes = headBytes(told, isNamed(told));
+  const std::span<const uint8_t> there = pieces.from(begin);
+  const size_t known = std::min<uint64_t>({bytes.size(), there.size(), end_ - begin});
+  if (told.length() > 0 &&
+      std::equal(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(known), there.begin()))
+    return {};
+  return {TKS_CORRUPT, "Corrupt stream: its index does not describe the packet at byte " +
+                           std::to_string(begin) + "."};
+}
+
+Status ScatteredPackets::check(const Pieces& pieces, ByteRange range) const {
+  const uint64_t end = std::min(range.end, end_);
+  for (uint32_t i = packetAt(range.begin); i < places_.size() && places_[i].begin < end; ++i)
+    if (Status status = checkHead(pieces, i); !status.ok()) return status;
+  const PacketHead& last = head(static_cast<uint32_t>(places_.size() - 1));
+  const uint64_t told =
+      places_.back().begin + headBytes(last, isNamed(last)).size() + last.length();
+  if (std::max(range.begin, begin_) >= end || told >= end) return {};
+  return {TKS_CORRUPT, "Corrupt stream: its index does not describe the packet at byte " +
+                           std::to_string(told) + "."};
+}
+
+void ScatteredPackets::take(const Pieces& pieces, ByteRange range, Demultiplexed& out) {
+  const uint64_t end = std::min(range.end, end_);
+  for (uint32_t i = packetAt(range.begin); i < places_.size() && places_[i].begin < end; ++i) {
+    auto& frontiers = frontiers_[static_cast<size_t>(head(i).component())];
+    const auto frontier = frontiers.find(head(i).track);
+    if (frontier != frontiers.end() && frontier->second.packet == i)
+      advance(pieces, frontier->second, out);
+  }
+}
+
+void ScatteredPackets::advance(const Pieces& pieces, Frontier& frontier, Demultiplexed& out) {
+  while (frontier.packet != kNone) {
+    const PacketHead& packet = head(frontier.packet);
+    const Place& place = places_[frontier.packet];
+    const uint64_t payload = place.begin + headBytes(packet, isNamed(packet)).size();
+    const uint64_t from = std::min(payload + frontier.taken, end_);
+    std::span<const uint8_t> bytes = pieces.from(from);
+    bytes = bytes.first(
+        std::min<uint64_t>({bytes.size(), end_ - from, packet.length() - frontier.taken}));
+    const bool complete = frontier.taken + bytes.size() == packet.length();
+    if (!complete && packet.whole()) return;
+    if (!bytes.empty()) add(packet, bytes, out);
+    frontier.taken += bytes.size();
+    if (!complete) return;
+    frontier = {place.next, 0};
+  }
+}
+
+void ScatteredPackets::add(const PacketHead& head, std::span<const uint8_t> bytes,
+                           Demultiplexed& out) {
+  Waiting& waiting = waiting_[static_cast<size_t>(head.component())];
+  if (!waiting.any || head.track == 0) return out.add(head.component(), head.track, bytes);
+  std::vector<uint8_t>& codeword = waiting.codewords[head.track];
+  codeword.insert(codeword.end(), bytes.begin(), bytes.end());
+  waiting.bytes += bytes.size();
+}
+
+std::array<bool, kComponents> ScatteredPackets::settle(bool has_gap, Demultiplexed& out) {
+  std::array<bool, kComponents> withdrawn{};
+  for (size_t c = 0; c < kComponents; ++c) {
+    const auto first = out.codewords[c].find(0);
+    const uint64_t opened = first == out.codewords[c].end() ? 0 : first->second.size();
+    const bool waits = has_gap && opened < openingBytes(header_, static_cast<Component>(c));
+    if (waits == waiting_[c].any) continue;
+    withdrawn[c] = waits;
+    exchangeWaiting(c, out);
+    waiting_[c].any = waits;
+  }
+  return withdrawn;
+}
+
+/// All tracks but the first one change places with those that wait.
+void ScatteredPackets::exchangeWaiting(size_t component, Demultiplexed& out) {
+  auto& shown = out.codewords[component];
+  Waiting& waiting = waiting_[component];
+  auto first = shown.extract(0);
+  const uint64_t opening = first.empty() ? 0 : first.mapped().size();
+  out.bytes[component] -= opening;
+  std::swap(shown, waiting.codewords);
+  std::swap(out.bytes[component], waiting.bytes);
+  out.bytes[component] += opening;
+  if (!first.empty()) shown.insert(std::move(first));
+}
+
+}  // namespace tetrakis::inline stream

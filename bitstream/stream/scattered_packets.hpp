@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes the packets of a stream with a front index apart whose bytes come in any order, in time for
+// what is new: each track is taken up to its first gap, as a codeword has none.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "base/status.hpp"
+#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/packet.hpp"
+#include "bitstream/stream/pieces.hpp"
+
+namespace tetrakis::inline stream {
+
+/// What a component's tracks need before any of their coefficients can be told: the first track
+/// begins with it.
+uint64_t openingBytes(const StreamHeader& header, Component component);
+
+class ScatteredPackets {
+ public:
+  /// taken: what was taken of the stream up to its first gap. The header outlives this.
+  ScatteredPackets(const ParsedHeader& parsed, const Demultiplexed& taken);
+
+  /// The bytes that this takes for so many packets of an index.
+  static uint64_t bytesOf(uint64_t packets) { return packets * sizeof(Place); }
+
+  /// TKS_CORRUPT where the index tells another head than that of a packet in the range, as far as
+  /// that is there, or a track that there is not.
+  Status check(const Pieces& pieces, ByteRange range) const;
+
+  /// Adds to the tracks what the range has brought. check() has found nothing.
+  void take(const Pieces& pieces, ByteRange range, Demultiplexed& out);
+
+  /// Where a gap is left, the tracks behind the first of a component wait until its opening is
+  /// complete: they mean nothing without it. Returns the components of which some were withdrawn.
+  std::array<bool, kComponents> settle(bool has_gap, Demultiplexed& out);
+
+ private:
+  struct Place {
+    uint64_t begin;  ///< of the packet in the stream
+    uint32_t next;   ///< the next packet of its track, kNone: it is the last one
+  };
+  static constexpr uint32_t kNone = UINT32_MAX;
+  /// The packet that a track goes on with, and how many bytes of it were taken.
+  struct Frontier {
+    uint32_t packet;
+    uint64_t taken;
+  };
+  struct Waiting {
+    bool any = false;  ///< tracks wait
+    std::map<uint32_t, std::vector<uint8_t>> codewords;
+    uint64_t bytes = 0;
+  };
+
+  const PacketHead& head(uint32_t packet) const { return header_.index[packet].packet; }
+  bool isNamed(const PacketHead& head) const;
+  uint32_t packetAt(uint64_t place) const;
+  Status checkHead(const Pieces& pieces, uint32_t packet) const;
+  void advance(const Pieces& pieces, Frontier& frontier, Demultiplexed& out);
+  void add(const PacketHead& head, std::span<const uint8_t> bytes, Demultiplexed& out);
+  void exchangeWaiting(size_t component, Demultiplexed& out);
+
+  const StreamHeader& header_;
+  TrackCounts counts_;
+  uint64_t begin_, end_;  ///< of the payload
+  std::vector<Place> places_;
+  std::array<std::map<uint32_t, Frontier>, kComponents> frontiers_;
+  std::array<Waiting, kComponents> waiting_;
+};
+
+}  // namespace tetrakis::inline stream
