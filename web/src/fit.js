@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From where a camera of a given direction sees all of a terrain, as near as it can.
-import {Vector3} from 'three';
+import {Box3, MathUtils, Vector3} from 'three';
 
 /**
  * The place of a camera that looks along `ahead` and has all points in its picture. `window`: where
@@ -25,4 +25,61 @@ export function placeFor({ahead, right, up}, window, eachPoint) {
   const cy = (bounds.low + bounds.high + (window.low + window.high) * cz) / 2;
   return new Vector3()
     .addScaledVector(right, cx).addScaledVector(up, cy).addScaledVector(ahead, cz);
+}
+
+/** From the south, above. */
+const USUAL = new Vector3(-0.35, -0.62, -1);
+/** Of half of the picture, that is left around the terrain. */
+const MARGIN = 0.04;
+
+/** Unit axes of a camera that looks along `direction` with the y axis upright. */
+function axesOf(direction) {
+  const ahead = direction.clone().normalize();
+  const isUpright = Math.abs(ahead.y) > 0.9999;
+  const above = isUpright ? new Vector3(0, 0, -1) : new Vector3(0, 1, 0);
+  const right = new Vector3().crossVectors(ahead, above).normalize();
+  return {ahead, right, up: new Vector3().crossVectors(right, ahead)};
+}
+
+/** Tangents of the angles from the axis to the edges of a picture. */
+function windowOf(camera) {
+  const high = ((1 - MARGIN) * Math.tan(MathUtils.degToRad(camera.fov) / 2)) / camera.zoom;
+  return {left: -high * camera.aspect, right: high * camera.aspect, low: -high, high};
+}
+
+/** The least zoom by which an orthographic camera at `eye` has all of a box in its picture. */
+function zoomFor(camera, {right, up}, eye, corners) {
+  const reach = (axis) => Math.max(
+    ...corners.map((corner) => Math.abs(corner.clone().sub(eye).dot(axis))), Number.MIN_VALUE);
+  return ((1 - MARGIN) / 2) * Math.min(
+    (camera.right - camera.left) / reach(right), (camera.top - camera.bottom) / reach(up));
+}
+
+/** Puts a camera so that an object fills its picture; gives the middle of the object. */
+export function fitCamera(camera, object, direction = USUAL) {
+  object.updateWorldMatrix(true, false);
+  const box = new Box3().setFromObject(object, true), axes = axesOf(direction);
+  const middle = box.getCenter(new Vector3());
+  const radius = box.getSize(new Vector3()).length() / 2 || 1;
+  const corners = Array.from({length: 8}, (_, i) => new Vector3(...['x', 'y', 'z'].map(
+    (axis, k) => box[i >> k & 1 ? 'max' : 'min'][axis])));
+  if (camera.isOrthographicCamera) {
+    camera.position.copy(middle).addScaledVector(axes.ahead, -2 * radius);
+    camera.zoom = zoomFor(camera, axes, camera.position, corners);
+  } else {
+    const places = object.geometry.getAttribute('position'), point = new Vector3();
+    camera.position.copy(placeFor(axes, windowOf(camera), (take) => {
+      for (let i = 0; i < places.count; ++i) {
+        take(point.fromBufferAttribute(places, i).applyMatrix4(object.matrixWorld));
+      }
+    }));
+  }
+  const distance = camera.position.distanceTo(middle);
+  camera.up.set(0, 1, 0);
+  camera.near = (distance + radius) / 5000;
+  camera.far = 4 * (distance + radius);
+  camera.lookAt(camera.position.clone().add(axes.ahead));
+  camera.updateProjectionMatrix();
+  camera.updateMatrixWorld();
+  return middle;
 }
