@@ -47,6 +47,14 @@ function windowOf(camera) {
   return {left: -high * camera.aspect, right: high * camera.aspect, low: -high, high};
 }
 
+/** Calls take(point) with every vertex of an object, where it lies in the world. */
+function eachPlace({geometry, matrixWorld}, take) {
+  const places = geometry.getAttribute('position'), point = new Vector3();
+  for (let i = 0; i < places.count; ++i) {
+    take(point.fromBufferAttribute(places, i).applyMatrix4(matrixWorld));
+  }
+}
+
 /** The least zoom by which an orthographic camera at `eye` has all of a box in its picture. */
 function zoomFor(camera, {right, up}, eye, corners) {
   const reach = (axis) => Math.max(
@@ -67,17 +75,16 @@ export function fitCamera(camera, object, direction = USUAL) {
     camera.position.copy(middle).addScaledVector(axes.ahead, -2 * radius);
     camera.zoom = zoomFor(camera, axes, camera.position, corners);
   } else {
-    const places = object.geometry.getAttribute('position'), point = new Vector3();
-    camera.position.copy(placeFor(axes, windowOf(camera), (take) => {
-      for (let i = 0; i < places.count; ++i) {
-        take(point.fromBufferAttribute(places, i).applyMatrix4(object.matrixWorld));
-      }
-    }));
+    camera.position.copy(placeFor(axes, windowOf(camera), (take) => eachPlace(object, take)));
   }
-  const distance = camera.position.distanceTo(middle);
+  const reach = camera.position.distanceTo(middle) + radius;
+  let nearest = Infinity;
+  eachPlace(object, (point) => {
+    nearest = Math.min(nearest, point.sub(camera.position).dot(axes.ahead));
+  });
   camera.up.set(0, 1, 0);
-  camera.near = (distance + radius) / 5000;
-  camera.far = 4 * (distance + radius);
+  camera.near = Math.min(reach / 5000, nearest / 2);
+  camera.far = 4 * reach;
   camera.lookAt(camera.position.clone().add(axes.ahead));
   camera.updateProjectionMatrix();
   camera.updateMatrixWorld();

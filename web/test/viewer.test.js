@@ -447,8 +447,8 @@ test('a link keeps the camera, once it was moved', async () => {
     assert.match(url().hash, /^#eye=[-\d.,e]+&target=[-\d.,e]+&height=4$/);
     const shot = (which) =>
       which.locator('#picture').screenshot({style: 'aside, header, #bearings { display: none }'});
-    const before = await shot(page), other = await page.context().newPage();
-    await other.setViewportSize({width: 1000, height: 600});
+    const before = await shot(page);
+    const other = await browser.newPage({viewport: {width: 1000, height: 600}});
     await other.goto(page.url());
     await ended(other);
     await other.waitForTimeout(700);
