@@ -17,6 +17,7 @@
 #include "base/white_level.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/georeference.hpp"
+#include "bitstream/stream/ground_positions.hpp"
 #include "bitstream/stream/texture_header.hpp"
 #include "encoder/encode_stream.hpp"
 #include "encoder/outliers.hpp"
@@ -49,6 +50,11 @@ Status checkPlace(const std::string& whose, const T& raster) {
   if (raster.registration < TKS_REGISTRATION_UNKNOWN ||
       raster.registration > TKS_REGISTRATION_POINT)
     return misuse("The registration of the " + whose + " is unknown.");
+  if (raster.positions != nullptr) {
+    const auto* const first = reinterpret_cast<const char*>(raster.positions);
+    if (!groundPositionsIn({first, raster.positions_size}))
+      return misuse("The positions of the " + whose + " are none of tks_fit_positions.");
+  }
   GeoTransform transform;
   std::copy_n(raster.geotransform, transform.size(), transform.begin());
   if (!raster.has_geotransform || isSound(transform)) return {};

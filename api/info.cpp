@@ -9,6 +9,7 @@
 #include "api/decoder.hpp"
 #include "api/sized.hpp"
 #include "bitstream/stream/checksum.hpp"
+#include "bitstream/stream/ground_positions.hpp"
 
 namespace tetrakis::inline api {
 
@@ -86,6 +87,27 @@ void fillGeoreference(const tks_decoder& decoder, tks_info& info) {
   const bool shared = place.texture.has_transform && !place.hasTextureCrs();
   info.texture_crs = shared ? info.crs : place.texture_crs.c_str();
   info.texture_geo_keys = shared ? info.geo_keys : place.texture.geo_keys.c_str();
+}
+
+struct PositionBytes {
+  const uint8_t* data = nullptr;
+  size_t size = 0;
+};
+
+/// As they stand in the stream, if they are of the form that is known.
+PositionBytes positionsIn(const tks_decoder& decoder, OptionalKind kind) {
+  const std::string* bytes = findPart(decoder.parsed.header.optional_parts, kind);
+  if (bytes == nullptr || !groundPositionsIn(*bytes)) return {};
+  return {reinterpret_cast<const uint8_t*>(bytes->data()), bytes->size()};
+}
+
+void fillPositions(const tks_decoder& decoder, tks_info& info) {
+  const PositionBytes heights = positionsIn(decoder, OptionalKind::kHeightPositions);
+  const PositionBytes texture = positionsIn(decoder, OptionalKind::kTexturePositions);
+  info.positions = heights.data;
+  info.positions_size = heights.size;
+  info.texture_positions = texture.data;
+  info.texture_positions_size = texture.size;
 }
 
 /// The stream as a whole.
@@ -180,7 +202,7 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info) {
   tks_info full = {};
   for (const auto fill :
        {tetrakis::fillStream, tetrakis::fillHeights, tetrakis::fillTexture, tetrakis::fillMetadata,
-        tetrakis::fillGeoreference, tetrakis::fillQuality})
+        tetrakis::fillGeoreference, tetrakis::fillPositions, tetrakis::fillQuality})
     fill(*decoder, full);
   tetrakis::giveSized(full, *info);
   return TKS_OK;

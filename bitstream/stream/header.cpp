@@ -154,6 +154,7 @@ std::vector<uint8_t> writeHeader(const StreamHeader& header) {
   copy.level = levelFor(header);
   FieldWriter body;
   visitBody(body, copy);
+  writeOptionalParts(header.optional_parts, body);
   FieldWriter out;
   out.bytes.assign(kMagic.begin(), kMagic.end());
   out.bytes.insert(out.bytes.end(), {copy.version, copy.profile, copy.level});
@@ -205,9 +206,11 @@ Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes) {
   FieldReader size_reader(bytes.subspan(kFixedBytes), kFixedBytes);
   size_reader.take();
   const size_t body_start = kFixedBytes + size_reader.position();
-  FieldReader body(bytes.subspan(body_start, crc_start - body_start), body_start);
+  const std::span<const uint8_t> body_bytes = bytes.subspan(body_start, crc_start - body_start);
+  FieldReader body(body_bytes, body_start);
   visitBody(body, header);
   if (!body.ok()) return body.status();
+  header.optional_parts = readOptionalParts(body_bytes.subspan(body.position()));
   if (Status meaning = checkMeaning(header); !meaning.ok()) return meaning;
   if (header.level != levelFor(header)) {
     return Status(TKS_CORRUPT, "Corrupt stream: the level does not fit the sizes.");

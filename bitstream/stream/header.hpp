@@ -13,6 +13,7 @@
 #include "base/status.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/georeference.hpp"
+#include "bitstream/stream/optional_parts.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/stream/texture_header.hpp"
 
@@ -59,6 +60,7 @@ struct StreamHeader {
   Metadata metadata;
   Georeference georeference;
   std::vector<IndexEntry> index;  ///< of all packets, ahead of time
+  std::vector<OptionalPart> optional_parts;
 };
 
 /// Tracks of each component; see demultiplex().

@@ -25,6 +25,23 @@ Bytes withBody(const StreamHeader& header, const std::function<void(Bytes&)>& ch
   return out;
 }
 
+/// Heights in the Swiss grid with their longitudes and latitudes, behind a part of a kind that
+/// nobody knows yet and before one that the body does not hold whole.
+VectorCase positionedCase() {
+  StreamHeader header = heightsHeader(33, 17, TKS_I16, 8);
+  header.metadata.crs = "EPSG:2056";
+  header.georeference.heights = {true, {2600000, 1000, 0, 1200000, 0, -1000}, 0, ""};
+  const Bytes positions = {0x10, 0x5e, 0x01, 0x11, 0xb5, 0x08, 0xa4,
+                           0x05, 0x01, 0xbb, 0x04, 0x03, 0xdd, 0x02};
+  return crafted("positions_33x17", "longitudes and latitudes among optional parts",
+                 withBody(header, [&](Bytes& body) {
+                   append(body, {99, 5, 'l', 'a', 't', 'e', 'r', 1});
+                   append(body, varint(positions.size()));
+                   append(body, positions);
+                   append(body, {2, 200, 1, 7});
+                 }));
+}
+
 /// What is unusual and decodes.
 std::vector<VectorCase> unusualCases() {
   const StreamHeader heights = heightsHeader(9, 9, TKS_I16, 8);
@@ -43,7 +60,8 @@ std::vector<VectorCase> unusualCases() {
           crafted("varint_longer_9x9", "a varint of more bytes than it needs",
                   withBody(heights,
                            [](Bytes& body) { body[1] |= 128, body.insert(body.begin() + 2, 0); })),
-          crafted("text_9x9", "text that is not UTF-8", streamOf(text, noise(60, 53)))};
+          crafted("text_9x9", "text that is not UTF-8", streamOf(text, noise(60, 53))),
+          positionedCase()};
 }
 
 /// Codewords of FF alone, which no encoder writes and which decide nothing, each before others.

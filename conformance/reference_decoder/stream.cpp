@@ -293,6 +293,7 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
     in.fail(Outcome::kCorrupt);
   if (parts & 128) skipGeoreference(in, stream, spacing);
   if (parts & 8) skipIndex(in, stream);
+  // Optional parts inform: whatever stands there, no status depends on it.
   if (in.outcome() != Outcome::kDone) stream.outcome = Outcome::kCorrupt;
   return payloadBytes;
 }

@@ -2,12 +2,18 @@
 // This file says what the header tells of where the inputs lie.
 #pragma once
 
+#include <vector>
+
 #include "bitstream/stream/georeference.hpp"
+#include "bitstream/stream/optional_parts.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::inline selection {
 
 /// Either may be null. A texture in the reference system of the heights has none of its own.
 Georeference georeferenceOf(const tks_heights* heights, const tks_image* image);
+
+/// Their positions, as far as they have any. Either may be null.
+std::vector<OptionalPart> positionsOf(const tks_heights* heights, const tks_image* image);
 
 }  // namespace tetrakis::inline selection

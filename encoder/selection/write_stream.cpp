@@ -59,6 +59,7 @@ StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
     if (inputs.texel_lines != nullptr) header.texture->repeats = inputs.texel_lines->repeats;
   }
   header.georeference = georeferenceOf(inputs.allHeights(), inputs.allTexels());
+  header.optional_parts = positionsOf(inputs.allHeights(), inputs.allTexels());
   if (options.index != 0) header.index = indexOf(selection.packets);
   return header;
 }

@@ -128,6 +128,9 @@ typedef struct tks_heights {
   const char* geo_keys;           /* what a GeoTIFF says of its CRS beyond `crs` and
                                      `vertical_datum` ("1024=1 1026=\"my grid\" ...":
                                      docs/FORMAT.md); NULL: nothing */
+  const uint8_t* positions;       /* of tks_fit_positions: longitudes and latitudes for receivers
+                                     that do not know the CRS; NULL: none */
+  size_t positions_size;          /* in bytes */
 } tks_heights;
 
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed.
@@ -154,6 +157,8 @@ typedef struct tks_image {
   const char* geo_keys;          /* UTF-8, likewise */
   int opaque;                    /* non-zero: no channel is alpha */
   uint32_t white_level;          /* 0: that of tks_find_white_level */
+  const uint8_t* positions;      /* of tks_fit_positions; NULL: none but those of the heights */
+  size_t positions_size;
 } tks_image;
 
 /* The white level of a texture is the value that pictures show as white; what lies above it is as
@@ -246,6 +251,30 @@ typedef struct tks_buffer {
 } tks_buffer;
 
 void tks_free_buffer(tks_buffer* buffer);
+
+/* Writes longitude and latitude, in degrees, of a column and a row, of which (0, 0) is the outer
+ * corner of the first sample. Returns 0, or anything else where they are not known. */
+typedef int (*tks_locator)(void* user, double column, double row, double* longitude,
+                           double* latitude);
+
+/* A raster whose longitudes and latitudes are known to its encoder. */
+typedef struct tks_ground {
+  size_t size; /* sizeof(tks_ground) */
+  uint32_t width, height; /* samples */
+  tks_locator locate;
+  void* user;
+  double tolerance; /* how far off fitted places may be, in samples; 0: a tenth */
+} tks_ground;
+
+/* The most bytes of fitted positions. */
+#define TKS_MOST_POSITION_BYTES 200
+
+/* Fits positions to a raster: few bytes that give the longitude and latitude of every column and
+ * row within the tolerance, by which receivers place a stream whose CRS they do not know. `out` is
+ * what tks_heights.positions and tks_image.positions take. Poles and 180 degrees may lie inside.
+ * TKS_UNSUPPORTED: no TKS_MOST_POSITION_BYTES bytes do, or places of the raster have no longitude
+ * and latitude; `out` is empty then. The library that only decodes lacks this function. */
+tks_status tks_fit_positions(const tks_ground* ground, tks_buffer* out);
 
 /* Encodes heights (NULL: texture only), image (NULL: geometry only), or both.
  * message, if not NULL, receives one sentence of at most message_size - 1 characters on failure:
@@ -393,6 +422,11 @@ typedef struct tks_info {
   int voids_known;         /* 0: bytes of the mask of voids are missing, so that some voids may be
                               shown as ground, filled in from around */
   uint32_t texture_white_level; /* what pictures show as white (tks_image); 0: no texture */
+  const uint8_t* positions;     /* as tks_heights takes them, for tks_locate and for encoders that
+                                   keep them; NULL: there are none. Owned by the decoder */
+  size_t positions_size;
+  const uint8_t* texture_positions; /* of the texture alone */
+  size_t texture_positions_size;
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
@@ -450,6 +484,21 @@ typedef enum tks_part TKS_INT {
   TKS_PART_CODED_MESH = 3,  /* tks_decode_mesh and tks_decode_mesh_tree, TKS_MESH_CODED */
   TKS_PART_BUDGET_MESH = 4  /* the same, TKS_MESH_BUDGET */
 } tks_part;
+
+/* A column and a row of TKS_PART_HEIGHTS or TKS_PART_TEXTURE, of the level that is set: (0, 0) is
+ * the outer corner of the first sample, and (0.5, 0.5) its middle. */
+typedef struct tks_pixel {
+  tks_part part;
+  double column, row;
+} tks_pixel;
+
+/* Writes the longitude and the latitude of a pixel in degrees, within the tolerance of those that
+ * were fitted. Longitudes are continuous: they go on behind 180 and -180 where the raster does. A
+ * texture without positions of its own, but with a geotransform in the CRS of the heights, has
+ * theirs. TKS_UNSUPPORTED: the stream holds no positions for this part, which says nothing of its
+ * CRS (tks_info.crs). */
+tks_status tks_locate(tks_decoder* decoder, const tks_pixel* pixel, double* longitude,
+                      double* latitude);
 
 /* Says whether tks_limits.max_memory suffices for a call that decodes `part`, before you allocate
  * an array for it. TKS_LIMIT, and a sentence in tks_message: the decoder, the call and `beside`

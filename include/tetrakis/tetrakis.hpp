@@ -8,6 +8,7 @@
 #endif
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -109,6 +110,11 @@ inline tks_encode_options makeEncodeOptions() {
   options.size = sizeof options;
   return options;
 }
+inline tks_ground makeGround() {
+  tks_ground ground{};
+  ground.size = sizeof ground;
+  return ground;
+}
 inline tks_limits makeLimits() {
   tks_limits limits{};
   limits.size = sizeof limits;
@@ -122,6 +128,15 @@ inline Result<Buffer> encode(const tks_heights* heights, const tks_image* image,
   tks_buffer buffer{};
   const tks_status status = tks_encode(heights, image, &options, &buffer, message, sizeof message);
   if (status != TKS_OK) return Status(status, message);
+  return Buffer(buffer);
+}
+
+/// Positions of a raster for tks_heights and tks_image. Errors: see tks_fit_positions.
+inline Result<Buffer> fitPositions(const tks_ground& ground) {
+  tks_buffer buffer{};
+  const tks_status status = tks_fit_positions(&ground, &buffer);
+  if (status != TKS_OK)
+    return Status(status, "No positions of so few bytes are as good as the tolerance asks.");
   return Buffer(buffer);
 }
 
@@ -155,6 +170,16 @@ class Decoder {
 
   /// Sizes, types and metadata; its strings live as long as the decoder.
   const tks_info& info() const { return info_; }
+
+  /// Longitude and latitude of a pixel, in degrees (tks_locate). TKS_UNSUPPORTED: the stream holds
+  /// no positions of this part.
+  Result<std::array<double, 2>> locate(const tks_pixel& pixel) {
+    std::array<double, 2> place{};
+    if (const tks_status got = tks_locate(decoder_.get(), &pixel, &place[0], &place[1]);
+        got != TKS_OK)
+      return failure(got);
+    return place;
+  }
 
   /// More bytes of the stream, which are copied: those behind the ones that are there
   /// (tks_append), from an offset on (tks_put), or many runs at once (tks_put_ranges; data: the

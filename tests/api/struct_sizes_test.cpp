@@ -65,9 +65,11 @@ class StructSizes : public testing::Test {
                 1,
                 TKS_REGISTRATION_POINT,
                 "bare earth",
-                "1024=1"};
+                "1024=1",
+                nullptr,
+                0};
     image_ = {sizeof image_,         12,  20,       2, TKS_U8, samples_.data(), {}, 1,
-              TKS_REGISTRATION_AREA, "y", "1024=2", 1, 255};
+              TKS_REGISTRATION_AREA, "y", "1024=2", 1, 255,    nullptr,         0};
     std::copy(std::begin(transform), std::end(transform), heights_.geotransform);
     std::copy(std::begin(transform), std::end(transform), image_.geotransform);
     options_.size = sizeof options_;

@@ -15,6 +15,7 @@
 #include "tools/commands/notes.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/place/given_crs.hpp"
+#include "tools/files/place/ground_positions.hpp"
 #include "tools/files/units.hpp"
 #include "tools/output/output.hpp"
 #include "tools/output/output_names.hpp"
@@ -81,6 +82,20 @@ Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
     inputs.image = std::move(*image);
   }
   return inputs;
+}
+
+/// Longitudes and latitudes for web pages, unless they take more than a 64th of the stream, or of
+/// a byte a sample where nothing says how long that is to be.
+void addPlaces(const EncodeArguments& arguments, Reference& inputs, bool quiet) {
+  constexpr uint64_t kShare = 64;
+  HeightFile* const heights = inputs.heights ? &*inputs.heights : nullptr;
+  ImageFile* const image = inputs.image ? &*inputs.image : nullptr;
+  const uint64_t samples = (heights ? uint64_t{heights->width} * heights->height : 0) +
+                           (image ? uint64_t{image->width} * image->height : 0);
+  const uint64_t expected = arguments.bytes > 0 ? arguments.bytes : samples;
+  const std::string remark = addPositions(heights, image, expected / kShare);
+  const std::string& name = heights ? arguments.height : arguments.texture;
+  if (!remark.empty()) tellNote(quoted(name) + ": " + remark, quiet);
 }
 
 /// Those that are asked for; none: the library looks from all sides.
@@ -224,8 +239,9 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
   if (Status status = checkArguments(arguments); !status.ok()) return status;
   Result<EncodeOutputs> outputs = planOutputs(arguments);
   if (!outputs.ok()) return outputs.status();
-  const Result<Reference> inputs = readInputs(arguments, quiet);
+  Result<Reference> inputs = readInputs(arguments, quiet);
   if (!inputs.ok()) return inputs.status();
+  addPlaces(arguments, *inputs, quiet);
   if (Status status = checkEncodeMemory(arguments, *inputs); !status.ok()) return status;
   const Result<Buffer> stream = encodeInputs(arguments, *inputs, quiet);
   if (!stream.ok()) return stream.status();

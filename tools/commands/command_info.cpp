@@ -67,6 +67,7 @@ Json heightsJson(const tks_info& info) {
           {"geo_keys", textOrNull(info.geo_keys)},
           {"geotransform", transformJson(info.has_geotransform != 0, info.geotransform)},
           {"registration", registrationJson(info.registration)},
+          {"position_bytes", info.positions_size > 0 ? Json(info.positions_size) : Json()},
           {"description", textOrNull(info.description)},
           {"spacing_x", info.spacing_x > 0 ? Json(info.spacing_x) : Json()},
           {"spacing_y", info.spacing_y > 0 ? Json(info.spacing_y) : Json()},
@@ -97,6 +98,8 @@ Json textureJson(const tks_info& info) {
           {"geotransform",
            transformJson(info.texture_has_geotransform != 0, info.texture_geotransform)},
           {"registration", registrationJson(info.texture_registration)},
+          {"position_bytes",
+           info.texture_positions_size > 0 ? Json(info.texture_positions_size) : Json()},
           {"regions", info.texture_regions > 0 ? Json(info.texture_regions) : Json()},
           {"psnr", rounded(info.texture_psnr, "%.2f")},
           {"exact", info.texture_psnr < 0 ? Json() : Json(std::isinf(info.texture_psnr))}};

@@ -22,6 +22,8 @@ void setPlace(const Georeference& place, T& raster) {
   raster.registration = place.registration;
   raster.crs = textOrUnknown(place.crs);
   raster.geo_keys = textOrUnknown(place.geo_keys);
+  raster.positions = place.positions.empty() ? nullptr : place.positions.data();
+  raster.positions_size = place.positions.size();
 }
 
 }  // namespace

@@ -38,6 +38,7 @@ struct Georeference {
   tks_registration registration = TKS_REGISTRATION_UNKNOWN;
   std::string crs;       ///< "EPSG:code", WKT or a name; "" when unknown
   std::string geo_keys;  ///< what a GeoTIFF says beyond `crs` (geo_keys.hpp); "" if nothing
+  std::vector<uint8_t> positions;  ///< of tks_fit_positions; empty: none
 };
 
 /// Heights as a file holds them. data: width * height samples of type `sample`, row by row, host

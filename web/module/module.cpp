@@ -104,6 +104,15 @@ const char* web_text(const tks_decoder* decoder, int which) {
   return which >= 0 && which < 5 ? texts[which] : "";
 }
 
+/// How many bytes the positions of the heights or of the texture have; `out`: where these lie.
+size_t web_positions(const tks_decoder* decoder, int texture, const uint8_t** out) {
+  tks_info i{};
+  i.size = sizeof i;
+  if (tks_get_info(decoder, &i) != TKS_OK) return 0;
+  *out = texture != 0 ? i.texture_positions : i.positions;
+  return texture != 0 ? i.texture_positions_size : i.positions_size;
+}
+
 /// Texels of 1 to 4 channels as RGBA of 8 bits each, with what is white at white_level. Opaque ones
 /// lose a further colour.
 void web_rgba(const void* texels, uint8_t* out, size_t count, uint32_t channels, tks_sample sample,

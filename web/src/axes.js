@@ -29,6 +29,14 @@ export function groundAxes(info) {
 export const placedOn = ({along, down}) => (x, z) =>
   [x * along[0] + z * down[0], x * along[1] + z * down[1]];
 
+/** The inverse of placedOn(). */
+export function unplacedOn(axes) {
+  const {along, down} = axes, sine = sineOf(axes);
+  return (east, south) => [
+    (east * down[1] - south * down[0]) / sine, (south * along[0] - east * along[1]) / sine,
+  ];
+}
+
 /** Normals (x along rows, y up, z down columns) with x to the east and z to the south. */
 export function normalsOn(axes, normals) {
   const {along, down} = axes, sine = sineOf(axes);

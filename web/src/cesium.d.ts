@@ -3,12 +3,11 @@ import type {
   Credit, Event, ImageryProvider, Rectangle, Scene, TerrainData, TerrainProvider, TileAvailability,
   TilingScheme,
 } from '@cesium/engine';
-import type {OpenOptions, Terrain} from './index.js';
+import type {OpenOptions, Placing, Terrain} from './index.js';
 
-export interface TksTerrainProviderOptions extends OpenOptions {
-  /** Where the stream lies: west, south, east, north in degrees, across 180° as
-   * [170, -10, -170, 10]. Default: where it says. */
-  bounds?: [number, number, number, number];
+export {TksError} from './index.js';
+
+export interface TksTerrainProviderOptions extends OpenOptions, Placing {
   /** Metres that are added to heights: Cesium's count from the ellipsoid, those of most streams
    * from the sea, which lies between 107 m below the ellipsoid and 86 m above it. Default 0. */
   heightOffset?: number;
@@ -17,7 +16,8 @@ export interface TksTerrainProviderOptions extends OpenOptions {
 
 /** Heights of a stream; 0 in voids and around it. Tiles outside of it are not available. */
 export class TksTerrainProvider implements TerrainProvider {
-  /** Rejected where the stream says no place that this package knows and `bounds` are missing. */
+  /** Rejected where the stream says no place that this package knows, without `bounds` and
+   * `project`. */
   static fromUrl(input: string | URL | ArrayBuffer | ArrayBufferView | Blob,
     options?: TksTerrainProviderOptions): Promise<TksTerrainProvider>;
   private constructor();

@@ -10,6 +10,8 @@ import {Cutter} from './cut.js';
 import {TksError, open} from './index.js';
 import {boxOf, spansOf} from './place.js';
 
+export {TksError};
+
 /** Heights of a tile along a side; its outer ones are those of its neighbours. */
 const SIDE = 65;
 const TEXELS = 256;
@@ -34,9 +36,9 @@ class Shared {
   heightErrors = new Event();
   imageryErrors = new Event();
 
-  constructor(terrain, {bounds, heightOffset = 0, credit}) {
+  constructor(terrain, {bounds, project, heightOffset = 0, credit}) {
     this.terrain = terrain;
-    this.cutter = new Cutter(terrain, bounds);
+    this.cutter = new Cutter(terrain, {bounds, project});
     this.heightOffset = heightOffset;
     this.credit = typeof credit === 'string' ? new Credit(credit) : credit;
   }
@@ -121,13 +123,14 @@ export class TksTerrainProvider {
     this.imagery = shared.imagery;
   }
 
-  /** Opens a URL, bytes or a Blob. Options: bounds, heightOffset, credit, those of open(). */
-  static async fromUrl(input, {bounds, heightOffset, credit, ...options} = {}) {
+  /** Opens a URL, bytes or a Blob. Options: bounds, project, heightOffset, credit, and those of
+   * open(). */
+  static async fromUrl(input, {bounds, project, heightOffset, credit, ...options} = {}) {
     const terrain = await open(input, options);
     try {
       const {info} = terrain;
       if (!info.hasHeights) throw new TksError('usage', 'This stream is an image without heights.');
-      const shared = new Shared(terrain, {bounds, heightOffset, credit});
+      const shared = new Shared(terrain, {bounds, project, heightOffset, credit});
       if (info.hasTexture) shared.imagery = new TksImageryProvider(shared);
       return new TksTerrainProvider(shared);
     } catch (error) {

@@ -71,18 +71,18 @@ function scanAll({bounds, pixels}, {longitudes, latitudes}, tolerance, put) {
   }
 }
 
-/** Tiles of one stream. `terrain`: of open(); `bounds`: as those of placeOf(). */
+/** Tiles of one stream. `terrain`: of open(); `given`: as placeOf() takes it. */
 export class Cutter {
   #terrain;
   #places = {};
   #rasters = new Map();
   #bytes;
 
-  constructor(terrain, bounds) {
+  constructor(terrain, given) {
     this.#terrain = terrain;
     const {info} = terrain;
-    if (info.hasHeights) this.#places.heights = placeOf(info, 'heights', bounds);
-    if (info.hasTexture) this.#places.texture = placeOf(info, 'texture', bounds);
+    if (info.hasHeights) this.#places.heights = placeOf(info, 'heights', given);
+    if (info.hasTexture) this.#places.texture = placeOf(info, 'texture', given);
     this.#bytes = Math.min(info.streamBytes, terrain.loaded.bytes);
   }
   place(part) {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {Mesh} from '@loaders.gl/schema';
 import type {LoaderWithParser} from '@loaders.gl/loader-utils';
-import type {Frame, OpenOptions, Raster} from './index.js';
+import type {Frame, OpenOptions, Placing, Raster} from './index.js';
 
-export interface PlaceOptions {
-  /** Where the stream lies: west, south, east, north in degrees, across 180° as
-   * [170, -10, -170, 10]. Default: where it says. */
-  bounds?: [number, number, number, number];
+export {TksError} from './index.js';
+
+export interface PlaceOptions extends Placing {
   /** Longitude and latitude that positions count from: the `getPosition` of a SimpleMeshLayer.
    * Float32 degrees are up to 1.7 m coarse far from it. Default [0, 0], as TerrainLayer wants. */
   origin?: [number, number];

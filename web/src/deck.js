@@ -6,12 +6,14 @@ import {TksError, groundScale, open} from './index.js';
 import {FIRST_BYTES, GROWTH} from './pace.js';
 import {isPlaced, placeOf, turnsTo} from './place.js';
 
+export {TksError};
+
 const TRIANGLES = 4;  // glTF's mode
 
 /** Places of (column, row): longitude and latitude less the origin, and those on the texture. */
-function placedBy(info, bounds, [longitude, latitude]) {
-  const ground = placeOf(info, 'heights', bounds);
-  const texture = info.hasTexture ? placeOf(info, 'texture', bounds) : null;
+function placedBy(info, given, [longitude, latitude]) {
+  const ground = placeOf(info, 'heights', given);
+  const texture = info.hasTexture ? placeOf(info, 'texture', given) : null;
   return (column, row) => {
     // A sample is the middle of its pixel.
     const degrees = ground.degrees(column + 0.5, row + 0.5);
@@ -51,10 +53,10 @@ export function imageOf({width, height, data}) {
 }
 
 /** A frame with a mesh as loaders.gl's category `mesh`. */
-export function meshOf(frame, {bounds, origin = [0, 0]} = {}) {
+export function meshOf(frame, {bounds, project, origin = [0, 0]} = {}) {
   const {info, mesh} = frame, count = mesh.gridIndex.length;
   const place =
-    bounds || isPlaced(info) ? placedBy(info, bounds, origin) : placedFlat(info);
+    bounds || isPlaced(info) ? placedBy(info, {bounds, project}, origin) : placedFlat(info);
   const metres = groundScale(info).height, axes = bounds ? straightAxes(info) : groundAxes(info);
   const positions = new Float32Array(3 * count), texCoords = new Float32Array(2 * count);
   mesh.gridIndex.forEach((index, i) => {
@@ -92,7 +94,8 @@ export function meshOf(frame, {bounds, origin = [0, 0]} = {}) {
 
 /** A mesh of a stream or of a prefix of one, with its texture. */
 async function parse(input, {tks, terrain: layer} = {}) {
-  const {triangles, bytes, texels, origin, bounds, decoder} = {...TksLoader.options.tks, ...tks};
+  const {triangles, bytes, texels, origin, bounds, project, decoder} =
+    {...TksLoader.options.tks, ...tks};
   const terrain = await open(input, decoder);
   try {
     const {info} = terrain;
@@ -100,7 +103,7 @@ async function parse(input, {tks, terrain: layer} = {}) {
     const frame = await terrain.decode({bytes, triangles, texels, normals: true});
     return {
       // TerrainLayer says in `terrain` where it wants the mesh.
-      ...meshOf(frame, {origin, bounds: bounds ?? layer?.bounds}),
+      ...meshOf(frame, {origin, project, bounds: bounds ?? layer?.bounds}),
       texture: frame.texture ? imageOf(frame.texture) : null,
     };
   } finally {
@@ -147,7 +150,7 @@ export const TksLoader = {
   options: {
     tks: {
       triangles: 20000, bytes: Infinity, texels: 4096, origin: [0, 0], bounds: undefined,
-      decoder: {},
+      project: undefined, decoder: {},
     },
   },
   parse,

@@ -44,7 +44,7 @@ class Cells {
 const SLACK = 1e-4;
 
 /** A triangle over the ground, as weights of its corners. */
-class Triangle {
+export class Triangle {
   constructor(positions, corners) {
     this.corners = corners;
     const x = (k) => positions[3 * corners[k]], z = (k) => positions[3 * corners[k] + 2];

@@ -126,6 +126,10 @@ export interface TerrainInfo {
   textureCrs: string;
   /** What a GeoTIFF of the heights says beyond `crs`, as docs/FORMAT.md writes it. */
   geoKeys: string;
+  /** Longitudes and latitudes of CRSs that this package does not know, as docs/FORMAT.md writes
+   * them; null: there are none. */
+  positions: Uint8Array | null;
+  texturePositions: Uint8Array | null;
   [field: string]: unknown;
 }
 
@@ -189,6 +193,17 @@ export interface Terrain {
   }): Promise<[number, number][]>;
   dispose(): void;
   [Symbol.dispose](): void;
+}
+
+/** Where adapters put a stream on the globe. Default: where it says, if this package knows its CRS
+ * (degrees, web Mercator, UTM) or the stream has positions. */
+export interface Placing {
+  /** West, south, east, north in degrees; across 180° as [170, -10, -170, 10]. */
+  bounds?: [number, number, number, number];
+  /** From coordinates of the stream's CRS to [longitude, latitude] in degrees; `crs` as in `info`.
+   * By proj4: `const {forward} = proj4(definition, 'EPSG:4326')` and
+   * `project: (x, y) => forward([x, y])`. */
+  project?: (x: number, y: number, crs: string) => [number, number];
 }
 
 /** Options of `decode` for a frame that is to be soon: what the first bytes tell. */

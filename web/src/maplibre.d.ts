@@ -3,7 +3,9 @@ import type {
   GetResourceResponse, Map, RasterDEMSourceSpecification, RasterSourceSpecification,
   RequestParameters,
 } from 'maplibre-gl';
-import type {OpenOptions, Terrain} from './index.js';
+import type {OpenOptions, Placing, Terrain} from './index.js';
+
+export {TksError} from './index.js';
 
 type Input = string | URL | ArrayBuffer | ArrayBufferView | Blob;
 
@@ -30,11 +32,9 @@ export class TksProtocol {
   /** For maplibregl.addProtocol('tks', protocol.tile). */
   readonly tile: (request: RequestParameters, stop: AbortController) =>
     Promise<GetResourceResponse<ImageBitmap | ArrayBuffer>>;
-  /** `bounds`: west, south, east, north in degrees, for streams that do not say where they lie;
-   * across 180° as [170, -10, -170, 10]. The name is taken from the beginning of the call. */
+  /** The name is taken from the beginning of the call. */
   add(
-    name: string, input: Input,
-    options?: OpenOptions & {bounds?: [number, number, number, number]},
+    name: string, input: Input, options?: OpenOptions & Placing,
   ): Promise<TksMapSource>;
   /** Disposes the stream, or ends its opening. */
   remove(name: string): void;

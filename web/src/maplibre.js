@@ -8,6 +8,8 @@ import {TksError} from './error.js';
 import {open} from './index.js';
 import {boxOf} from './place.js';
 
+export {TksError};
+
 const TILE = 256;
 const MOST_ZOOM = 22;
 
@@ -61,10 +63,10 @@ class TksMapSource {
   #name;
   #cutter;
 
-  constructor(name, terrain, bounds) {
+  constructor(name, terrain, given) {
     this.#name = name;
     this.#terrain = terrain;
-    this.#cutter = new Cutter(terrain, bounds);
+    this.#cutter = new Cutter(terrain, given);
     this.heights = terrain.info.hasHeights ? this.#source('heights') : null;
     this.texture = terrain.info.hasTexture ? this.#source('texture') : null;
   }
@@ -131,10 +133,10 @@ class TksMapSource {
   }
 }
 
-async function openedSource(name, input, {bounds, ...options}) {
+async function openedSource(name, input, {bounds, project, ...options}) {
   const terrain = await open(input, options);
   try {
-    return new TksMapSource(name, terrain, bounds);
+    return new TksMapSource(name, terrain, {bounds, project});
   } catch (error) {
     terrain.dispose();
     throw error;
@@ -146,7 +148,7 @@ export class TksProtocol {
   #sources = new Map();  // of a name: {stop, source}
 
   /** Opens a stream under a name, which is part of the addresses of its tiles. */
-  async add(name, input, {bounds, signal, ...options} = {}) {
+  async add(name, input, {signal, ...options} = {}) {
     if (!/^[\w.-]+$/.test(name) || this.#sources.has(name)) {
       throw new TksError('usage', `"${name}" is taken, or no name of letters, digits and "._-".`);
     }
@@ -155,7 +157,7 @@ export class TksProtocol {
     this.#sources.set(name, entry);
     const either = signal ? AbortSignal.any([signal, entry.stop.signal]) : entry.stop.signal;
     try {
-      entry.source = await openedSource(name, input, {bounds, ...options, signal: either});
+      entry.source = await openedSource(name, input, {...options, signal: either});
       return entry.source;
     } catch (error) {
       if (this.#sources.get(name) === entry) this.#sources.delete(name);

@@ -122,7 +122,19 @@ export class Opened {
     info.textureGeotransform = gather('t');
     const texts = ['unit', 'verticalDatum', 'crs', 'textureCrs', 'geoKeys'];
     texts.forEach((name, i) => (info[name] = instance.text(instance.calls.web_text(decoder, i))));
+    info.positions = this.#positions(0);
+    info.texturePositions = this.#positions(1);
     return info;
+  }
+
+  /** Of the heights (0) or of the texture (1): longitudes and latitudes, as the stream has them. */
+  #positions(part) {
+    const {instance, decoder} = this;
+    return instance.with(4, (out) => {
+      const size = instance.calls.web_positions(decoder, part, out);
+      const [address] = instance.copy(Uint32Array, out, 1);
+      return size > 0 ? instance.copy(Uint8Array, address, size) : null;
+    });
   }
 
   /** What a call writes into memory of `length` elements. */

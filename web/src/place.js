@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where on Earth a raster lies: from longitude and latitude to its columns and rows, and back, for
-// the CRSs that web maps meet: degrees, web Mercator, UTM.
+// the CRSs that web maps meet (degrees, web Mercator, UTM), for streams that take their longitudes
+// and latitudes along, and for pages that project themselves.
 import {straightAxes} from './axes.js';
 import {drapedTransform, pixelsOf} from './drape.js';
 import {TksError} from './error.js';
 import {isWebMercator} from './ground.js';
+import {givenProjection, storedProjection} from './positions.js';
 
 const RADIANS = Math.PI / 180;
 const MERCATOR_RADIUS = 6378137;
@@ -73,7 +75,8 @@ function utm(zone, south) {
   };
 }
 
-/** From (longitude, latitude) to a CRS such as "EPSG:32611" or "EPSG:4326+5773", and back. */
+/** From (longitude, latitude) to a CRS such as "EPSG:32611" or "EPSG:4326+5773", and back; null of
+ * other CRSs. */
 export function projectionOf(crs) {
   if (isWebMercator(crs)) return mercator;
   const code = Number(/^EPSG:(\d+)/i.exec(crs)?.[1] ?? 0);
@@ -82,17 +85,17 @@ export function projectionOf(crs) {
   if (code > 32700 && code <= 32760) return utm(code - 32700, true);
   if (code >= 26901 && code <= 26923) return utm(code - 26900, false);
   if (code >= 25828 && code <= 25838) return utm(code - 25800, false);
-  throw new TksError('unsupported', `This package does not know the CRS "${crs}". It knows ` +
-    'degrees, web Mercator and UTM; else give `bounds`: [west, south, east, north] in degrees.');
+  return null;
 }
 
 /**
  * From (longitude, latitude) to columns and rows, where (0, 0) is the outer corner of the first
  * sample, and back.
  */
-export function gridOf(transform, {forward, inverse}) {
+export function gridOf(transform, {forward, inverse, holdsPoles = false}) {
   const [x0, a, b, y0, c, d] = transform, pixels = pixelsOf(transform);
   return {
+    holdsPoles,
     pixels: (longitude, latitude) => pixels(...forward(longitude, latitude)),
     degrees: (column, row) => inverse(x0 + a * column + b * row, y0 + c * column + d * row),
   };
@@ -136,6 +139,18 @@ export function boundsOf(degrees, width, height) {
   return bounds;
 }
 
+/** Those of a raster that a pole may lie in: around it are all longitudes. */
+function boundsWithPoles({pixels, degrees}, width, height) {
+  const [west, south, east, north] = boundsOf(degrees, width, height);
+  const holds = (latitude) => {
+    const [column, row] = pixels(0, latitude);
+    return column >= 0 && row >= 0 && column <= width && row <= height;
+  };
+  if (holds(90)) return [-TURN / 2, south, TURN / 2, 90];
+  if (holds(-90)) return [-TURN / 2, -90, TURN / 2, north];
+  return [west, south, east, north];
+}
+
 /** The parts of a place, [west, east] within -180 to 180 each: two where it goes across 180°. */
 export function spansOf([west, , east]) {
   if (east - west >= TURN - NEAR) return [[-180, 180]];
@@ -162,8 +177,9 @@ export function turnsTo([west, , east], longitudes) {
  * A grid whose longitudes begin between -180 and 180, with its bounds. Across 180° they go on, to
  * 190 and further: only so a place is one piece.
  */
-function turnedGrid({pixels, degrees}, width, height) {
-  const [west, south, east, north] = boundsOf(degrees, width, height);
+function turnedGrid({pixels, degrees, holdsPoles}, width, height) {
+  const [west, south, east, north] = holdsPoles
+    ? boundsWithPoles({pixels, degrees}, width, height) : boundsOf(degrees, width, height);
   if (![west, south, east, north].every(Number.isFinite)) {
     throw new TksError('unsupported', 'The stream states a place that its CRS does not reach. ' +
       'Give `bounds`: [west, south, east, north] in degrees.');
@@ -182,31 +198,57 @@ function turnedGrid({pixels, degrees}, width, height) {
 /** Whether a stream says where it lies. */
 export const isPlaced = (info) => info.hasGeotransform || info.textureHasGeotransform;
 
+/** The place of a part as the stream states it: {transform, crs, bytes}, and whose raster it is. */
+function statedPlace(info, part) {
+  const heights = {
+    transform: info.geotransform, crs: info.crs, bytes: info.positions,
+    width: info.width, height: info.height,
+  };
+  const texture = {
+    transform: info.textureGeotransform, crs: info.textureCrs, bytes: info.texturePositions,
+    width: info.textureWidth, height: info.textureHeight,
+  };
+  if (part === 'texture' && info.textureHasGeotransform) {
+    const shares = !texture.bytes && info.hasGeotransform && texture.crs === heights.crs;
+    return {...texture, raster: shares ? heights : texture};
+  }
+  if (!info.hasGeotransform) {
+    throw new TksError('unsupported', 'The stream does not say where it lies. Give `bounds`: ' +
+      '[west, south, east, north] in degrees.');
+  }
+  return part === 'heights' ? {...heights, raster: heights}
+    : {...texture, crs: heights.crs, transform: drapedTransform(info), raster: heights};
+}
+
+/** Between longitude and latitude and the CRS of a place. */
+function projectionFor({crs, raster}, project) {
+  if (project) return givenProjection((x, y) => project(x, y, crs), raster);
+  const known = projectionOf(crs);
+  if (known) return known;
+  if (raster.bytes) return storedProjection(raster.bytes, raster);
+  throw new TksError('unsupported', `This package does not know the CRS "${crs}", and the stream ` +
+    'has no positions of its own (tetrakis encode adds them). Give `project`: (x, y) => ' +
+    '[longitude, latitude], or `bounds`: [west, south, east, north] in degrees.');
+}
+
 /**
  * Where a part of a stream, 'heights' or 'texture', lies: {width, height, pixels, degrees, bounds}.
  * A texture without a place of its own is draped over the heights. Longitudes of its bounds, and of
  * what it gives and takes, go on behind 180 where it goes across that. `bounds`: west, south, east,
  * north of both parts in degrees, in place of what the stream says; it still says which row is the
- * northern one.
+ * northern one. `project(x, y, crs)`: longitude and latitude of coordinates of the stream's CRS.
  */
-export function placeOf(info, part, bounds) {
+export function placeOf(info, part, {bounds, project} = {}) {
   const isTexture = part === 'texture';
   const width = isTexture ? info.textureWidth : info.width;
   const height = isTexture ? info.textureHeight : info.height;
-  let transform, crs;
-  if (bounds) {
-    const own = {hasGeotransform: true, geotransform: info.textureGeotransform,
-      crs: info.textureCrs, width, height};
-    const axes = straightAxes(isTexture && info.textureHasGeotransform ? own : info);
-    [transform, crs] =
-      [transformOfBounds(checkedBounds(bounds), width, height, axes), 'EPSG:4326'];
-  } else if (isTexture && info.textureHasGeotransform) {
-    [transform, crs] = [info.textureGeotransform, info.textureCrs];
-  } else if (info.hasGeotransform) {
-    [transform, crs] = [isTexture ? drapedTransform(info) : info.geotransform, info.crs];
-  } else {
-    throw new TksError('unsupported', 'The stream does not say where it lies. Give `bounds`: ' +
-      '[west, south, east, north] in degrees.');
+  if (!bounds) {
+    const place = statedPlace(info, part), projection = projectionFor(place, project);
+    return {...turnedGrid(gridOf(place.transform, projection), width, height), width, height};
   }
-  return {...turnedGrid(gridOf(transform, projectionOf(crs)), width, height), width, height};
+  const own = {hasGeotransform: true, geotransform: info.textureGeotransform,
+    crs: info.textureCrs, width, height};
+  const axes = straightAxes(isTexture && info.textureHasGeotransform ? own : info);
+  const transform = transformOfBounds(checkedBounds(bounds), width, height, axes);
+  return {...turnedGrid(gridOf(transform, degrees), width, height), width, height};
 }

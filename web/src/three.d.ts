@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 import type {
   BufferGeometry, Camera, DataTexture, Loader, Material, Mesh, Object3DEventMap,
+  OrthographicCamera, PerspectiveCamera, Vector3,
 } from 'three';
-import type {Frame, OpenOptions, Raster, Terrain, View} from './index.js';
+import type {Frame, OpenOptions, Raster, Terrain, TksError, View} from './index.js';
 
 export interface TerrainOptions {
   /** As of decode(): the mesh has at most so many. Default 20000. */
@@ -14,14 +15,15 @@ export interface TerrainOptions {
   /** Milliseconds in which the surface moves from one frame to the next, where update() is called
    * for each picture. Default 300; 0: it jumps. */
   glideTime?: number;
-  /** Default: a MeshLambertMaterial, which needs lights. A TksTerrain draws its texture with it and
-   * disposes it, so that it serves no other one; a TksLoader gives each terrain a copy. */
+  /** Default: one that needs no lights, as a photograph holds its own. Give a MeshLambertMaterial or
+   * MeshStandardMaterial for lights of yours. A TksTerrain draws its texture with it and disposes
+   * it, so that it serves no other one; a TksLoader gives each terrain a copy. */
   material?: Material;
 }
 
 export interface TksTerrainEventMap extends Object3DEventMap {
   frame: {frame: Frame};
-  error: {error: unknown};
+  error: {error: TksError};
 }
 
 /** x to the east, y up, z to the south, of streams without a place along the rows and down the
@@ -47,6 +49,14 @@ export class TksTerrain extends Mesh<BufferGeometry, Material, TksTerrainEventMa
    * or the camera is nowhere, nothing happens. Events: `frame`, and `error`, after which nothing is
    * fetched. */
   update(camera: Camera, viewportHeight: number): void;
+  /** Height of what is drawn at a place of this object: metres, as its vertices have them before
+   * the object is moved or scaled. NaN where there is no ground. Takes microseconds, but some ms
+   * for the first place of a frame. */
+  heightAt(x: number, z: number): number;
+  /** Puts a camera so that the terrain fills its picture, with near and far planes for it. It looks
+   * along `direction`, by default from the south and above. Gives the middle of the terrain: the
+   * target of OrbitControls. */
+  fit(camera: PerspectiveCamera | OrthographicCamera, direction?: Vector3): Vector3;
   /** What this camera looks at, for `terrain.decode({view})`. */
   viewOf(camera: Camera, viewportHeight: number): View;
   dispose(): void;
@@ -69,7 +79,7 @@ export class TksLoader extends Loader<TksTerrain> {
   parseAsync(buffer: ArrayBuffer): Promise<TksTerrain>;
 }
 
-/** What TksLoader decodes before it gives a terrain. */
-export {FIRST_FRAME} from './index.js';
+/** What TksLoader decodes before it gives a terrain, and what it fails with. */
+export {FIRST_FRAME, TksError} from './index.js';
 
 export function textureOf(raster: Raster<Uint8ClampedArray>): DataTexture;

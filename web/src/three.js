@@ -3,12 +3,12 @@
 import {Loader} from 'three';
 
 import {startDecoder} from './decoders.js';
-import {open} from './index.js';
+import {TksError, open} from './index.js';
 import {FIRST_FRAME} from './pace.js';
 import {textureOf} from './three_frame.js';
 import {TksTerrain} from './three_terrain.js';
 
-export {FIRST_FRAME, TksTerrain, textureOf};
+export {FIRST_FRAME, TksError, TksTerrain, textureOf};
 
 /** A material of a terrain's own, which carries its texture. */
 function copyOf(material) {

@@ -2,15 +2,21 @@
 // A terrain in a scene of three.js: a mesh that shows frames of a stream, fetches more where a
 // camera sees the difference, and glides from one frame to the next.
 import {
-  Box3, BufferAttribute, BufferGeometry, MathUtils, Matrix4, Mesh, MeshLambertMaterial, Vector3,
+  Box3, BufferAttribute, BufferGeometry, MathUtils, Matrix4, Mesh, MeshBasicMaterial,
+  MeshMatcapMaterial, Vector3,
 } from 'three';
 
 import {groundAxes, placedOn} from './axes.js';
+import {fitCamera} from './fit.js';
 import {surfaceUnder} from './glide.js';
 import {groundScale} from './ground.js';
+import {HeightLookup} from './height_lookup.js';
 import {FIRST_FRAME, GROWTH} from './pace.js';
 import {geometryOf, meshOf, textureOf} from './three_frame.js';
 import {isDrawable} from './view.js';
+
+/** A photograph holds its light already; heights alone are shaded by how they face the camera. */
+const unlit = ({hasTexture}) => (hasTexture ? new MeshBasicMaterial() : new MeshMatcapMaterial());
 
 /** What is asked for at a time where the camera may move meanwhile: as much as is there, within. */
 const LEAST_STEP = 2 ** 14, MOST_STEP = 2 ** 18;
@@ -32,6 +38,7 @@ export class TksTerrain extends Mesh {
   #texels = Infinity;
   #map = null;  // of its own
   #served = '';  // the view for which all is here
+  #lookup = null;  // of the geometry that is drawn, once it is asked for
   #glidesSince = -Infinity;
   #updated = [-Infinity, -Infinity];  // when update() was called last, and before that
 
@@ -39,7 +46,7 @@ export class TksTerrain extends Mesh {
   constructor(terrain, {
     triangles = 20000, bytes = Infinity, pixelError = 1, glideTime = 300, material,
   } = {}) {
-    super(new BufferGeometry(), material ?? new MeshLambertMaterial());
+    super(new BufferGeometry(), material ?? unlit(terrain.info));
     this.terrain = terrain;
     this.triangles = triangles;
     this.bytes = bytes;
@@ -63,6 +70,7 @@ export class TksTerrain extends Mesh {
       if (glide && this.glideTime > 0 && this.frame?.mesh) this.#glideTo(geometry);
       this.geometry.dispose();
       this.geometry = geometry;
+      this.#lookup = null;
       this.updateMorphTargets();
       this.glide();
     }
@@ -89,6 +97,20 @@ export class TksTerrain extends Mesh {
     const left = this.#left();
     if (this.morphTargetInfluences?.length) this.morphTargetInfluences[0] = left;
     return left > 0;
+  }
+
+  /** Metres above (x, z), in the coordinates of this object; NaN where nothing is drawn. */
+  heightAt(x, z) {
+    if (!this.geometry.index) return NaN;
+    this.#lookup ??=
+      new HeightLookup(this.geometry.getAttribute('position').array, this.geometry.index.array);
+    return this.#lookup.at(x, z);
+  }
+
+  /** Puts a camera so that the terrain fills its picture, seen along `direction`; gives the middle
+   * of the terrain, for the target of controls. */
+  fit(camera, direction) {
+    return fitCamera(camera, this, direction);
   }
 
   setMap(texture) {

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {Vector3} from 'three';
 
-import {placeFor} from '../viewer/fit.js';
+import {placeFor} from '../src/fit.js';
 
 test('all points are in the window, which they touch on two sides', () => {
   const ahead = new Vector3(-0.35, -0.62, -1).normalize();

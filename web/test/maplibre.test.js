@@ -27,7 +27,7 @@ test('projections are those of GDAL', () => {
     const [east, north] = inverse(gotX, gotY);
     assert.ok(Math.hypot(east - longitude, north - latitude) < 1e-8, `${crs}: ${east} ${north}`);
   }
-  assert.throws(() => projectionOf('EPSG:2056'), /does not know the CRS "EPSG:2056".*bounds/);
+  assert.equal(projectionOf('EPSG:2056'), null);
 });
 
 test('bounds of a raster turned in its zone contain its corners', () => {

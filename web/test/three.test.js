@@ -3,7 +3,9 @@
 import assert from 'node:assert/strict';
 import {readFile} from 'node:fs/promises';
 import {test} from 'node:test';
-import {MeshBasicMaterial, PerspectiveCamera} from 'three';
+import {
+  MeshBasicMaterial, OrthographicCamera, PerspectiveCamera, Vector3,
+} from 'three';
 
 import {TksLoader} from '../src/three.js';
 import {serve} from './server.js';
@@ -73,6 +75,60 @@ test('triangles face up', async () => {
     assert.ok(up > 0);
   }
   object.dispose();
+});
+
+test('heights are those of what is drawn, everywhere on it', async () => {
+  const object = await new TksLoader().parseAsync(await bytesOf('joint_budget_97x97_128x128.tks'));
+  const p = object.geometry.getAttribute('position'), index = object.geometry.index.array;
+  const middleOf = (t, axis) =>
+    [0, 1, 2].reduce((sum, k) => sum + p.array[3 * index[t + k] + axis] / 3, 0);
+  for (let t = 0; t < index.length; t += 3) {
+    const away = object.heightAt(middleOf(t, 0), middleOf(t, 2)) - middleOf(t, 1);
+    assert.ok(Math.abs(away) < 1e-2, `${away}`);
+  }
+  for (let i = 0; i < p.count; ++i) {
+    assert.ok(Math.abs(object.heightAt(p.getX(i), p.getZ(i)) - p.getY(i)) < 0.5);
+  }
+  for (const [x, z] of [[1e5, 0], [0, -1441], [NaN, 0], [0, Infinity]]) {
+    assert.ok(Number.isNaN(object.heightAt(x, z)), `${x} ${z}`);
+  }
+  const before = object.heightAt(100, 200);
+  object.show(await object.terrain.decode({normals: true}));
+  assert.notEqual(object.heightAt(100, 200), before);
+  object.dispose();
+});
+
+test('a camera that is fitted has all of the terrain in its picture, and fills it', async () => {
+  const object = await new TksLoader().parseAsync(await bytesOf('geometry_budget_129x97.tks'));
+  object.position.set(1e4, -500, 7);
+  object.scale.y = 3;
+  const places = object.geometry.getAttribute('position');
+  const cameras = [new PerspectiveCamera(50, 2, 1, 10), new PerspectiveCamera(20, 0.5, 1, 10),
+    new OrthographicCamera(-8, 8, 5, -5)];
+  for (const camera of cameras) {
+    for (const direction of [undefined, new Vector3(1, -0.2, 0.3), new Vector3(0, -1, 0)]) {
+      const middle = object.fit(camera, direction);
+      assert.ok(middle.distanceTo(new Vector3(1e4, middle.y, 7)) < 200);
+      const extent = [0, 0], point = new Vector3();
+      for (let i = 0; i < places.count; ++i) {
+        point.fromBufferAttribute(places, i).applyMatrix4(object.matrixWorld).project(camera);
+        assert.ok(Math.abs(point.z) < 1);
+        extent[0] = Math.max(extent[0], Math.abs(point.x));
+        extent[1] = Math.max(extent[1], Math.abs(point.y));
+      }
+      const most = Math.max(...extent);
+      assert.ok(most <= 1 && most > (camera.isOrthographicCamera ? 0.6 : 0.9), `${extent}`);
+    }
+  }
+  object.dispose();
+});
+
+test('terrains need no light', async () => {
+  for (const name of ['rgb_50x37.tks', 'geometry_budget_129x97.tks']) {
+    const object = await new TksLoader().parseAsync(await bytesOf(name));
+    assert.ok(!object.material.lights);
+    object.dispose();
+  }
 });
 
 test('an image alone lies flat', async () => {

@@ -9,7 +9,7 @@ import {TksLoader as DeckLoader, imageOf, meshOf} from 'tetrakis/deck';
 import {encode} from 'tetrakis/encode';
 import {TksProtocol} from 'tetrakis/maplibre';
 import {TksLoader, textureOf, type TksTerrain} from 'tetrakis/three';
-import {PerspectiveCamera, Scene} from 'three';
+import {PerspectiveCamera, Scene, Vector3} from 'three';
 
 export async function core(): Promise<Frame> {
   const {signal} = new AbortController();
@@ -34,7 +34,9 @@ export async function three(scene: Scene, camera: PerspectiveCamera): Promise<vo
   const loader = new TksLoader().setTerrainOptions({triangles: 50000}).preload();
   const terrain: TksTerrain = await loader.loadAsync('a.tks');
   terrain.addEventListener('frame', ({frame}) => console.log(frame.bytes));
-  terrain.addEventListener('error', ({error}) => console.error(error));
+  terrain.addEventListener('error', ({error}) => console.error(error.code, error.message));
+  const middle: Vector3 = terrain.fit(camera, new Vector3(0, -1, -1));
+  camera.position.y = terrain.heightAt(middle.x, middle.z) + 2;
   scene.add(terrain);
   terrain.update(camera, 480);
   if (terrain.frame?.texture) terrain.material.needsUpdate = textureOf(terrain.frame.texture).flipY;
@@ -43,7 +45,7 @@ export async function three(scene: Scene, camera: PerspectiveCamera): Promise<vo
 export async function maplibre(map: WebMap): Promise<void> {
   const protocol = new TksProtocol();
   addProtocol('tks', protocol.tile);
-  const alps = await protocol.add('alps', 'a.tks', {bounds: [8, 46, 9, 47]});
+  const alps = await protocol.add('alps', 'a.tks', {project: (x, y) => [x / 1e5, y / 1e5]});
   if (alps.heights) map.addSource('dem', alps.heights);
   if (alps.texture) map.addSource('imagery', alps.texture);
   await alps.refine(map, {bytes: 2e6});
@@ -57,7 +59,7 @@ export async function deck(): Promise<void> {
 }
 
 export async function cesium(scene: Globe): Promise<void> {
-  const alps = await TksTerrainProvider.fromUrl('a.tks', {heightOffset: 52});
+  const alps = await TksTerrainProvider.fromUrl('a.tks', {heightOffset: 52, bounds: [8, 46, 9, 47]});
   scene.terrainProvider = alps;
   if (alps.imagery) scene.imageryLayers.addImageryProvider(alps.imagery);
   await alps.refine(scene, {bytes: 2e6});

@@ -9,6 +9,7 @@ import {cp, mkdtemp, readFile, rm, writeFile} from 'node:fs/promises';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
+import {fromArrayBuffer} from 'geotiff';
 import {chromium} from 'playwright-core';
 
 import {encode} from '../src/encode.js';
@@ -290,6 +291,12 @@ test('a phone: the controls unfold, nothing is wider than the screen', async () 
     assert.ok(await page.locator('#bytes').isVisible());
     assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
     assert.match(await text(page, '#help'), /finger/);
+    await page.locator('#fold').tap();
+    assert.equal(await page.locator('#split').isVisible(), false);
+    const [north, panel] = await Promise.all(
+      ['#north', '#panel'].map((name) => page.locator(name).boundingBox()));
+    assert.ok(north.y + north.height < panel.y, 'the panel does not lie over the needle');
+    await page.locator('#fold').tap();
     await page.setViewportSize({width: 844, height: 390});
     const {x, y, width, height} = await page.locator('#panel').boundingBox();
     assert.ok(
@@ -320,7 +327,7 @@ test('what lies high, or is higher than wide, is in the picture, exaggerated or 
   await writeFile(join(folder, 'tall.tks'), await encode({heights: {...high, spacing: 1}}));
   for (const [name, least, most] of [['high', 1, 1], ['tall', 0.001, 0.1]]) {
     await withPage(`?tks=${name}.tks`, async (page) => {
-      const times = Number(await text(page, '#times'));
+      const times = Number((await text(page, '#exaggeration-value')).slice(1));
       assert.ok(times >= least && times <= most, `${name}: × ${times}`);
       assert.ok((await colours(page)).ground > 0.1, name);
       await page.locator('#exaggeration').fill('10');
@@ -414,6 +421,163 @@ test('the map of the ground has north above', async () => {
       assert.equal(await map.evaluate(({style}) => style.transform), upright);
     });
   }
+});
+
+test('the map of a long strip is no line', async () => {
+  const data = Int16Array.from({length: 1025 * 20}, (_, i) => (i * i) % 97);
+  for (const [width, height] of [[1025, 20], [20, 1025]]) {
+    const heights = {data, width, height, spacing: 30};
+    await writeFile(join(folder, 'strip.tks'), await encode({heights, index: true, regions: 16}));
+    await withPage('?tks=strip.tks', async (page) => {
+      const box = await page.locator('#ground').boundingBox();
+      assert.ok(Math.min(box.width, box.height) >= 16 && Math.max(box.width, box.height) <= 64);
+    });
+  }
+});
+
+test('a link keeps the camera, once it was moved', async () => {
+  await withPage('?tks=whole.tks', async (page) => {
+    const url = () => new URL(page.url());
+    assert.equal(url().hash, '');
+    await page.locator('#exaggeration').fill('4');
+    await page.locator('#picture').focus();
+    for (const key of ['ArrowLeft', '+', '+']) await page.keyboard.press(key);
+    await page.waitForFunction(() => location.hash);
+    await page.waitForTimeout(700);
+    assert.match(url().hash, /^#eye=[-\d.,e]+&target=[-\d.,e]+&height=4$/);
+    const shot = (which) =>
+      which.locator('#picture').screenshot({style: 'aside, header, #bearings { display: none }'});
+    const before = await shot(page);
+    const other = await browser.newPage({viewport: {width: 1000, height: 600}});
+    await other.goto(page.url());
+    await ended(other);
+    await other.waitForTimeout(700);
+    const dB = await psnr(browser, [await shot(other), before],
+      Array(2).fill({x: 0, y: 0, width: 1000, height: 600}));
+    await other.close();
+    assert.ok(dB > 35, `${dB} dB`);
+    await page.locator('#home').click();
+    await page.waitForFunction(() => !location.hash);
+  });
+});
+
+test('the page tells what lies under the pointer, a scale, and where north is', async () => {
+  await writeFile(join(folder, 'placed.tks'), await encode(terrainOf(129)));
+  await withPage('?tks=placed.tks', async (page) => {
+    await page.locator('#north').click();
+    await page.waitForTimeout(700);
+    const turned = await page.locator('#needle').getAttribute('style');
+    assert.ok(Math.abs(Number(/rotate\((.*)rad\)/.exec(turned)[1])) < 0.01, turned);
+    await page.mouse.move(350, 300);
+    await page.waitForFunction(() => document.querySelector('#under').textContent);
+    // 3870 m from 500 000, 4 000 000 on, in UTM's zone 11.
+    const [, metres, latitude, longitude] =
+      /^(-?[\d.]+) m · ([\d.]+)° N ([\d.]+)° W$/.exec(await text(page, '#under'));
+    assert.ok(Math.abs(metres) < 800 && latitude > 36.1 && latitude < 36.15, `${latitude}`);
+    assert.ok(longitude > 116.95 && longitude < 117.0001, longitude);
+    const {width} = await page.locator('#scale').boundingBox();
+    assert.ok(width >= 40 && width <= 121, `${width}`);
+    assert.match(await text(page, '#scale'), /^[125]0* k?m$/);
+    await page.mouse.move(350, 5);
+    await page.waitForFunction(() => document.querySelector('#under').textContent === '');
+  });
+});
+
+test('sliders say their values, and the sun moves', async () => {
+  await withPage('?tks=whole.tks', async (page) => {
+    const said = (name) => page.locator(`#${name}`).getAttribute('aria-valuetext');
+    assert.equal(await said('bytes'), '12 kB');
+    assert.equal(await text(page, '#sun-value'), '305° NW');
+    const lit = await page.locator('#picture').screenshot();
+    await page.locator('#sun').fill('90');
+    assert.equal(await said('sun'), '90 degrees, east');
+    await page.waitForTimeout(200);
+    assert.notDeepEqual(await page.locator('#picture').screenshot(), lit);
+    for (const slider of await page.locator('input[type=range]:visible').all()) {
+      assert.ok(await slider.getAttribute('aria-valuetext'));
+    }
+  });
+});
+
+/** Of a part of a picture: the share of texels whose red is the most there is, and how many reds. */
+const tonesOf = (page, picture) => page.evaluate(async (base64) => {
+  const answer = await fetch('data:image/png;base64,' + base64);
+  const image = await createImageBitmap(await answer.blob());
+  const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+  context.drawImage(image, 0, 0);
+  const {data} = context.getImageData(250, 250, 200, 100), reds = data.filter((_, i) => i % 4 === 0);
+  const burnt = reds.filter((red) => red === 255).length / reds.length;
+  return {burnt, tones: new Set(reds).size};
+}, picture.toString('base64'));
+
+test('white slopes keep their shape in the light', async () => {
+  const {heights} = terrainOf(129), data = new Uint8Array(3 * 129 * 129).fill(255);
+  await writeFile(join(folder, 'snow.tks'),
+    await encode({heights, texture: {data, width: 129, height: 129}}));
+  await withPage('?tks=snow.tks', async (page) => {
+    const style = 'aside, header, #bearings { display: none }';
+    const {burnt, tones} = await tonesOf(page, await page.locator('#picture').screenshot({style}));
+    assert.ok(burnt < 0.02 && tones > 30, `${burnt} ${tones}`);
+  });
+});
+
+test('what is shown is saved as mesh, GeoTIFF and picture', async () => {
+  await writeFile(join(folder, 'placed.tks'), await encode(terrainOf(129)));
+  await withPage('?tks=placed.tks', async (page) => {
+    const files = {};
+    for (const kind of ['glb', 'tif', 'png']) {
+      const [file] = await Promise.all([
+        page.waitForEvent('download'), page.locator(`[data-kind=${kind}]`).click(),
+      ]);
+      assert.equal(file.suggestedFilename(), `placed.${kind}`);
+      files[kind] = await readFile(await file.path());
+    }
+    assert.equal(files.png.toString('latin1', 1, 4), 'PNG');
+    assert.deepEqual([files.png.readUInt32BE(16), files.png.readUInt32BE(20)], [129, 129]);
+    const image = await (await fromArrayBuffer(new Uint8Array(files.tif).buffer)).getImage();
+    const [samples] = await image.readRasters();
+    assert.deepEqual([...samples], [...terrainOf(129).heights.data]);
+    assert.deepEqual(image.getOrigin().slice(0, 2), [5e5, 4e6]);
+    assert.equal(image.getGeoKeys().ProjectedCSTypeGeoKey, 32611);
+    const length = files.glb.readUInt32LE(12);
+    const {accessors, extensionsUsed, images} = JSON.parse(files.glb.subarray(20, 20 + length));
+    assert.equal(files.glb.readUInt32LE(8), files.glb.length);
+    assert.deepEqual(extensionsUsed, ['KHR_materials_unlit']);
+    assert.ok(accessors[3].count > 3000 && images.length === 1);
+    assert.deepEqual([accessors[0].min[0], accessors[0].max[0]], [-1920, 1920]);
+  });
+});
+
+test('the original stands beside what was coded from it', async () => {
+  const {heights} = terrainOf(257);
+  const file = {
+    name: 'dem.tif', mimeType: 'image/tiff', buffer: Buffer.from(tiffOf(heights, PLACED)),
+  };
+  await withPage('?tks=whole.tks', async (page) => {
+    assert.equal(await page.locator('#compare').isVisible(), false);
+    await page.locator('#file').setInputFiles([file]);
+    await page.waitForFunction(() => document.title.startsWith('dem.tks'));
+    await ended(page);
+    await page.locator('#bytes').fill('0');
+    await page.waitForTimeout(500);
+    await ended(page);
+    const style = 'aside, header, #bearings, #edge { display: none }';
+    const shot = () => page.locator('#picture').screenshot({style});
+    const stream = await shot();
+    await page.locator('#compared').click();
+    await page.locator('#edge').fill('400');
+    await page.waitForTimeout(500);
+    assert.equal(await page.locator('#edge').getAttribute('aria-valuetext'),
+      '40 % stream, 60 % original');
+    const both = await shot();
+    const dB = (x) => psnr(browser, [stream, both],
+      Array(2).fill({x, y: 150, width: 180, height: 250}));
+    const [left, right] = [await dB(200), await dB(420)];
+    assert.ok(left > 50 && right < 35, `${left} ${right}`);
+    await page.locator('#compared').click();
+    await page.waitForTimeout(300);
+    assert.equal(await page.locator('#edge').isVisible(), false);
+  });
 });
 
 test('tetrakis view serves the page by ranges', {skip: !existsSync(CLI)}, async () => {

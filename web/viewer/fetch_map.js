@@ -4,6 +4,8 @@
 import {straightAxes} from '../src/axes.js';
 
 const LONG_SIDE = 12;  // cells of the ground
+/** Of the map of the ground, in pixels: that of a long strip is drawn wider than it is. */
+const LONGEST = 64, NARROWEST = 16;
 
 /** How many bytes of `ranges` are in `held`. */
 function overlap(ranges, held) {
@@ -42,6 +44,9 @@ export class FetchMap {
     this.#ground.style.transform = `scale(${along[0]}, ${down[1]})`;  // north is above
     this.#ground.width = columns;
     this.#ground.height = rows;
+    const most = Math.max(columns, rows);
+    const pixels = (count) => `${Math.max(NARROWEST, (LONGEST * count) / most)}px`;
+    [this.#ground.style.width, this.#ground.style.height] = [pixels(columns), pixels(rows)];
     try {
       for (let i = 0; i < columns * rows; ++i) {
         const x = Math.floor(((i % columns) * width) / columns);

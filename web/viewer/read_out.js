@@ -7,7 +7,7 @@ export function formatBytes(bytes) {
   const [value, unit] = bytes < 1e6 ? [bytes / 1e3, 'kB'] : [bytes / 1e6, 'MB'];
   return `${value.toFixed(value < 10 ? 1 : 0)} ${unit}`;
 }
-const formatCount = (count) => count.toLocaleString('en').replaceAll(',', '\u2009');
+export const formatCount = (count) => count.toLocaleString('en').replaceAll(',', '\u2009');
 
 function readQuality(info, isScattered) {
   $('heights-quality').hidden = !info.hasHeights;

@@ -6,13 +6,16 @@ import {
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
-import {placeFor} from './fit.js';
+import {placeFor} from '../src/fit.js';
 import {Fly} from './fly.js';
 import {NARROW} from './page.js';
+import {pointOn} from './ray.js';
 
 const REST = 150;  // ms
 const PANEL_SHIFT = 150;  // pixels, by which a panel beside the terrain moves its middle
 const TURN = 0.08, NEARER = 0.9;
+/** Shares of the light: together they show white as white, and no more. */
+const AMBIENT = 0.45, SUN = 1 - AMBIENT;
 /** Keys of the picture while nobody flies. */
 const KEYS = {
   'ArrowLeft': (orbit) => orbit.rotateLeft(-TURN),
@@ -27,8 +30,10 @@ const KEYS = {
 export class Picture {
   #scene = new Scene();
   #ambient = new AmbientLight(0xffffff);
-  #sun = new DirectionalLight(0xfff4e0);
+  #sun = new DirectionalLight(0xffffff);
   #object = null;
+  #original = null;
+  #edge = 0.5;  // of the picture's width, left of which the stream is drawn
   #pending = false;
   #last = 0;
   #radius = 1;
@@ -36,8 +41,11 @@ export class Picture {
   #times = 1;
   #resting = 0;
   #sized = [];  // who waits for a picture with a size
-  /** Called when the camera has moved and rests. */
+  /** Called when the camera has moved and rests, and with each picture. */
   onrest = () => {};
+  ondraw = () => {};
+  /** The camera is where somebody has moved it. */
+  isMoved = false;
 
   /** `free()`: the part of the page, {left, right, top, bottom}, that nothing lies over. */
   constructor(canvas, free) {
@@ -52,7 +60,11 @@ export class Picture {
     this.orbit.screenSpacePanning = false;
     this.orbit.zoomToCursor = true;
     this.orbit.addEventListener('change', () => this.#moved());
-    this.fly = new Fly(this.camera, canvas, () => this.#moved());
+    this.orbit.addEventListener('start', () => (this.isMoved = true));
+    this.fly = new Fly(this.camera, canvas, () => {
+      this.isMoved ||= this.fly.enabled;
+      this.#moved();
+    });
     this.#scene.add(this.#ambient, this.#sun);
     this.setShaded(true);
     canvas.addEventListener('webglcontextrestored', () => this.draw());
@@ -90,8 +102,10 @@ export class Picture {
   }
   #pressed(event) {
     if (event.key === 'Home') this.home();
-    else if (!this.fly.enabled && KEYS[event.key]) KEYS[event.key](this.orbit);
-    else return;
+    else if (!this.fly.enabled && KEYS[event.key]) {
+      this.isMoved = true;
+      KEYS[event.key](this.orbit);
+    } else return;
     event.preventDefault();
   }
   #moved() {
@@ -112,10 +126,26 @@ export class Picture {
       if (!this.fly.enabled) this.orbit.update();
       const gliding = this.#object?.glide();
       this.#fitDepth();
-      this.renderer.render(this.#scene, this.camera);
+      this.#render();
+      this.ondraw();
       if (moving) this.#moved();
       else if (gliding) this.draw();
     });
+  }
+  /** The stream, and right of the edge its original. */
+  #render() {
+    const {renderer} = this;
+    if (!this.#original) return renderer.render(this.#scene, this.camera);
+    const edge = Math.round(this.#edge * innerWidth);
+    renderer.setScissorTest(true);
+    for (const [isOriginal, left, width] of [[false, 0, edge], [true, edge, innerWidth - edge]]) {
+      this.#object.visible = !isOriginal;
+      this.#original.visible = isOriginal;
+      renderer.setScissor(left, 0, width, innerHeight);
+      renderer.render(this.#scene, this.camera);
+    }
+    this.#object.visible = true;
+    renderer.setScissorTest(false);
   }
   /** The depth buffer is spent on what lies between the camera and the far end of the terrain. */
   #fitDepth() {
@@ -133,6 +163,50 @@ export class Picture {
     this.#object = object;
     if (object) this.#scene.add(object);
     this.draw();
+  }
+
+  /** What the stream was made of, or null: drawn right of the edge. */
+  setOriginal(object) {
+    if (this.#original) {
+      this.#scene.remove(this.#original);
+      for (const part of [this.#original.geometry, this.#original.material.map,
+        this.#original.material]) part.dispose();
+    }
+    this.#original = object;
+    if (object) this.#scene.add(object);
+    this.#stretch();
+    this.draw();
+  }
+  setEdge(share) {
+    this.#edge = share;
+    this.draw();
+  }
+
+  /** What lies under a place of the page, in metres as the mesh has them; null: nothing. */
+  pointAt(x, y) {
+    return this.#object?.frame ? pointOn(this.#object, this.camera, x, y) : null;
+  }
+  /** Of the camera, clockwise from north, in radians. */
+  get heading() {
+    const ahead = this.camera.getWorldDirection(new Vector3());
+    const isSteep = Math.abs(ahead.y) > 0.999;
+    if (isSteep) ahead.set(0, 1, 0).transformDirection(this.camera.matrixWorld);
+    return Math.atan2(ahead.x, -ahead.z);
+  }
+  /** Turns the camera around what it looks at until north is above. */
+  faceNorth() {
+    const way = this.camera.position.clone().sub(this.orbit.target);
+    this.camera.position.copy(this.orbit.target)
+      .add(new Vector3(0, way.y, Math.hypot(way.x, way.z)));
+    this.isMoved = true;
+    this.orbit.update();
+    this.draw();
+  }
+  /** Pixels of a metre of the ground across, where the camera looks at; 0 while it flies. */
+  get pixelsPerMetre() {
+    if (this.fly.enabled) return 0;
+    const distance = this.camera.position.distanceTo(this.orbit.target);
+    return innerHeight / (2 * distance * Math.tan(MathUtils.degToRad(this.camera.fov) / 2));
   }
 
   /** How many times as high as wide the terrain is. */
@@ -153,15 +227,18 @@ export class Picture {
     this.draw();
   }
   #stretch() {
-    if (!this.#object) return;
-    this.#object.scale.y = this.#times;
-    this.#object.position.y = this.#middle.y * (1 - this.#times);
-    this.#object.updateMatrixWorld();
+    for (const object of [this.#object, this.#original]) {
+      if (!object) continue;
+      object.scale.y = this.#times;
+      object.position.y = this.#middle.y * (1 - this.#times);
+      object.updateMatrixWorld();
+    }
   }
 
   /** From the south, above, with all of the terrain in the picture. */
   home() {
     if (!this.#object) return;
+    this.isMoved = false;
     const box = this.#bounds();
     box.getCenter(this.#middle);
     this.#stretch();
@@ -169,7 +246,6 @@ export class Picture {
     this.#radius = Math.max(size.x, size.y * this.#times, size.z) / 2;
     this.orbit.minDistance = this.#radius / 100;
     this.orbit.maxDistance = this.#radius * 12;
-    this.#sun.position.set(-1, 1.1, -0.7).multiplyScalar(this.#radius);
     this.#lookAtAll(box);
     this.orbit.update();
     this.draw();
@@ -212,8 +288,15 @@ export class Picture {
 
   /** Without light a texture is seen as it is. */
   setShaded(shaded) {
-    this.#ambient.intensity = Math.PI * (shaded ? 0.7 : 1);
-    this.#sun.intensity = Math.PI * (shaded ? 0.7 : 0);
+    this.#ambient.intensity = Math.PI * (shaded ? AMBIENT : 1);
+    this.#sun.intensity = Math.PI * (shaded ? SUN : 0);
+    this.draw();
+  }
+  /** Where the sun stands, in degrees: clockwise from north, and above the horizon. */
+  setSun(azimuth, elevation) {
+    const [turn, rise] = [azimuth, elevation].map(MathUtils.degToRad);
+    this.#sun.position.set(
+      Math.sin(turn) * Math.cos(rise), Math.sin(rise), -Math.cos(turn) * Math.cos(rise));
     this.draw();
   }
 

@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Opens a stream (of start.js, a drop, a file), refines it, and lets its bytes and triangles be
 // chosen.
+import {MeshLambertMaterial} from 'three';
+
 import {open} from '../src/index.js';
 import {FIRST_FRAME, TksTerrain, textureOf} from '../src/three.js';
-import {nameOf, place} from './address.js';
+import {nameOf} from './address.js';
+import {drawBearings} from './bearings.js';
+import {givenHeight, keep, place} from './camera_link.js';
 import {encodedFile, inputOf, isStream} from './coding.js';
+import {Comparison} from './comparison.js';
 import {decoder} from './decoder.js';
 import {FetchMap} from './fetch_map.js';
 import {$, entitle, explainMoves, freeArea, isSmallScreen, tell} from './page.js';
-import {emptiness, formatBytes, readOut} from './read_out.js';
+import {describer, listenToPointer} from './pointer.js';
+import {emptiness, formatBytes, formatCount, readOut} from './read_out.js';
+import {download, fileOf} from './saving.js';
 import {Picture} from './scene.js';
+import {listenToSun} from './sun.js';
 import {tint} from './tint.js';
+import {say} from './values.js';
 
 const STILL = matchMedia('(prefers-reduced-motion: reduce)');
 /** What is fetched without being asked for. */
@@ -18,6 +27,7 @@ const FREE_BYTES = 8 << 20;
 const LEAST_TRIANGLES = 100, MOST_TRIANGLES = 1e6, USUAL_TRIANGLES = 50000;
 
 const picture = new Picture($('picture'), freeArea);
+const comparison = new Comparison(picture);
 const map = new FetchMap($('fetched'), $('ground'));
 
 let terrain = null, object = null;
@@ -30,6 +40,8 @@ let opening = new AbortController();
 let pumping = false;
 /** What the page calls the terrain that it shows: {name, title, size}. */
 let called = null;
+/** The text of a point of the terrain. */
+let describe = () => '';
 
 /** Sliders are logarithmic: 0 to 1000 for `least` to `most`. */
 const fromSlider = (slider, least, most) => least * (most / least) ** (slider.value / 1000);
@@ -42,11 +54,13 @@ function show(frame) {
   if (first) {
     exaggerate();
     picture.home();
-    if (place('eye') && place('target')) picture.look(place('eye'), place('target'));
+    $('bearings').hidden = false;
+    followLink();
   }
   const empty = emptiness(frame);
   if (empty) tell(`${empty}: there is nothing to draw.`, true);
   readOut(frame, terrain.loaded);
+  describe = describer(frame.info);
   map.draw();
   document.body.dataset.bytes = frame.bytes;
   picture.draw();
@@ -149,20 +163,38 @@ function failToOpen(error) {
   if (terrain && !isShown()) pump();
 }
 
+/** Looks from where the address says, if it does. */
+function followLink() {
+  if (!object?.frame || !place('eye') || !place('target')) return;
+  picture.look(place('eye'), place('target'));
+}
+
 function setWanted() {
   if (!terrain) return;
   wanted = {
     bytes: Math.round(fromSlider($('bytes'), leastBytes(), terrain.info.streamBytes)),
     triangles: Math.round(fromSlider($('triangles'), LEAST_TRIANGLES, mostTriangles())),
   };
+  say('bytes', formatBytes(wanted.bytes));
+  say('triangles', formatCount(wanted.triangles));
   pump();
 }
-/** Where the camera rests, other bytes may help. */
+/** Where the camera rests, the address keeps it, and other bytes may help. */
+function rest() {
+  if (object?.frame) {
+    const {camera: {position}, orbit: {target}} = picture;
+    keep(picture.isMoved
+      ? {eye: position, target, height: Number($('exaggeration').value)} : null);
+  }
+  replan();
+}
 function replan() {
   if (!terrain || !shown.bytes || !isPlanned() || terrain.loaded.bytes >= wanted.bytes) return;
   shown.bytes = terrain.loaded.bytes;
   pump();
 }
+/** Whether a metre on the ground is known. */
+const isMeasured = (info) => info.hasHeights && (info.spacingX > 0 || info.hasGeotransform);
 /** Of the header alone there is a surface too. */
 const leastBytes = () => Math.min(terrain.info.headerBytes, terrain.info.streamBytes - 1);
 const mostTriangles = () => {
@@ -179,6 +211,7 @@ function prepareControls(info) {
   $('triangles').value = toSlider(Math.min(USUAL_TRIANGLES, mostTriangles()), LEAST_TRIANGLES,
     mostTriangles());
   for (const control of document.querySelectorAll('.of-heights')) control.hidden = !info.hasHeights;
+  for (const control of document.querySelectorAll('.of-texture')) control.hidden = !info.hasTexture;
   $('textured-name').textContent = info.hasTexture ? 'Texture' : 'Colours';
 }
 function sizeOf(info) {
@@ -199,7 +232,7 @@ function beginOpening(stop, names) {
 }
 
 /** `asked`: {stop, terrain, first} of an open() that is under way already, and its first frame. */
-async function openInput(input, name, asked) {
+async function openInput(input, name, asked, original = null) {
   const stop = asked?.stop ?? new AbortController(), {signal} = stop;
   const title = `${name} – Tetrakis`;
   beginOpening(stop, {name, title, size: 'opening …'});
@@ -210,9 +243,10 @@ async function openInput(input, name, asked) {
     map.show(terrain);
     shown = {};
     begun = asked?.first ?? null;
-    object = new TksTerrain(terrain);
+    object = new TksTerrain(terrain, {material: new MeshLambertMaterial()});
     object.material.wireframe = $('wireframe').checked;
     picture.setObject(object);
+    comparison.of(original, terrain.info);
     $('save').hidden = true;
     prepareControls(terrain.info);
     called = {name, title, size: sizeOf(terrain.info)};
@@ -238,7 +272,7 @@ async function openSources(files) {
     progress(0);
     const file = await encodedFile(input, files[0].name, {signal, progress});
     if (signal.aborted) return;
-    await openInput(file, file.name);
+    await openInput(file, file.name, null, input);
     offer(file);
   } catch (error) {
     if (!signal.aborted) failToOpen(error);
@@ -269,15 +303,30 @@ async function openFiles(files) {
 function exaggerate() {
   if (!object?.frame) return;
   const {tallness} = picture, usual = tallness > 1 ? 1 / (8 * tallness) : 1;
-  const times = usual * 10 ** ($('exaggeration').value / 20);
-  $('times').value = times.toPrecision(2);
+  const times = usual * 10 ** ($('exaggeration').value / 20), text = times.toPrecision(2);
+  say('exaggeration', `× ${text}`, `drawn ${text} times as high`);
   picture.setExaggeration(times);
+}
+
+/** Keeps what is shown as a file of another kind. */
+async function save({target: {dataset: {kind}}}) {
+  try {
+    const blob = await fileOf(kind, {object, terrain, bytes: shown.bytes});
+    download(blob, `${called.name.replace(/\.[^.]*$/, '')}.${kind}`);
+  } catch (error) {
+    tell(error.message);
+  }
 }
 
 function listenToControls() {
   $('bytes').addEventListener('input', setWanted);
   $('triangles').addEventListener('input', setWanted);
-  $('exaggeration').addEventListener('input', exaggerate);
+  $('exaggeration').addEventListener('input', () => {
+    exaggerate();
+    rest();
+  });
+  $('north').addEventListener('click', () => object && picture.faceNorth());
+  for (const button of document.querySelectorAll('.saves')) button.addEventListener('click', save);
   $('wireframe').addEventListener('change', () => {
     if (object) object.material.wireframe = $('wireframe').checked;
     picture.draw();
@@ -291,7 +340,10 @@ function listenToControls() {
     object.material.needsUpdate = true;
     picture.draw();
   });
-  $('shaded').addEventListener('change', () => picture.setShaded($('shaded').checked));
+  $('shaded').addEventListener('change', () => {
+    for (const part of document.querySelectorAll('.of-light')) part.hidden = !$('shaded').checked;
+    picture.setShaded($('shaded').checked);
+  });
   $('fly').addEventListener('change', () => {
     picture.setFlying($('fly').checked);
     explainMoves($('fly').checked);
@@ -332,7 +384,15 @@ function listenToFiles() {
 
 /** Takes over what the page has asked for already: {address, stop, terrain, first}, or nothing. */
 export function begin(asked) {
-  picture.onrest = replan;
+  picture.onrest = rest;
+  picture.ondraw = () => drawBearings({
+    heading: picture.heading,
+    pixelsPerMetre: terrain && isMeasured(terrain.info) ? picture.pixelsPerMetre : 0,
+  });
+  $('exaggeration').value = givenHeight();
+  listenToSun(picture);
+  addEventListener('hashchange', followLink);
+  listenToPointer(picture, (point) => describe(point));
   listenToControls();
   listenToFiles();
   explainMoves($('fly').checked);

@@ -50,6 +50,12 @@ class Decoder:
         self.check(c.lib.tks_get_info(self._handle, raw))
         return _info.from_struct(raw)  # its texts are copied while the decoder is there
 
+    def locate(self, part: int, column: float, row: float) -> Tuple[float, float]:
+        longitude, latitude = ctypes.c_double(), ctypes.c_double()
+        pixel = c.Pixel(part, column, row)
+        self.check(c.lib.tks_locate(self._handle, pixel, longitude, latitude))
+        return longitude.value, latitude.value
+
     def set_levels(self, heights: int, texture: int) -> None:
         self.check(c.lib.tks_set_levels(self._handle, heights, texture))
         self._levels = {c.PART_HEIGHTS: heights, c.PART_TEXTURE: texture}

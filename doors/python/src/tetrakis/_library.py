@@ -23,6 +23,9 @@ from ctypes import (
 from pathlib import Path
 
 PROGRESS = CFUNCTYPE(c_int, c_void_p, c_double)
+LOCATOR = CFUNCTYPE(
+    c_int, c_void_p, c_double, c_double, POINTER(c_double), POINTER(c_double)
+)
 PICTURE_ERROR = CFUNCTYPE(
     c_int, c_void_p, c_void_p, c_void_p, POINTER(c_double), POINTER(c_double)
 )
@@ -60,6 +63,8 @@ class Heights(ctypes.Structure):
         ("registration", c_int),
         ("description", c_char_p),
         ("geo_keys", c_char_p),
+        ("positions", c_void_p),
+        ("positions_size", c_size_t),
     ]
 
 
@@ -80,6 +85,8 @@ class Image(ctypes.Structure):
         ("geo_keys", c_char_p),
         ("opaque", c_int),
         ("white_level", c_uint32),
+        ("positions", c_void_p),
+        ("positions_size", c_size_t),
     ]
 
 
@@ -125,6 +132,19 @@ class Buffer(ctypes.Structure):
     """tks_buffer."""
 
     _fields_ = [("data", c_void_p), ("size", c_size_t)]
+
+
+class Ground(ctypes.Structure):
+    """tks_ground."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("width", c_uint32),
+        ("height", c_uint32),
+        ("locate", LOCATOR),
+        ("user", c_void_p),
+        ("tolerance", c_double),
+    ]
 
 
 class Outliers(ctypes.Structure):
@@ -217,6 +237,10 @@ class StreamInfo(ctypes.Structure):
         ("texture_opaque", c_int),
         ("voids_known", c_int),
         ("texture_white_level", c_uint32),
+        ("positions", c_void_p),
+        ("positions_size", c_size_t),
+        ("texture_positions", c_void_p),
+        ("texture_positions_size", c_size_t),
     ]
 
 
@@ -242,6 +266,12 @@ class Mesh(ctypes.Structure):
         ("height", POINTER(c_float)),
         ("triangles", POINTER(c_uint32)),
     ]
+
+
+class Pixel(ctypes.Structure):
+    """tks_pixel."""
+
+    _fields_ = [("part", c_int), ("column", c_double), ("row", c_double)]
 
 
 class ScreenCamera(ctypes.Structure):
@@ -291,6 +321,8 @@ STRUCTS = {
     "tks_window": Window,
     "tks_ranges": Ranges,
     "tks_mesh": Mesh,
+    "tks_pixel": Pixel,
+    "tks_ground": Ground,
     "tks_screen_camera": ScreenCamera,
     "tks_screen": Screen,
     "tks_fetch": Fetch,
@@ -322,6 +354,8 @@ PROTOTYPES = {
     "tks_free_ranges": (None, [POINTER(Ranges)]),
     "tks_message": (c_char_p, [c_void_p]),
     "tks_get_info": (c_int, [c_void_p, POINTER(StreamInfo)]),
+    "tks_locate": (c_int, [c_void_p, POINTER(Pixel), POINTER(c_double), POINTER(c_double)]),
+    "tks_fit_positions": (c_int, [POINTER(Ground), POINTER(Buffer)]),
     "tks_set_levels": (c_int, [c_void_p, c_uint32, c_uint32]),
     "tks_set_threads": (c_int, [c_void_p, c_uint32]),
     "tks_decode_heights": (c_int, [c_void_p, c_void_p, c_size_t]),

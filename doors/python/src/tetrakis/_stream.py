@@ -326,6 +326,22 @@ class Stream:
             corners = np.ascontiguousarray(corners[:, ::-1])
         return Mesh(vertices, corners, mesh_uv(info, columns, rows))
 
+    def locate(
+        self, columns: ArrayLike, rows: ArrayLike, *, part: str = "heights"
+    ) -> NDArray[np.float64]:
+        """Longitudes and latitudes in degrees, (..., 2), of columns and rows of the heights or of
+        the `part` "texture", of which (0, 0) is the outer corner of the first sample: for streams
+        that hold positions, as `tetrakis encode` writes them where browsers do not know the CRS.
+        Raises :class:`TksUnsupportedError` for others."""
+        which = values.choice(part, ("heights", "texture"), "part")
+        number = (c.PART_HEIGHTS, c.PART_TEXTURE)[which]
+        across, down = np.broadcast_arrays(
+            np.asarray(columns, np.float64), np.asarray(rows, np.float64)
+        )
+        with self._decoder(0, 0, None) as decoder:
+            places = [decoder.locate(number, *at) for at in zip(across.flat, down.flat)]
+        return np.array(places, np.float64).reshape(*across.shape, 2)
+
     def verify(self) -> None:
         """Checks the syntax of the whole stream. Raises :class:`TksTruncatedError` if it is a
         prefix, :class:`TksCorruptError` if it is damaged."""

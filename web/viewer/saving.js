@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files of what is shown, for other programs: a mesh (.glb), heights (.tif), a texture (.png).
+import {glbOf} from './glb.js';
+import {geoTiffOf} from './tiff.js';
+
+/** Along a side: what a canvas and the memory of a page take. */
+const MOST_SAMPLES = 8192;
+
+async function pngOf({width, height, data}) {
+  const canvas = new OffscreenCanvas(width, height);
+  canvas.getContext('2d').putImageData(new ImageData(data, width, height), 0, 0);
+  return canvas.convertToBlob({type: 'image/png'});
+}
+
+/** The mesh as it is drawn, in metres, without the exaggeration of the page. */
+async function meshFile({geometry: {attributes, index}, frame}) {
+  const mesh = {
+    positions: attributes.position.array, normals: attributes.normal.array,
+    places: attributes.uv.array, triangles: index.array,
+  };
+  if (!frame.texture) return new Blob([glbOf(mesh)], {type: 'model/gltf-binary'});
+  const png = await pngOf(frame.texture);
+  const picture = {
+    bytes: new Uint8Array(await png.arrayBuffer()), type: png.type,
+    hasAlpha: !frame.info.textureOpaque,
+  };
+  return new Blob([glbOf(mesh, picture)], {type: 'model/gltf-binary'});
+}
+
+/** All heights that the bytes tell. */
+async function heightsFile(terrain, bytes) {
+  const {surface, info} = await terrain.decode(
+    {bytes, mesh: false, texture: false, surface: true, samples: MOST_SAMPLES});
+  const placed = {...info, geotransform: surface.geotransform};
+  return new Blob([geoTiffOf(surface, placed)], {type: 'image/tiff'});
+}
+
+async function textureFile(terrain, bytes) {
+  return pngOf((await terrain.decode({bytes, mesh: false, texels: MOST_SAMPLES})).texture);
+}
+
+/** The file of a kind, 'glb', 'tif' or 'png', of a terrain whose `bytes` first bytes are shown. */
+export function fileOf(kind, {object, terrain, bytes}) {
+  if (kind === 'glb') return meshFile(object);
+  return kind === 'tif' ? heightsFile(terrain, bytes) : textureFile(terrain, bytes);
+}
+
+/** Has the browser keep a file. */
+export function download(blob, name) {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+}
