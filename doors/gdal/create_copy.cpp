@@ -6,15 +6,15 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include <cpl_vsi_error.h>
 #include <gdal_pam.h>
 #include "doors/gdal/copied_raster.hpp"
 #include "doors/gdal/dataset.hpp"
-#include "doors/gdal/settings.hpp"
+#include "doors/gdal/output_file.hpp"
 
 namespace tetrakis::gdal {
 namespace {
@@ -27,6 +27,8 @@ struct Stream {
   ~Stream() { tks_free_buffer(&buffer); }
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
+
+  std::span<const uint8_t> bytes() const { return {buffer.data, buffer.size}; }
 };
 
 /// The progress function of an encoder, which notes whether it was stopped.
@@ -54,6 +56,28 @@ struct Parts {
   /// Of the unit of the heights, which the library counts errors in; GDAL counts in samples.
   double scale() const { return heights ? std::abs(heights->heights.scale) : 1; }
 };
+
+/// Whether a plane lies in several regions (docs/FORMAT.md, section 5.1). `most`: samples of those
+/// that do not unless a side is given.
+bool isInRegions(uint32_t width, uint32_t height, uint32_t side, uint64_t most) {
+  if (side == 0) return uint64_t{width} * height > most;
+  return uint64_t{std::max(width, height)} + side / 2 >= 2 * uint64_t{side};
+}
+
+/// Lossless streams all of which lies in regions are laid out for windows: this takes about 1 % of
+/// the bytes, and a window a tenth of the time. They are hardly ever cut.
+tks_index indexOf(const Parts& parts, const CopySettings& settings) {
+  constexpr uint64_t kOneRegion = 1025 * 1025, kOneRegionOfTexels = 2048 * 2048;
+  const tks_encode_options& options = settings.encode;
+  if (settings.index) return *settings.index;
+  const tks_heights* const heights = parts.heightsOrNull();
+  const tks_image* const image = parts.textureOrNull();
+  const bool whole = (heights != nullptr &&
+                      !isInRegions(heights->width, heights->height, options.regions, kOneRegion)) ||
+                     (image != nullptr && !isInRegions(image->width, image->height, options.regions,
+                                                       kOneRegionOfTexels));
+  return options.lossless && options.regions != 1 && !whole ? TKS_INDEX_WINDOWS : TKS_INDEX_NONE;
+}
 
 /// What rounding leaves of a largest error, in samples, to the stream, in the unit of the heights.
 /// Nothing after a reported error.
@@ -116,6 +140,7 @@ bool encode(const std::string& name, const Parts& parts, CopySettings settings, 
   const std::optional<double> bound = boundOf(name, parts, settings.max_z_error);
   if (!bound) return false;
   options.max_error = *bound;
+  options.index = indexOf(parts, settings);
   options.progress = Watch::call;
   options.user = &watch;
   char sentence[512] = "";
@@ -127,32 +152,6 @@ bool encode(const std::string& name, const Parts& parts, CopySettings settings, 
   } else {
     reportFailure(status, name, sentence);
   }
-  return false;
-}
-
-/// Whether it is there to be opened: /vsistdout/ has passed on what was written.
-bool isFile(const std::string& name) {
-  VSIStatBufL stat;
-  return VSIStatL(name.c_str(), &stat) == 0 && VSI_ISREG(stat.st_mode);
-}
-
-/// What was written of a stream; what is no file of its own, such as /dev/full, stays.
-void discard(const std::string& name) {
-  if (isFile(name)) VSIUnlink(name.c_str());
-}
-
-bool write(const std::string& name, const tks_buffer& stream) {
-  VSILFILE* const file = VSIFOpenExL(name.c_str(), "wb", TRUE);
-  if (file == nullptr) {
-    const std::string why = VSIGetLastErrorMsg();
-    reportFailure(TKS_IO, name,
-                  "The file cannot be written" + (why.empty() ? "." : " (" + why + ")."));
-    return false;
-  }
-  const bool written = VSIFWriteL(stream.data, 1, stream.size, file) == stream.size;
-  if (VSIFCloseL(file) == 0 && written) return true;
-  discard(name);
-  reportFailure(TKS_IO, name, "The file cannot be written whole: is the disk full?");
   return false;
 }
 
@@ -192,9 +191,10 @@ GDALDataset* openCopy(const std::string& name, GDALDataset& source, double round
 }
 
 /// A stream that has gone where it cannot be read again, out of memory. Nothing goes beside it.
-GDALDataset* openPassedOn(const tks_buffer& stream) {
-  const std::string name = CPLSPrintf("/vsimem/tetrakis-%p.tks", static_cast<void*>(stream.data));
-  if (!write(name, stream)) return nullptr;
+GDALDataset* openPassedOn(const Stream& stream) {
+  const std::string name =
+      CPLSPrintf("/vsimem/tetrakis-%p.tks", static_cast<void*>(stream.buffer.data));
+  if (!writeFile(name, stream.bytes())) return nullptr;
   GDALOpenInfo info(name.c_str(), GA_ReadOnly);
   GDALDataset* const copy = Dataset::Open(&info);
   VSIUnlink(name.c_str());  // it stays as long as it is open
@@ -212,27 +212,32 @@ GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
       return nullptr;
     rounding = parts->rounding() * parts->scale();
   }
-  if (!write(name, stream.buffer)) return nullptr;
+  if (!writeFile(name, stream.bytes())) return nullptr;
   if (!ProgressPart(progress, 0, 1).report(1)) {
     discard(name);
     CPLError(CE_Failure, CPLE_UserInterrupt, "%s: Stopped by the user.", name.c_str());
     return nullptr;
   }
-  return isFile(name) ? openCopy(name, source, rounding) : openPassedOn(stream.buffer);
+  return isFile(name) ? openCopy(name, source, rounding) : openPassedOn(stream);
 }
 
 }  // namespace
+
+GDALDataset* writeCopy(const std::string& name, GDALDataset& source, bool strict,
+                       const CopySettings& settings, const Progress& progress) {
+  try {
+    return copyTo(name, source, strict, settings, progress);
+  } catch (const std::bad_alloc&) {
+    reportFailure(TKS_NO_MEMORY, name, "");
+    return nullptr;
+  }
+}
 
 GDALDataset* createCopy(const char* name, GDALDataset* source, int strict, char** options,
                         GDALProgressFunc progress, void* user) {
   const std::optional<CopySettings> settings = copySettings(name, options);
   if (!settings) return nullptr;
-  try {
-    return copyTo(name, *source, strict != FALSE, *settings, {progress, user});
-  } catch (const std::bad_alloc&) {
-    reportFailure(TKS_NO_MEMORY, name, "");
-    return nullptr;
-  }
+  return writeCopy(name, *source, strict != FALSE, *settings, {progress, user});
 }
 
 }  // namespace tetrakis::gdal

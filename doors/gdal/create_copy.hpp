@@ -2,7 +2,11 @@
 // GDAL's way of writing a file of a format that cannot be changed in place.
 #pragma once
 
+#include <string>
+
 #include <gdal_priv.h>
+#include "doors/gdal/copied_raster.hpp"
+#include "doors/gdal/settings.hpp"
 
 namespace tetrakis::gdal {
 
@@ -10,5 +14,9 @@ namespace tetrakis::gdal {
 /// and where the progress function stops, there is no file.
 GDALDataset* createCopy(const char* name, GDALDataset* source, int strict, char** options,
                         GDALProgressFunc progress, void* user);
+
+/// The same of options that were read.
+GDALDataset* writeCopy(const std::string& name, GDALDataset& source, bool strict,
+                       const CopySettings& settings, const Progress& progress);
 
 }  // namespace tetrakis::gdal

@@ -143,14 +143,8 @@ void Dataset::takeFacts() {
   if (registration == TKS_REGISTRATION_POINT) texts_.registration = GDALMD_AOP_POINT;
   if (!texts_.registration.empty())
     GDALDataset::SetMetadataItem(GDALMD_AREA_OR_POINT, texts_.registration.c_str());
-  if (!isHeights() && info.texture_white_level < UINT16_MAX && info.texture_sample == TKS_U16)
-    GDALDataset::SetMetadataItem("WHITE_LEVEL", CPLSPrintf("%u", info.texture_white_level), "TKS");
+  tellStream();
   if (!isHeights()) return;
-  if (*info.vertical_datum != '\0')
-    GDALDataset::SetMetadataItem("VERTICAL_DATUM", info.vertical_datum, "TKS");
-  if (info.max_error >= 0 && source_->complete()) {
-    GDALDataset::SetMetadataItem("MAX_ERROR", CPLSPrintf("%.17g", info.max_error), "TKS");
-  }
   texts_.description = info.description;
   GetRasterBand(1)->GDALRasterBand::SetDescription(info.description);
 }

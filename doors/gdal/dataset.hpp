@@ -43,6 +43,8 @@ class Dataset final : public GDALPamDataset {
   CPLErr GetGeoTransform(double* transform) override;
   const OGRSpatialReference* GetSpatialRef() const override;
   char** GetFileList() override;
+  char** GetMetadata(const char* domain) override;
+  const char* GetMetadataItem(const char* name, const char* domain) override;
 
   /// Rounding has taken so much of the heights before they came into this stream, in their unit:
   /// the stream does not know, so it is kept beside.
@@ -83,6 +85,10 @@ class Dataset final : public GDALPamDataset {
 
   void takePlace(const tks_info& info, bool heights);
   void takeFacts();
+  /// What the domain TKS says, but for errors.
+  void tellStream();
+  /// What the stream states of errors: told when somebody asks, since that may read all of it.
+  void tellQuality();
   /// Takes what a file beside the stream says, but for what only the stream can know.
   void loadBeside(char** siblings);
   /// Whether that file was written for another stream, which had this name.
@@ -106,6 +112,7 @@ class Dataset final : public GDALPamDataset {
   std::optional<std::array<double, 6>> transform_;
   SpatialReference crs_;
   StreamTexts texts_;
+  bool quality_told_ = false;
   std::vector<std::unique_ptr<Dataset>> overviews_;
 };
 

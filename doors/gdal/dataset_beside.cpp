@@ -17,7 +17,8 @@ constexpr char kRoundingDomain[] = "TKS_ROUNDING";
 
 void Dataset::loadBeside(char** siblings) {
   std::vector<CPLStringList> own;
-  for (const char* const domain : kOwnDomains) own.emplace_back(CSLDuplicate(GetMetadata(domain)));
+  for (const char* const domain : kOwnDomains)
+    own.emplace_back(CSLDuplicate(GDALDataset::GetMetadata(domain)));
   CPLStringList of_bands(CSLDuplicate(GetRasterBand(1)->GetMetadata("IMAGE_STRUCTURE")));
   if (isBesideOfAnother(siblings)) {
     CPLError(CE_Warning, CPLE_AppDefined,
@@ -28,7 +29,7 @@ void Dataset::loadBeside(char** siblings) {
   }
   TryLoadXML(siblings);
   for (size_t i = 0; i < own.size(); ++i)
-    if (GetMetadata(kOwnDomains[i]) != nullptr)
+    if (GDALDataset::GetMetadata(kOwnDomains[i]) != nullptr)
       GDALDataset::SetMetadata(own[i].List(), kOwnDomains[i]);
   for (auto&& band : GetBands())
     if (band->GetMetadata("IMAGE_STRUCTURE") != nullptr)

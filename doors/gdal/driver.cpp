@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The GDAL driver TKS, which GDAL finds as gdal_TKS.so in its folder of plugins.
 #include <gdal_frmts.h>
+#include "doors/gdal/create.hpp"
 #include "doors/gdal/create_copy.hpp"
 #include "doors/gdal/dataset.hpp"
 #include "doors/gdal/settings.hpp"
@@ -32,6 +33,7 @@ void GDALRegister_TKS() {
   set(GDAL_DMD_CREATIONOPTIONLIST, kCreationOptions);
   driver->pfnIdentify = Dataset::Identify;
   driver->pfnOpen = Dataset::Open;
+  driver->pfnCreate = create;
   driver->pfnCreateCopy = createCopy;
   GetGDALDriverManager()->RegisterDriver(driver);
 }

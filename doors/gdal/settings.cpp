@@ -23,6 +23,8 @@ const char* const kOpenOptions =
 
 const char* const kCreationOptions =
     "<CreationOptionList>"
+    "<Option name='LOSSLESS' type='boolean' description='All pixels come back as they are: the "
+    "default without MAX_Z_ERROR, BYTES and PSNR'/>"
     "<Option name='MAX_Z_ERROR' type='float' default='0' description='Largest error of any pixel, "
     "in pixel values, guaranteed; 0 is lossless'/>"
     "<Option name='BYTES' type='string' description='Size of the file: the best that fits (k, M "
@@ -34,10 +36,11 @@ const char* const kCreationOptions =
     "white; found if not given'/>"
     "<Option name='BLOCKSIZE' type='string' description='Side of the regions that can be read by "
     "themselves: a power of two from 16 to 1048576, or NONE; chosen if not given'/>"
-    "<Option name='INDEX' type='string-select' default='NO' description='Write the byte ranges of "
-    "all packets into the header; WINDOWS, for lossless files and MAX_Z_ERROR: also lay each "
-    "region out in one piece, for windows over a network; regions are of 256, unless BLOCKSIZE is "
-    "given'><Value>NO</Value><Value>YES</Value><Value>WINDOWS</Value></Option>"
+    "<Option name='INDEX' type='string-select' description='Write the byte ranges of all packets "
+    "into the header; WINDOWS, for lossless files and MAX_Z_ERROR: also lay each region out in one "
+    "piece, for windows; regions are of 256, unless BLOCKSIZE is given. Default: WINDOWS for "
+    "lossless files in regions, else NO'>"
+    "<Value>NO</Value><Value>YES</Value><Value>WINDOWS</Value></Option>"
     "<Option name='NUM_THREADS' type='string' description='Threads of encoding: a number, or "
     "ALL_CPUS' default='1'/>"
     "</CreationOptionList>";
@@ -109,8 +112,16 @@ class Options {
     return 0;
   }
 
-  bool flag(const char* key) const {
-    return CPLTestBool(CSLFetchNameValueDef(options_, key, "NO"));
+  /// Nothing if it is not given, or after a refusal.
+  std::optional<bool> flag(const char* key) {
+    const char* const given = text(key);
+    if (given == nullptr) return std::nullopt;
+    for (const char* const yes : {"YES", "TRUE", "ON", "1"})
+      if (EQUAL(given, yes)) return true;
+    for (const char* const no : {"NO", "FALSE", "OFF", "0"})
+      if (EQUAL(given, no)) return false;
+    refuse(std::string(key) + "=" + given + " is neither YES nor NO.");
+    return std::nullopt;
   }
 
   uint32_t threads() {
@@ -147,13 +158,40 @@ uint32_t regions(Options& options) {
   return 0;
 }
 
-int indexKind(Options& options) {
+/// Nothing if none is given, or after a refusal.
+std::optional<tks_index> indexKind(Options& options) {
   const char* const given = options.text("INDEX");
-  if (given == nullptr || EQUAL(given, "NO")) return TKS_INDEX_NONE;
+  if (given == nullptr) return std::nullopt;
+  if (EQUAL(given, "NO")) return TKS_INDEX_NONE;
   if (EQUAL(given, "YES")) return TKS_INDEX_PACKETS;
   if (EQUAL(given, "WINDOWS")) return TKS_INDEX_WINDOWS;
   options.refuse(std::string("INDEX=") + given + " is none of NO, YES and WINDOWS.");
-  return TKS_INDEX_NONE;
+  return std::nullopt;
+}
+
+/// What is to be kept of the samples.
+void takeTarget(Options& options, CopySettings& settings) {
+  tks_encode_options& encode = settings.encode;
+  settings.max_z_error = options.number("MAX_Z_ERROR", "error of at least 0");
+  encode.bytes = options.bytes("BYTES");
+  encode.psnr = options.number("PSNR", "number of decibels");
+  const bool error = options.text("MAX_Z_ERROR") != nullptr;
+  const bool bytes = options.text("BYTES") != nullptr, psnr = options.text("PSNR") != nullptr;
+  const std::optional<bool> lossless = options.flag("LOSSLESS");
+  if (error + bytes + psnr > 1)
+    options.refuse("MAX_Z_ERROR, BYTES and PSNR exclude each other; give one of them.");
+  if (psnr && encode.psnr == 0) options.refuse("PSNR must be more than 0.");
+  encode.lossless = !bytes && !psnr && settings.max_z_error == 0;
+  if (lossless.value_or(false) && !encode.lossless)
+    options.refuse("LOSSLESS=YES excludes MAX_Z_ERROR, BYTES and PSNR.");
+  if (!lossless.value_or(true) && encode.lossless)
+    options.refuse("LOSSLESS=NO needs MAX_Z_ERROR, BYTES or PSNR, which say how much is kept.");
+}
+
+std::string textureName(Options& options) {
+  const char* const given = options.text("TEXTURE");
+  if (given != nullptr && *given == '\0') options.refuse("TEXTURE= names no dataset.");
+  return given != nullptr ? given : "";
 }
 
 }  // namespace
@@ -162,7 +200,7 @@ std::optional<OpenSettings> openSettings(const std::string& name, CSLConstList o
   Options given(name, options);
   OpenSettings settings;
   if (given.text("BYTES") != nullptr) settings.bytes = given.bytes("BYTES");
-  settings.strict = given.flag("STRICT");
+  settings.strict = given.flag("STRICT").value_or(false);
   settings.threads = given.threads();
   if (settings.strict && settings.bytes)
     given.refuse("BYTES and STRICT=YES exclude each other: one cuts the stream, one wants all.");
@@ -174,21 +212,13 @@ std::optional<CopySettings> copySettings(const std::string& name, CSLConstList o
   CopySettings settings{};
   tks_encode_options& encode = settings.encode;
   encode.size = sizeof encode;
-  settings.max_z_error = given.number("MAX_Z_ERROR", "error of at least 0");
-  encode.bytes = given.bytes("BYTES");
-  encode.psnr = given.number("PSNR", "number of decibels");
-  const bool targets[] = {given.text("MAX_Z_ERROR") != nullptr, given.text("BYTES") != nullptr,
-                          given.text("PSNR") != nullptr};
-  if (targets[0] + targets[1] + targets[2] > 1)
-    given.refuse("MAX_Z_ERROR, BYTES and PSNR exclude each other; give one of them.");
-  if (targets[2] && encode.psnr == 0) given.refuse("PSNR must be more than 0.");
-  encode.lossless = !targets[1] && !targets[2] && settings.max_z_error == 0;
+  takeTarget(given, settings);
   encode.regions = regions(given);
-  encode.index = indexKind(given);
-  if (encode.index == TKS_INDEX_WINDOWS && encode.regions == kNoRegions)
+  settings.index = indexKind(given);
+  if (settings.index == TKS_INDEX_WINDOWS && encode.regions == kNoRegions)
     given.refuse("INDEX=WINDOWS lays out regions, and BLOCKSIZE=NONE says that there are none.");
   encode.threads = given.threads();
-  if (const char* const texture = given.text("TEXTURE")) settings.texture = texture;
+  settings.texture = textureName(given);
   const uint64_t white = given.count("WHITE_LEVEL", "value of UInt16 above 0");
   settings.white_level = static_cast<uint32_t>(std::min<uint64_t>(white, UINT32_MAX));
   return given.good() ? std::optional(settings) : std::nullopt;

@@ -17,9 +17,10 @@ extern const char* const kCreationOptions;  ///< likewise
 std::optional<OpenSettings> openSettings(const std::string& name, CSLConstList options);
 
 struct CopySettings {
-  tks_encode_options encode;
-  double max_z_error = 0;    ///< in samples; 0: none
-  std::string texture;       ///< a dataset; "": none
+  tks_encode_options encode;  ///< but for the index
+  double max_z_error = 0;     ///< in samples; 0: none
+  std::string texture;        ///< a dataset; "": none
+  std::optional<tks_index> index;
   uint32_t white_level = 0;  ///< of a texture; 0: as its dataset says, or found
 };
 

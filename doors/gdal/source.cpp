@@ -2,6 +2,7 @@
 #include "doors/gdal/source.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <utility>
 
@@ -222,6 +223,27 @@ bool Source::load(uint32_t level, const tks_window* window) {
   return most ? reopen(first) : loadRanges(*ranges);
 }
 
+StatedQuality Source::statedQuality() {
+  StatedQuality quality;
+  if (info_.lossless && complete()) {
+    if (info_.has_heights) quality.heights_rmse = 0;
+    if (info_.has_texture) quality.texture_psnr = std::numeric_limits<double>::infinity();
+    return quality;
+  }
+  if (info_.index != TKS_INDEX_NONE && !VSIIsLocal(name_.c_str())) return quality;
+  const tks_range all{0, end_, 0};
+  decoder_.reset();  // which may borrow bytes that move
+  if (bytes_.read({&all, 1})) return quality;
+  const tks_limits most = limits();
+  tks_decoder* opened = nullptr;
+  if (tks_open(bytes_.at(0).data(), end_, &most, &opened, nullptr, 0) != TKS_OK) return quality;
+  const DecoderPointer decoder(opened, tks_close);
+  tks_info info{};
+  info.size = sizeof info;
+  if (tks_get_info(opened, &info) == TKS_OK) quality = {info.heights_rmse, info.texture_psnr};
+  return quality;
+}
+
 std::string Source::checksum() const {
   // The last four bytes of the header (docs/FORMAT.md, section 2).
   constexpr size_t kBytes = 4;
@@ -275,15 +297,14 @@ bool Source::decodeLevel(uint32_t level, std::vector<std::byte>& out) {
 }
 
 const std::byte* Source::level(uint32_t level) {
-  KeptLevel& kept = kept_.at(level == 0 ? 0 : 1);
-  if (!kept.pixels.empty() && kept.level == level) return kept.pixels.data();
-  kept.pixels.clear();
+  std::vector<std::byte>& kept = kept_[level];
+  if (!kept.empty()) return kept.data();
   if (!load(level, nullptr)) return nullptr;
   try {
     std::vector<std::byte> pixels;
     if (!decodeLevel(level, pixels)) return nullptr;
-    kept = {level, std::move(pixels)};
-    return kept.pixels.data();
+    kept = std::move(pixels);
+    return kept.data();
   } catch (const std::bad_alloc&) {
     reportFailure(TKS_NO_MEMORY, name_, "");
     return nullptr;
@@ -291,6 +312,8 @@ const std::byte* Source::level(uint32_t level) {
 }
 
 bool Source::window(const tks_window& window, std::vector<std::byte>& out) {
+  CPLDebug("TKS", "%s: decoding %u x %u from %u, %u", name_.c_str(), window.width, window.height,
+           window.x, window.y);
   if (!load(0, &window)) return false;
   tks_decoder* const decoder = decoder_.get();
   tks_status status = tks_set_levels(decoder, 0, 0);

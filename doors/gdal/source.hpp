@@ -3,9 +3,9 @@
 // they decode to.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,6 +26,12 @@ struct OpenSettings {
   uint32_t threads = 1;
 };
 
+/// What the last complete packet says of errors; below 0: nothing.
+struct StatedQuality {
+  double heights_rmse = -1;  ///< in the unit of the heights
+  double texture_psnr = -1;  ///< in dB; infinity: exact
+};
+
 /// Opening reads the header; the rest is read when samples are asked for: of streams with a front
 /// index the packets that they need, else the file from its beginning.
 class Source {
@@ -37,6 +43,11 @@ class Source {
   const tks_info& info() const { return info_; }
   /// Whether all of the stream is there to be read.
   bool complete() const { return end_ == info_.stream_bytes; }
+  /// How many bytes of it are there to be read.
+  uint64_t bytes() const { return end_; }
+  /// Reads all bytes that are there, unless the header says enough, or they lie where reading costs
+  /// and an index is there to read less. Reports no errors.
+  StatedQuality statedQuality();
   /// That of the header, in hexadecimal digits: it tells this stream from others.
   std::string checksum() const;
 
@@ -56,8 +67,8 @@ class Source {
   /// Side of the regions by which windows are decoded; 0: they take as long as all.
   uint32_t regionSide() const;
 
-  /// All pixels of a level, channels interleaved; of level 0 and the last other level they are
-  /// kept. Null after an error was reported. A level above 0 takes no more bytes of the stream than
+  /// All pixels of a level, channels interleaved, which are kept: coarse ones take a third of the
+  /// raster's memory together. Null after an error was reported. A level above 0 takes no more bytes of the stream than
   /// the overview that is made of it has (what it shows comes first, and a small map takes a small
   /// download), or those that it needs, where these are fewer or no prefix shows all ground.
   const std::byte* level(uint32_t level);
@@ -101,11 +112,7 @@ class Source {
   std::string message_;  ///< why openPrefix failed
   DecoderPointer decoder_{nullptr, tks_close};
   tks_info info_{};
-  struct KeptLevel {
-    uint32_t level = 0;
-    std::vector<std::byte> pixels;
-  };
-  std::array<KeptLevel, 2> kept_;  ///< level 0, and another
+  std::map<uint32_t, std::vector<std::byte>> kept_;  ///< what was decoded of whole levels
 };
 
 }  // namespace tetrakis::gdal

@@ -21,7 +21,7 @@ def opened(name, *options):
 @pytest.fixture(scope="module")
 def stream(tmp_path_factory):
     name = tmp_path_factory.mktemp("stream") / "a.tks"
-    copy(terrain(dtype="i2"), name, "BLOCKSIZE=128")
+    copy(terrain(dtype="i2"), name, "BLOCKSIZE=128", "INDEX=NO")
     return name
 
 
@@ -52,6 +52,8 @@ def test_strict(stream, tmp_path):
     cut.write_bytes(whole[:-1])
     refused(lambda: opened(cut, "STRICT=YES"), f"{len(whole) - 1} of {len(whole)} bytes")
     assert opened(cut, "STRICT=NO").ReadAsArray().shape == (300, 340)
+    for wrong in ("maybe", "", "2", "yess"):
+        refused(lambda wrong=wrong: opened(stream, f"STRICT={wrong}"), f"STRICT={wrong} is neither")
     refused(lambda: opened(stream, "STRICT=YES", "BYTES=4000"), "exclude each other")
 
 
@@ -160,7 +162,7 @@ def served(name):
 
 @pytest.fixture
 def server(tmp_path, request):
-    copy(terrain(1500, 1400, "u2"), tmp_path / "a.tks", *getattr(request, "param", []))
+    copy(terrain(1500, 1400, "u2"), tmp_path / "a.tks", *getattr(request, "param", ["INDEX=NO"]))
     with served(tmp_path / "a.tks") as url:
         yield url
 

@@ -82,7 +82,7 @@ def test_bytes_and_psnr(tmp_path):
 def test_blocksize_and_index(tmp_path):
     heights = terrain(dtype="i2")
     plain = copy_size(tmp_path, heights)
-    assert copy_size(tmp_path, heights, "BLOCKSIZE=32") > plain
+    assert copy_size(tmp_path, heights, "BLOCKSIZE=32", "INDEX=NO") > plain
     assert copy_size(tmp_path, heights, "BLOCKSIZE=NONE") == plain
     assert copy_size(tmp_path, heights, "INDEX=NO") == plain
     assert copy_size(tmp_path, heights, "INDEX=YES") > plain
@@ -97,6 +97,25 @@ def test_blocksize_and_index(tmp_path):
     assert not (tmp_path / "b.tks").exists()
     blocks = first_band(copy(heights, tmp_path / "b.tks", "BLOCKSIZE=128"))
     assert blocks.GetBlockSize() == [64, 64]
+
+
+def test_lossless_copies_in_regions_are_for_windows(tmp_path):
+    """Nothing else is: what is small has no windows, and what is lossy is made to be cut."""
+    large, small = terrain(1030, 1030, "u1"), terrain(300, 340, "u1")
+
+    def index(heights, *options):
+        dataset = copy(heights, tmp_path / "a.tks", *options)
+        return dataset.GetMetadataItem("INDEX", "TKS"), dataset.GetMetadataItem("BLOCKSIZE", "TKS")
+
+    assert index(large) == index(large, "LOSSLESS=YES") == ("WINDOWS", "256")
+    assert index(large, "INDEX=NO") == ("NO", "512")
+    assert index(large, "BLOCKSIZE=NONE") == ("NO", None)
+    assert index(large, "BYTES=9000") == index(large, "MAX_Z_ERROR=9") == ("NO", "512")
+    assert index(small) == index(small, "BLOCKSIZE=256") == ("NO", None)
+    assert index(small, "BLOCKSIZE=64") == ("WINDOWS", "64")
+    image = str(tmp_path / "image.tif")
+    gdal.GetDriverByName("GTiff").CreateCopy(image, memory(np.stack([small] * 3)))
+    assert index(large, "TEXTURE=" + image)[0] == "NO"  # whose regions would cost the small one
 
 
 def test_num_threads_changes_no_byte(tmp_path):
@@ -121,6 +140,19 @@ def test_num_threads_changes_no_byte(tmp_path):
         (["BYTES=10"], ""),
         (["PSNR=0"], "PSNR"),
         (["PSNR=nan"], "PSNR=nan"),
+        (["PSNR=x"], "PSNR=x"),
+        (["PSNR="], "PSNR="),
+        (["MAX_Z_ERROR="], "MAX_Z_ERROR="),
+        (["BYTES="], "BYTES="),
+        (["LOSSLESS=maybe"], "LOSSLESS=maybe is neither YES nor NO"),
+        (["LOSSLESS="], "LOSSLESS= is neither"),
+        (["LOSSLESS=NO"], "LOSSLESS=NO needs"),
+        (["LOSSLESS=YES", "BYTES=4000"], "LOSSLESS=YES excludes"),
+        (["INDEX="], "INDEX="),
+        (["BLOCKSIZE="], "BLOCKSIZE="),
+        (["NUM_THREADS="], "NUM_THREADS="),
+        (["WHITE_LEVEL=9.5"], "WHITE_LEVEL=9.5"),
+        (["TEXTURE="], "TEXTURE= names no dataset"),
         (["TEXTURE=/nowhere.png"], ""),
     ],
 )
