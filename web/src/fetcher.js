@@ -6,6 +6,10 @@ import {askDecoder} from './decoders.js';
 import {Flow} from './pace.js';
 import {Held, requestsFor} from './ranges.js';
 
+/** What a request costs beside its own bytes: 50 ms at 10 Mb/s, shared by some that are sent at a
+ * time; and of what is here already a share that nobody misses. */
+const REQUEST_BYTES = 2 ** 14, REQUEST_SHARE = 1 / 16;
+
 export class Fetcher {
   /** Of the stream, once its header is known. */
   info = null;
@@ -17,11 +21,17 @@ export class Fetcher {
   #reading = Promise.resolve();
   #awaited = new Set();  // {bytes, resolve}: who waits for so many
 
-  /** `requestBytes`: what a request costs beside its own. */
+  /** `requestBytes`: what a request costs beside its own, where the caller says it. */
   constructor(source, decoder, requestBytes) {
     this.#source = source;
     this.#decoder = decoder;
     this.#requestBytes = requestBytes;
+  }
+
+  /** What a request costs now. */
+  get #requestCost() {
+    return this.#requestBytes ??
+      Math.max(REQUEST_BYTES, Math.round(REQUEST_SHARE * this.#held.bytes));
   }
 
   /** How many bytes are here. */
@@ -83,7 +93,7 @@ export class Fetcher {
       // A plan counts bytes by integers: there is no infinite number of them.
       const most = Math.min(bytes, this.info.streamBytes) - before;
       await this.#fetchPlanned(view, most, triangles, signal);
-      if (bytes - this.#held.bytes < this.#requestBytes) return;  // not worth another request
+      if (bytes - this.#held.bytes < this.#requestCost) return;  // not worth another request
     }
   }
   /** The first bytes that are missing. */
@@ -104,7 +114,7 @@ export class Fetcher {
     const {truncated, info} = this, {size} = this.#source;
     // A plan knows no end of the file: all that a short one would hold may lie behind it.
     const [asked, most] = truncated ? [info.streamBytes, bytes] : [bytes, Infinity];
-    const request = {view, bytes: asked, triangles, requestBytes: this.#requestBytes};
+    const request = {view, bytes: asked, triangles, requestBytes: this.#requestCost};
     const plan = await askDecoder(this.#decoder, 'plan', request, signal);
     this.#flow.request();
     const stop = new AbortController();
