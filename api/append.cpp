@@ -15,8 +15,8 @@ namespace tetrakis::inline api {
 
 void forget(tks_decoder& decoder) {
   decoder.remembers = false;
-  decoder.heights_memory.clear();
-  decoder.texture_memory.clear();
+  decoder.heights_memory = {};
+  decoder.texture_memory = {};
 }
 
 namespace {
@@ -40,8 +40,8 @@ void replacePackets(tks_decoder& decoder, TakenPackets taken) {
   const auto& before = decoder.packets.payload.codewords;
   const auto& now = taken.payload.codewords;
   if (before[0] != now[0] || taken.has_gap != decoder.packets.has_gap) decoder.heights.reset();
-  if (!haveGrown(before[0], now[0])) decoder.heights_memory.clear();
-  if (!haveGrown(before[1], now[1])) decoder.texture_memory.clear();
+  if (!haveGrown(before[0], now[0])) decoder.heights_memory = {};
+  if (!haveGrown(before[1], now[1])) decoder.texture_memory = {};
   decoder.packets = std::move(taken);
 }
 

@@ -30,8 +30,8 @@ export interface OpenOptions {
   memory?: number;
   /**
    * What a request costs, in bytes that the link brings meanwhile: the more, the fewer requests a
-   * view takes. Default 16384, or a sixteenth of what is here already; 0: each byte is asked for in
-   * the order in which it helps.
+   * view takes. Default 4096, or more, the more bytes are here and asked for; 0: each byte is asked
+   * for in the order in which it helps.
    */
   requestBytes?: number;
 }

@@ -10,10 +10,11 @@ import {surfaceUnder} from './glide.js';
 import {groundScale} from './ground.js';
 import {FIRST_FRAME, GROWTH} from './pace.js';
 import {geometryOf, meshOf, textureOf} from './three_frame.js';
+import {Upload, isSliced} from './three_upload.js';
 import {isDrawable} from './view.js';
 
 /** What is asked for at a time where the camera may move meanwhile: as much as is there, within. */
-const LEAST_STEP = 2 ** 14, MOST_STEP = 2 ** 18;
+const LEAST_STEP = 2 ** 16, MOST_STEP = 2 ** 20;
 /** What error of a texture is seen where a texel fills a pixel. */
 const GOOD_PSNR = 40;
 
@@ -31,6 +32,8 @@ export class TksTerrain extends Mesh {
   #wanted = 0;
   #texels = Infinity;
   #map = null;  // of its own
+  #upload = null;  // of the next one
+  #renderer = null;  // that drew last
   #served = '';  // the view for which all is here
   #glidesSince = -Infinity;
   #updated = [-Infinity, -Infinity];  // when update() was called last, and before that
@@ -66,7 +69,7 @@ export class TksTerrain extends Mesh {
       this.updateMorphTargets();
       this.glide();
     }
-    if (frame.texture) this.setMap(textureOf(frame.texture));
+    if (frame.texture) this.#take(textureOf(frame.texture));
     this.frame = {...this.frame, ...frame};
     this.dispatchEvent({type: 'frame', frame});
   }
@@ -89,6 +92,25 @@ export class TksTerrain extends Mesh {
     const left = this.#left();
     if (this.morphTargetInfluences?.length) this.morphTargetInfluences[0] = left;
     return left > 0;
+  }
+
+  onBeforeRender(renderer) {
+    this.#renderer = renderer;
+  }
+  /** Shows a texture: at once, or once update() has brought the slices of a large one. */
+  #take(texture) {
+    this.#upload?.texture.dispose();
+    this.#upload = null;
+    if (isSliced(texture, this.#renderer) && this.#isDrawnSteadily()) {
+      this.#upload = new Upload(texture);
+    } else {
+      this.setMap(texture);
+    }
+  }
+  #bringSlice() {
+    if (!this.#upload?.step(this.#renderer)) return;
+    this.setMap(this.#upload.texture);
+    this.#upload = null;
   }
 
   setMap(texture) {
@@ -158,7 +180,8 @@ export class TksTerrain extends Mesh {
     if (!planned) {
       return Math.min((more ? GROWTH : 1) * (this.#wanted || this.#firstBytes()), limit);
     }
-    const here = this.terrain.loaded.bytes, step = Math.min(Math.max(here, LEAST_STEP), MOST_STEP);
+    const here = this.terrain.loaded.bytes;
+    const step = Math.min(Math.max((GROWTH - 1) * here, LEAST_STEP), MOST_STEP);
     return more ? Math.min(here + step, limit) : this.#wanted;
   }
 
@@ -171,6 +194,7 @@ export class TksTerrain extends Mesh {
   update(camera, viewportHeight) {
     this.#updated = [performance.now(), this.#updated[0]];
     this.glide();
+    this.#bringSlice();
     if (this.#reading || this.#stop.signal.aborted) return;
     const {info, fileBytes} = this.terrain;
     const limit = Math.min(this.bytes, info.streamBytes, fileBytes);
@@ -224,6 +248,7 @@ export class TksTerrain extends Mesh {
     this.#stop.abort();
     this.geometry.dispose();
     this.#map?.dispose();
+    this.#upload?.texture.dispose();
     this.material.dispose();
     this.terrain.dispose();
   }
