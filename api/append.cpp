@@ -13,8 +13,8 @@ namespace tetrakis::inline api {
 
 void forget(tks_decoder& decoder) {
   decoder.remembers = false;
-  decoder.heights_memory.clear();
-  decoder.texture_memory.clear();
+  decoder.heights_memory = {};
+  decoder.texture_memory = {};
 }
 
 namespace {

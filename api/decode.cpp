@@ -22,10 +22,12 @@ Status noTexture() {
   return {TKS_USAGE, "The stream holds no texture."};
 }
 
-/// What the decoder remembers of a view; null: nothing.
+/// What the decoder remembers for a view; null: nothing. Levels share it: what one decodes of the
+/// tracks others do not decode again.
 template <class Memory>
-Memory* memoryOf(const tks_decoder& decoder, std::map<int, Memory>& levels, const View& view) {
-  return decoder.remembers && !view.window ? &levels[view.level] : nullptr;
+Memory* memoryOf(const tks_decoder& decoder, Memory& memory, const View& view) {
+  memory.tracks.all_levels = true;
+  return decoder.remembers && !view.window ? &memory : nullptr;
 }
 
 }  // namespace

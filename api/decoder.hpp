@@ -2,7 +2,6 @@
 // What a tks_decoder holds, and what the files that work on it share.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,8 +37,8 @@ struct tks_decoder {
   int heights_level = 0, texture_level = 0;
   std::optional<tetrakis::DecodedHeights> heights;  ///< of that level, decoded on first use
   bool remembers = false;  ///< what was decoded of tracks, so that more bytes cost what they tell
-  std::map<int, tetrakis::HeightsMemory> heights_memory;  ///< by level
-  std::map<int, tetrakis::TextureMemory> texture_memory;
+  tetrakis::HeightsMemory heights_memory;  ///< for views of all levels
+  tetrakis::TextureMemory texture_memory;
   uint32_t threads = 1;
   uint64_t max_memory = 0;   ///< of the decoder and any call
   tetrakis::Status refused;  ///< once bytes were: it takes no more

@@ -27,9 +27,8 @@ std::string describe(const tks_decoder& decoder, const MemoryRequest& request) {
 
 /// What the decoder holds already.
 uint64_t heldBytes(const tks_decoder& decoder) {
-  uint64_t bytes = decoder.packets.bytes + decoder.pieces.bytes();
-  for (const auto& [level, memory] : decoder.heights_memory) bytes += memory.bytes();
-  for (const auto& [level, memory] : decoder.texture_memory) bytes += memory.bytes();
+  uint64_t bytes = decoder.packets.bytes + decoder.pieces.bytes() + decoder.heights_memory.bytes() +
+                   decoder.texture_memory.bytes();
   if (!decoder.heights) return bytes;
   const DecodedGeometry& geometry = decoder.heights->geometry;
   bytes +=

@@ -167,8 +167,8 @@ Status takeScattered(tks_decoder& decoder, std::span<const ByteRange> ranges) {
     decoder.scattered->take(decoder.pieces, range, taken.payload);
   taken.has_gap = hasGap(decoder);
   const auto [heights, texture] = decoder.scattered->settle(taken.has_gap, taken.payload);
-  if (heights) decoder.heights_memory.clear();
-  if (texture) decoder.texture_memory.clear();
+  if (heights) decoder.heights_memory = {};
+  if (texture) decoder.texture_memory = {};
   return passHeads(payloadOf(decoder), decoder.parsed.bytes, taken.payload);
 }
 

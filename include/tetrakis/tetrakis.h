@@ -333,8 +333,8 @@ tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes);
  * for the new bytes alone, however many tracks and packets there are. From then on every call
  * decodes what it would decode of a decoder opened on all bytes. Decoding goes on where it was, so
  * that it takes time for the new bytes and for one inverse transform. For that the decoder keeps
- * the coefficients of each level that it decodes, about 16 bytes a sample; where limits.max_memory
- * does not allow for them, it decodes from the beginning. tks_get_info tells what is known now.
+ * the coefficients, about 16 bytes a sample, for all levels together; where limits.max_memory does
+ * not allow for them, it decodes from the beginning. tks_get_info tells what is known now.
  * TKS_CORRUPT: these bytes belong to no stream. TKS_LIMIT: as of tks_open. In both cases the
  * decoder goes on with what it had, and takes no more bytes. */
 tks_status tks_append(tks_decoder* decoder, const uint8_t* data, size_t size);
@@ -499,6 +499,12 @@ typedef struct tks_pixel {
  * CRS (tks_info.crs). */
 tks_status tks_locate(tks_decoder* decoder, const tks_pixel* pixel, double* longitude,
                       double* latitude);
+
+/* Sets *level to the finest mip level of the heights or of the texture that the bytes which are
+ * there feed: somewhere a sample of it has an eighth of a bit. Finer ones take longer and show
+ * little more. 0: that of a stream that is complete; with no byte it is the coarsest. part:
+ * TKS_PART_HEIGHTS or TKS_PART_TEXTURE, else TKS_USAGE, as where the stream has no such part. */
+tks_status tks_fed_level(tks_decoder* decoder, tks_part part, uint32_t* level);
 
 /* Says whether tks_limits.max_memory suffices for a call that decodes `part`, before you allocate
  * an array for it. TKS_LIMIT, and a sentence in tks_message: the decoder, the call and `beside`

@@ -6,6 +6,10 @@ import {askDecoder} from './decoders.js';
 import {Flow} from './pace.js';
 import {Held, requestsFor} from './ranges.js';
 
+/** What a request costs beside its own bytes: 15 ms at 2 Mb/s; of what is here already a share that
+ * nobody misses; and of what is asked for as much as leaves few requests. */
+const REQUEST_BYTES = 4096, SHARE_OF_HELD = 1 / 16, SHARE_OF_ASKED = 1 / 4;
+
 export class Fetcher {
   /** Of the stream, once its header is known. */
   info = null;
@@ -17,11 +21,17 @@ export class Fetcher {
   #reading = Promise.resolve();
   #awaited = new Set();  // {bytes, resolve}: who waits for so many
 
-  /** `requestBytes`: what a request costs beside its own. */
+  /** `requestBytes`: what a request costs beside its own, where the caller says it. */
   constructor(source, decoder, requestBytes) {
     this.#source = source;
     this.#decoder = decoder;
     this.#requestBytes = requestBytes;
+  }
+
+  /** What a request costs among those for so many bytes. */
+  #requestCost(bytes) {
+    return this.#requestBytes ?? Math.round(
+      Math.max(REQUEST_BYTES, SHARE_OF_HELD * this.#held.bytes, SHARE_OF_ASKED * bytes));
   }
 
   /** How many bytes are here. */
@@ -83,7 +93,7 @@ export class Fetcher {
       // A plan counts bytes by integers: there is no infinite number of them.
       const most = Math.min(bytes, this.info.streamBytes) - before;
       await this.#fetchPlanned(view, most, triangles, signal);
-      if (bytes - this.#held.bytes < this.#requestBytes) return;  // not worth another request
+      if (bytes - this.#held.bytes < this.#requestCost(0)) return;  // not worth another request
     }
   }
   /** The first bytes that are missing. */
@@ -104,12 +114,15 @@ export class Fetcher {
     const {truncated, info} = this, {size} = this.#source;
     // A plan knows no end of the file: all that a short one would hold may lie behind it.
     const [asked, most] = truncated ? [info.streamBytes, bytes] : [bytes, Infinity];
-    const request = {view, bytes: asked, triangles, requestBytes: this.#requestBytes};
+    const request = {view, bytes: asked, triangles, requestBytes: this.#requestCost(bytes)};
     const plan = await askDecoder(this.#decoder, 'plan', request, signal);
+    const ranges = requestsFor(plan, size, most);
+    // Where nothing is left to choose from, the plan counts requests for nothing.
+    const total = ranges.reduce((sum, [begin, end]) => sum + end - begin, 0);
+    if (total < SHARE_OF_HELD * this.#requestCost(0)) return;
     this.#flow.request();
     const stop = new AbortController();
-    await stoppedBy(signal, stop, () =>
-      this.#takeAll(requestsFor(plan, size, most), stop));
+    await stoppedBy(signal, stop, () => this.#takeAll(ranges, stop));
     // A server that has just forgotten ranges sends all from its beginning.
     if (this.#source.sequential) await this.#fetchNext(bytes, signal);
   }

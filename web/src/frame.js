@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a frame is made of: a mesh with normals, a surface, a texture, each at the level that suits.
 import {groundScale} from './ground.js';
+import {PARTS} from './parts.js';
 
 /** Mip level at which neither side has more than `most` samples. */
 function levelFor(width, height, most, coarsest) {
@@ -35,16 +36,33 @@ function normalsOf(mesh, width, level, surface, scale) {
 /** Enough for shading, in the time of a first picture. */
 const NORMAL_SAMPLES = 1024;
 
+/** The levels of texture and surface: those asked for, or else no finer ones than bytes feed. */
+function levelsOf(opened, info, {textureLevel, surfaceLevel, texels, samples}) {
+  const {textureWidth, textureHeight, textureCoarsestLevel} = info;
+  const fed = (part, level) => Math.max(level, opened.fedLevel(PARTS[part]));
+  return {
+    textureLevel: textureLevel ?? (info.hasTexture
+      ? fed('texture', levelFor(textureWidth, textureHeight, texels, textureCoarsestLevel)) : 0),
+    surfaceLevel: surfaceLevel ?? (info.hasHeights
+      ? fed('heights', levelFor(info.width, info.height, samples, info.coarsestLevel)) : 0),
+  };
+}
+
+/** Of a mesh for each byte of heights: some 20000 are good after 18 kB. */
+const TRIANGLES_OF_BYTE = 4;
+
+/** As many as were asked for, and no more than the bytes of a prefix feed. */
+function trianglesFor({triangles}, opened, info) {
+  const isComplete = opened.size >= info.streamBytes;
+  return isComplete ? triangles
+    : Math.min(triangles, Math.max(2, TRIANGLES_OF_BYTE * info.geometryBytes));
+}
+
 /** Makes the parts of a frame that `request` asks for, one at each step; returns them all. */
 export function* partsOf(opened, info, request) {
-  const parts = {};
-  const textureLevel =
-    request.textureLevel ??
-    levelFor(info.textureWidth, info.textureHeight, request.texels, info.textureCoarsestLevel);
-  const surfaceLevel =
-    request.surfaceLevel ?? levelFor(info.width, info.height, request.samples, info.coarsestLevel);
+  const parts = {}, {textureLevel, surfaceLevel} = levelsOf(opened, info, request);
   if (request.mesh && info.hasHeights) {
-    parts.mesh = opened.mesh(request.triangles, request.cut);
+    parts.mesh = opened.mesh(trianglesFor(request, opened, info), request.cut);
     yield;
   }
   const shown = (level) => {

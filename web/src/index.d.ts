@@ -30,7 +30,8 @@ export interface OpenOptions {
   memory?: number;
   /**
    * What a request costs, in bytes that the link brings meanwhile: the more, the fewer requests a
-   * view takes. Default 4096; 0: each byte is asked for in the order in which it helps.
+   * view takes. Default 4096, or more, the more bytes are here and asked for; 0: each byte is asked
+   * for in the order in which it helps.
    */
   requestBytes?: number;
 }
@@ -52,7 +53,8 @@ export interface FrameOptions {
    * its next part. */
   signal?: AbortSignal;
   /** The mesh has at most so many, a whole number from 2 on, or those of the coarsest one: of long
-   * grids that has as many as squares of the short side take (1025 x 3: 1024). Default 20000. */
+   * grids that has as many as squares of the short side take (1025 x 3: 1024). Default 20000. Of a
+   * part of the stream it has no more than its bytes feed. */
   triangles?: number;
   /** What is looked at. 16 numbers: of the mesh only what they may show. With a picture: bytes are
    * fetched that help it most, if the stream has an index and the server knows ranges. */
@@ -63,12 +65,13 @@ export interface FrameOptions {
   texture?: boolean;
   /** The heights as a grid. Default false. */
   surface?: boolean;
-  /** Longest side of the texture, by the mip levels of the stream. Default 4096. */
+  /** Longest side of the texture, by the mip levels of the stream, of which none is finer than the
+   * bytes that are here feed. Default 4096. */
   texels?: number;
   /** Longest side of the grid of heights, likewise. Default 4096. */
   samples?: number;
-  /** The mip levels themselves, in place of `texels` and `samples`; to info.textureCoarsestLevel
-   * and info.coarsestLevel. */
+  /** The mip levels themselves, in place of `texels` and `samples`, however few bytes are here; to
+   * info.textureCoarsestLevel and info.coarsestLevel. */
   textureLevel?: number;
   surfaceLevel?: number;
 }

@@ -10,11 +10,8 @@ import {Terrain} from './terrain.js';
 
 export {FIRST_FRAME, TksError, groundAxes, groundScale};
 
-/** What a request costs beside its own: 50 ms at 10 Mb/s, shared by the dozen sent at a time. */
-const REQUEST_BYTES = 4096;
-
 export async function open(input, options = {}) {
-  const {signal, request, requestBytes = REQUEST_BYTES} = options;
+  const {signal, request, requestBytes} = options;
   signal?.throwIfAborted();
   const source = sourceOf(input, request);
   const terrain = new Terrain(source, options.decoder ?? startDecoder(options), requestBytes);

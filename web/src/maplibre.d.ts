@@ -14,15 +14,15 @@ export interface TksMapSource {
   readonly heights: RasterDEMSourceSpecification | null;
   readonly texture: RasterSourceSpecification | null;
   readonly terrain: Terrain;
-  /** Where the heights lie, or the texture alone, as for map.fitBounds(): west, south, east, north in
-   * degrees. */
+  /** Where the heights lie, or the texture alone, as for map.fitBounds(): west, south, east, north
+   * in degrees. */
   readonly bounds: [number, number, number, number];
   /** Fetches on, fourfold each time up to `bytes`, and refreshes the tiles of the sources of this
    * stream that the map has already. Ends when the map is removed.
-   * Of a map that does not get idle for 5 s, whose own worker may be missing, it waits no longer. */
+   * A map that is not idle for 5 s, whose own worker may be missing, is waited for no longer. */
   refine(map: Map, options?: {bytes?: number; signal?: AbortSignal}): Promise<void>;
-  /** RGBA of 256 x 256 pixels; null where a texture does not reach. Heights go on beside the ground,
-   * and in its voids, as those of its border. */
+  /** RGBA of 256 x 256 pixels; null where a texture does not reach. Heights go on beside the
+   * ground, and in its voids, as those of its border. */
   render(part: 'heights' | 'texture', tile: {z: number; x: number; y: number}):
     Promise<Uint8ClampedArray | null>;
   dispose(): void;

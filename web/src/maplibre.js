@@ -39,8 +39,8 @@ function terrarium(heights) {
 
 /** Milliseconds by which most maps have drawn; what they lack then may never come. */
 const PATIENCE = 5000;
-const IS_WAITING = 'Tetrakis: the map has not drawn all that it has for 5 s. If it shows nothing, ' +
-  'its own worker may be missing: give its address to setWorkerUrl() of MapLibre.';
+const IS_WAITING = 'Tetrakis: the map has not drawn all that it has for 5 s. If it shows ' +
+  'nothing, its own worker may be missing: give its address to setWorkerUrl() of MapLibre.';
 
 /** Resolves when the map has drawn all that it has, in a picture that nothing else may bring;
  * false: it takes long. */

@@ -99,6 +99,14 @@ export class Opened {
     this.check(this.instance.calls.tks_set_levels(this.decoder, heights, texture));
   }
 
+  /** The finest mip level of a part of tks_part that the bytes feed. */
+  fedLevel(part) {
+    return this.instance.with(4, (out) => {
+      this.check(this.instance.calls.tks_fed_level(this.decoder, part, out));
+      return this.instance.view(Uint32Array, out, 1)[0];
+    });
+  }
+
   info() {
     const {instance, decoder} = this;
     const names = instance.text(instance.calls.web_names()).split(' ');

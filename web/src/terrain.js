@@ -6,6 +6,7 @@ import {TksError} from './error.js';
 import {Fetcher} from './fetcher.js';
 import {checkBytes, checkLevels, checkSides, trianglesOf} from './limits.js';
 import {FIRST_BYTES, GROWTH, nextBytes} from './pace.js';
+import {PARTS} from './parts.js';
 import {cutOf, plannedView} from './view.js';
 
 const DEFAULTS = {
@@ -18,9 +19,6 @@ const DEFAULTS = {
   texels: 4096,
   samples: 4096,
 };
-
-/** The numbers of tks_part. */
-const PARTS = {heights: 0, texture: 2};
 
 /** Resolves when the promise ends, however it does, or after so many ms. */
 async function within(ms, promise) {

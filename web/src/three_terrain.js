@@ -13,13 +13,14 @@ import {groundScale} from './ground.js';
 import {HeightLookup} from './height_lookup.js';
 import {FIRST_FRAME, GROWTH} from './pace.js';
 import {geometryOf, meshOf, textureOf} from './three_frame.js';
+import {Upload, isSliced} from './three_upload.js';
 import {isDrawable} from './view.js';
 
 /** A photograph holds its light already; heights alone are shaded by how they face the camera. */
 const unlit = ({hasTexture}) => (hasTexture ? new MeshBasicMaterial() : new MeshMatcapMaterial());
 
 /** What is asked for at a time where the camera may move meanwhile: as much as is there, within. */
-const LEAST_STEP = 2 ** 14, MOST_STEP = 2 ** 18;
+const LEAST_STEP = 2 ** 16, MOST_STEP = 2 ** 20;
 /** What error of a texture is seen where a texel fills a pixel. */
 const GOOD_PSNR = 40;
 
@@ -37,6 +38,8 @@ export class TksTerrain extends Mesh {
   #wanted = 0;
   #texels = Infinity;
   #map = null;  // of its own
+  #upload = null;  // of the next one
+  #renderer = null;  // that drew last
   #served = '';  // the view for which all is here
   #lookup = null;  // of the geometry that is drawn, once it is asked for
   #glidesSince = -Infinity;
@@ -74,7 +77,7 @@ export class TksTerrain extends Mesh {
       this.updateMorphTargets();
       this.glide();
     }
-    if (frame.texture) this.setMap(textureOf(frame.texture));
+    if (frame.texture) this.#take(textureOf(frame.texture));
     this.frame = {...this.frame, ...frame};
     this.dispatchEvent({type: 'frame', frame});
   }
@@ -111,6 +114,25 @@ export class TksTerrain extends Mesh {
    * of the terrain, for the target of controls. */
   fit(camera, direction) {
     return fitCamera(camera, this, direction);
+  }
+
+  onBeforeRender(renderer) {
+    this.#renderer = renderer;
+  }
+  /** Shows a texture: at once, or once update() has brought the slices of a large one. */
+  #take(texture) {
+    this.#upload?.texture.dispose();
+    this.#upload = null;
+    if (isSliced(texture, this.#renderer) && this.#isDrawnSteadily()) {
+      this.#upload = new Upload(texture);
+    } else {
+      this.setMap(texture);
+    }
+  }
+  #bringSlice() {
+    if (!this.#upload?.step(this.#renderer)) return;
+    this.setMap(this.#upload.texture);
+    this.#upload = null;
   }
 
   setMap(texture) {
@@ -180,7 +202,8 @@ export class TksTerrain extends Mesh {
     if (!planned) {
       return Math.min((more ? GROWTH : 1) * (this.#wanted || this.#firstBytes()), limit);
     }
-    const here = this.terrain.loaded.bytes, step = Math.min(Math.max(here, LEAST_STEP), MOST_STEP);
+    const here = this.terrain.loaded.bytes;
+    const step = Math.min(Math.max((GROWTH - 1) * here, LEAST_STEP), MOST_STEP);
     return more ? Math.min(here + step, limit) : this.#wanted;
   }
 
@@ -193,6 +216,7 @@ export class TksTerrain extends Mesh {
   update(camera, viewportHeight) {
     this.#updated = [performance.now(), this.#updated[0]];
     this.glide();
+    this.#bringSlice();
     if (this.#reading || this.#stop.signal.aborted) return;
     const {info, fileBytes} = this.terrain;
     const limit = Math.min(this.bytes, info.streamBytes, fileBytes);
@@ -246,6 +270,7 @@ export class TksTerrain extends Mesh {
     this.#stop.abort();
     this.geometry.dispose();
     this.#map?.dispose();
+    this.#upload?.texture.dispose();
     this.material.dispose();
     this.terrain.dispose();
   }

@@ -106,6 +106,29 @@ test('a frame is whole: triangles within the budget, indices, normals, RGBA', as
   assert.ok(small.texture.width <= 40 && small.texture.level > 0 && !small.mesh);
 });
 
+test('nothing is made finer than the bytes that are here feed', async () => {
+  const terrain = await open(bytes);
+  const {headerBytes, streamBytes} = terrain.info;
+  let texels = 0;
+  for (let most = headerBytes + 40; most < streamBytes; most = Math.ceil(1.3 * most)) {
+    const {info, mesh, texture, surface} = await terrain.decode({bytes: most, surface: true});
+    const finer = (width, height, level) => (width * height) / 4 ** (level - 1);
+    assert.ok(texture.width >= texels && surface.level <= info.coarsestLevel);
+    if (texture.level > 0) {
+      const next = finer(info.textureWidth, info.textureHeight, texture.level);
+      assert.ok(next > 64 * info.textureBytes, `${next} texels of ${info.textureBytes} bytes`);
+    }
+    assert.ok(mesh.triangles.length <= 12 * info.geometryBytes || mesh.triangles.length <= 6,
+      `${mesh.triangles.length / 3} triangles of ${info.geometryBytes} bytes`);
+    texels = texture.width;
+  }
+  const first = {bytes: headerBytes + 40, mesh: false};
+  assert.ok((await terrain.decode(first)).texture.level > 0);
+  assert.equal((await terrain.decode({...first, textureLevel: 0})).texture.width, 128);
+  assert.equal((await terrain.decode({mesh: false})).texture.width, 128);
+  terrain.dispose();
+});
+
 test('the coarsest mesh of a long grid is the least, whatever is asked for', async () => {
   const terrain = await open(
     await encode({heights: {data: new Int16Array(1025 * 3).map((_, i) => i % 97), width: 1025,

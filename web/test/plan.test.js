@@ -239,6 +239,30 @@ test('a terrain of three.js goes on to what its camera needs, though it stays st
   object.dispose();
 });
 
+test('a terrain of three.js asks a dozen times for a view, some more as it moves', async () => {
+  const large = await encode({...terrainOf(385), bytes: 300000, index: true, regions: 32});
+  await writeFile(join(folder, 'large.tks'), large);
+  await served({}, async (url, server) => {
+    const terrain = await open(url.replace('a.tks', 'large.tks'));
+    const object = new TksTerrain(terrain, {triangles: 20000});
+    await object.begin();
+    const camera = new PerspectiveCamera(50, 1.6, 1, 1e6);
+    const look = async (x, z) => {
+      camera.position.set(x, 1600, z);
+      camera.lookAt(1.4 * x, 0, 1.4 * z);
+      await settle(object, camera);
+      assert.ok(terrain.loaded.bytes < large.length);
+      return server.requests.length;
+    };
+    const still = await look(-3500, -3500), moved = await look(-3500, 2000);
+    assert.ok(still <= 12 && moved <= 20, `${still}, then ${moved} requests`);
+    // They brought what helps: no other request is worth its cost.
+    const view = object.viewOf(camera, 400), {bytes: settled} = terrain.loaded;
+    assert.equal(await terrain.load(Infinity, {view, triangles: 20000}), settled);
+    object.dispose();
+  });
+});
+
 test('a terrain of three.js shows all of a file that is cut short', async () => {
   const camera = new PerspectiveCamera(40, 1.6, 1, 1e6);
   camera.position.set(0, 1500, 1500);

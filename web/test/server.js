@@ -29,7 +29,8 @@ async function sendInTwo(response, file, [start, end], [bytes, ms]) {
  */
 export async function serve(folder, faults = {}) {
   const requests = [];
-  const server = createServer(async (request, response) => {
+  // Clients may be busy for longer than the 5 s of Node.
+  const server = createServer({keepAliveTimeout: 60000}, async (request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url, 'http://x').pathname));
     const {headers: asked} = request, noted = {path, range: asked.range, headers: asked};
     noted.ended = once(response, 'close').then(() => response.writableFinished);
