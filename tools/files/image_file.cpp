@@ -81,7 +81,7 @@ bool isWidened(const ImageFile& image) {
 }
 
 /// What has become of the mask.
-enum class Masked { kNo, kAsAlpha, kBesideAlpha, kNodataAsAlpha };
+enum class Masked { kNo, kAsAlpha, kOfBands, kBesideAlpha, kNodataAsAlpha };
 
 bool hasAlpha(const std::vector<BandColour>& colours) {
   return std::find(colours.begin(), colours.end(), BandColour::kAlpha) != colours.end();
@@ -135,6 +135,8 @@ std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked,
   if (image.hasFurtherColour())
     add("last channel taken for a colour, because the file does not call it alpha");
   if (masked == Masked::kAsAlpha) add("mask kept as alpha");
+  if (masked == Masked::kOfBands)
+    add("masks of its bands differ: texels that all of them hide have alpha 0");
   if (masked == Masked::kNodataAsAlpha) {
     add("texels of its nodata value have alpha 0");
   } else if (!raster.nodata.empty() && !keepsValues(raster, image)) {
@@ -147,11 +149,11 @@ std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked,
 }
 
 /// A mask beside the file goes before the one in it, as GDAL has it. Empty: there is none.
-Result<std::vector<uint8_t>> maskOf(const Raster& raster, const std::string& path) {
+Result<GdalMask> maskOf(const Raster& raster, const std::string& path) {
   const auto width = static_cast<uint32_t>(raster.shape.width);
   const auto height = static_cast<uint32_t>(raster.shape.height);
   auto beside = readMaskBeside(path, width, height);
-  if (!beside.ok() || !beside->empty() || !raster.mask) return beside;
+  if (!beside.ok() || !beside->shown.empty() || !raster.mask) return beside;
   return readMaskPage(raster.file.path(), width, height);
 }
 
@@ -171,10 +173,11 @@ Masked applyNodata(const Raster& raster, ImageFile& image) {
 Result<Masked> applyMask(const Raster& raster, const std::string& path, ImageFile& image) {
   const auto mask = maskOf(raster, path);
   if (!mask.ok()) return mask.status();
-  if (std::find(mask->begin(), mask->end(), 0) == mask->end()) return applyNodata(raster, image);
+  const bool hides = std::find(mask->shown.begin(), mask->shown.end(), 0) != mask->shown.end();
+  if (!hides && !mask->differs) return applyNodata(raster, image);
   if (image.channels % 2 == 0) return Masked::kBesideAlpha;
-  image = withAlpha(image, *mask);
-  return Masked::kAsAlpha;
+  if (hides) image = withAlpha(image, mask->shown);
+  return mask->differs ? Masked::kOfBands : Masked::kAsAlpha;
 }
 
 /// Applies the orientation tag (TIFF 6.0: where the stored row 0 and column 0 stand in the
@@ -195,7 +198,7 @@ Result<Georeference> placeOf(const Raster& raster, const std::string& path, Note
     if (!tags.ok()) return tags;
     place = std::move(*tags);
   }
-  takePam(path, place);
+  takePam(path, place, notes);
   if (place.geotransform) return place;
   const auto transform = readWorldFile(path);
   if (!transform.ok()) return transform.status();
@@ -222,6 +225,8 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
                                  " channels: a texture has 1 to 4, which gdal_translate -b 1 -b 2 "
                                  "-b 3 picks");
   }
+  if (raster->white_is_zero && shape.sample != PictureSample::kU8)
+    return Status(TKS_USAGE, raster->name + " stores white as 0: convert it to black as 0");
   if (raster->sparse)
     return Status(TKS_IO, "cannot read " + raster->name + ": a part of its samples is missing");
   const auto sample = sampleOf(*raster);

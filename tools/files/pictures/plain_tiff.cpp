@@ -42,13 +42,14 @@ PictureSample sampleOf(uint16_t format, uint16_t bits) {
   return known == kKnown.end() ? PictureSample::kOther : known->sample;
 }
 
-/// Nothing if it is not plain.
-std::optional<PictureShape> plainShape(TIFF* tiff) {
+/// Nothing if it is not plain. white_is_zero: whether single channels may say so.
+std::optional<PictureShape> plainShape(TIFF* tiff, bool white_is_zero) {
   const auto [width, height] = sizeOfPage(tiff);
   const int channels = tagOf(tiff, TIFFTAG_SAMPLESPERPIXEL);
   // This tag has no default: 0 (white is zero) where it is missing.
   const uint16_t colours = tagOf(tiff, TIFFTAG_PHOTOMETRIC);
-  const bool grey = colours == PHOTOMETRIC_MINISBLACK && (channels == 1 || channels == 2);
+  const bool grey = (colours == PHOTOMETRIC_MINISBLACK && (channels == 1 || channels == 2)) ||
+                    (white_is_zero && colours == PHOTOMETRIC_MINISWHITE && channels == 1);
   const bool rgb = colours == PHOTOMETRIC_RGB && (channels == 3 || channels == 4);
   const bool apart = tagOf(tiff, TIFFTAG_PLANARCONFIG) != PLANARCONFIG_CONTIG && channels > 1;
   const PictureSample sample =
@@ -137,14 +138,22 @@ class PlainTiff final : public PictureReader {
   std::string path_;
 };
 
+std::unique_ptr<PictureReader> openTiff(const std::string& path, bool white_is_zero) {
+  auto file = TiffFile::open(path, "r");
+  if (!file.ok()) return nullptr;
+  const auto shape = plainShape(file->get(), white_is_zero);
+  if (!shape) return nullptr;
+  return std::make_unique<PlainTiff>(std::move(*file), *shape, path);
+}
+
 }  // namespace
 
 std::unique_ptr<PictureReader> openPlainTiff(const std::string& path) {
-  auto file = TiffFile::open(path, "r");
-  if (!file.ok()) return nullptr;
-  const auto shape = plainShape(file->get());
-  if (!shape) return nullptr;
-  return std::make_unique<PlainTiff>(std::move(*file), *shape, path);
+  return openTiff(path, false);
+}
+
+std::unique_ptr<PictureReader> openStoredTiff(const std::string& path) {
+  return openTiff(path, true);
 }
 
 }  // namespace tetrakis::tools

@@ -15,4 +15,7 @@ namespace tetrakis::tools {
 /// without alpha, interleaved, integers of 8, 16 or 32 bits or floats of 32 or 64.
 std::unique_ptr<PictureReader> openPlainTiff(const std::string& path);
 
+/// The same with greys that store white as 0 as well, of which the samples stay as they are.
+std::unique_ptr<PictureReader> openStoredTiff(const std::string& path);
+
 }  // namespace tetrakis::tools

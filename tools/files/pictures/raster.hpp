@@ -27,7 +27,7 @@ struct Raster {
   bool palette = false;                   ///< expanded to RGB by reading
   bool cmyk = false;                      ///< converted to RGB by reading
   bool stretched = false;                 ///< to the whole range of the type by reading
-  bool white_is_zero = false;             ///< inverted by reading
+  bool white_is_zero = false;             ///< inverted by reading if it has 8 bits or fewer
   bool further_pages = false;             ///< pages or frames that are not read
   bool mask = false;                      ///< a TIFF's mask page, which is not applied by reading
   std::string nodata{};                   ///< a TIFF's nodata value as it is written; "": none

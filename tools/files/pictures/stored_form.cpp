@@ -32,11 +32,9 @@ Status noteTiff(Raster& raster) {
     return {TKS_USAGE, raster.name + " does not state its bits per sample: convert it to 8 bits"};
   raster.white_is_zero =
       raster.reader->has(kPhotometric) && raster.reader->number(kPhotometric) == 0;
-  // OpenImageIO inverts these up to 8 bits, alpha too, and leaves them alone above.
-  if (raster.white_is_zero &&
-      (raster.shape.sample != PictureSample::kU8 || raster.shape.channels > 1)) {
+  // OpenImageIO inverts these up to 8 bits, alpha too.
+  if (raster.white_is_zero && raster.shape.channels > 1)
     return {TKS_USAGE, raster.name + " stores white as 0: convert it to black as 0"};
-  }
   // OpenImageIO hands these over as if they were RGB.
   const int photometric = raster.reader->number(kPhotometric);
   if (photometric == kCieLab || photometric == kIccLab || photometric == kItuLab)
