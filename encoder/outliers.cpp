@@ -8,7 +8,9 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 
+#include "base/nodata.hpp"
 #include "base/samples.hpp"
 
 namespace tetrakis::inline encoder {
@@ -36,21 +38,33 @@ struct Outliers {
   bool equal = true;  ///< all outliers have that value
 };
 
+/// Calls f with all samples that are neither NaN nor infinite nor the declared nodata value.
+template <class F>
+void forEachHeight(const tks_heights& heights, const F& f) {
+  withSampleType(heights.sample, [&]<class T>(T) {
+    const bool whole = std::is_integral_v<T>;
+    const double nodata = whole ? heights.nodata : double{toFloat(heights.nodata)};
+    const size_t count = size_t{heights.width} * heights.height;
+    for (const T sample : std::span(static_cast<const T*>(heights.data), count)) {
+      const auto value = static_cast<double>(sample);
+      if (std::isfinite(value) && (heights.has_nodata == 0 || value != nodata)) f(value);
+    }
+  });
+}
+
 /// Finite floats that no height in any unit can be, unless there are no others.
-Outliers hugeFloats(std::span<const float> samples) {
+Outliers hugeFloats(const tks_heights& heights) {
   Outliers found;
   uint64_t others = 0;
-  for (const float sample : samples) {
-    const auto value = static_cast<double>(sample);
-    if (!std::isfinite(value)) continue;
+  forEachHeight(heights, [&](double value) {
     if (std::abs(value) <= kHuge) {
       ++others;
-      continue;
+      return;
     }
     found.equal = found.equal && (found.count == 0 || value == found.value);
     ++found.count;
     if (std::abs(value) > std::abs(found.value)) found.value = value;
-  }
+  });
   return others > 0 ? found : Outliers{};
 }
 
@@ -62,20 +76,16 @@ struct Others {
 
 /// value: NaN leaves out none.
 Others othersThan(double value, const tks_heights& heights) {
-  return withSampleType(heights.sample, [&]<class T>(T) {
-    Others others;
-    const size_t count = size_t{heights.width} * heights.height;
-    for (const T sample : std::span(static_cast<const T*>(heights.data), count)) {
-      const auto other = static_cast<double>(sample);
-      if (other == value) {
-        ++others.left_out;
-      } else if (std::isfinite(other)) {
-        others.low = std::min(others.low, other);
-        others.high = std::max(others.high, other);
-      }
+  Others others;
+  forEachHeight(heights, [&](double other) {
+    if (other == value) {
+      ++others.left_out;
+    } else {
+      others.low = std::min(others.low, other);
+      others.high = std::max(others.high, other);
     }
-    return others;
   });
+  return others;
 }
 
 /// Whether a single sample of this value is no height: the ends of an integer type.
@@ -100,8 +110,7 @@ Outliers isolated(double end, const tks_heights& heights) {
 Outliers outliersOf(const tks_heights& heights) {
   if (tks_sample_bytes(heights.sample) == 1) return {};  // classes and masks hold the ends
   if (heights.sample == TKS_F32) {
-    const size_t count = size_t{heights.width} * heights.height;
-    const Outliers huge = hugeFloats({static_cast<const float*>(heights.data), count});
+    const Outliers huge = hugeFloats(heights);
     if (huge.count > 0) return huge;
   }
   const Others all = othersThan(std::numeric_limits<double>::quiet_NaN(), heights);
@@ -113,7 +122,6 @@ Outliers outliersOf(const tks_heights& heights) {
 
 tks_outliers findOutliers(const tks_heights& heights) {
   tks_outliers out{sizeof out, 0, 0, 0};
-  if (heights.has_nodata != 0) return out;
   const Outliers found = outliersOf(heights);
   if (found.count == 0) return out;
   out.count = found.count;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file finds samples that lie so far from all others that they are no heights, though nobody
-// has declared a nodata value.
+// This file finds samples that lie so far from all others that they are no heights, though they are
+// not the declared nodata value.
 #pragma once
 
 #include "tetrakis/tetrakis.h"

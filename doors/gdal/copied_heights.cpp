@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/length_unit.hpp"
 #include "doors/gdal/copied_raster.hpp"
 #include "doors/gdal/copied_samples.hpp"
 #include "doors/gdal/copied_voids.hpp"
@@ -27,10 +28,12 @@ void takeFacts(const std::string& name, GDALDataset& dataset, CopiedHeights& cop
   tks_heights& heights = copy.heights;
   heights.scale = scaleOf(name, band);
   heights.offset = band.GetOffset();
-  copy.unit = band.GetUnitType() != nullptr ? asUtf8(band.GetUnitType()) : "";
+  copy.unit = band.GetUnitType() != nullptr ? canonicalUnit(asUtf8(band.GetUnitType())) : "";
   copy.description = asUtf8(band.GetDescription());
-  if (const OGRSpatialReference* const system = dataset.GetSpatialRef())
+  if (const OGRSpatialReference* const system = dataset.GetSpatialRef()) {
     copy.crs = crsTexts(*system);
+    if (copy.unit.empty()) copy.unit = heightUnitOf(*system);
+  }
   const Place place = placeOf(dataset);
   std::copy_n(place.geotransform, 6, heights.geotransform);
   heights.has_geotransform = place.has_geotransform;
@@ -80,11 +83,11 @@ std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset&
   heights.height = static_cast<uint32_t>(band.GetYSize());
   heights.sample = *sample;
   if (!readSamples(name, band, strict, *copy, progress)) return nullptr;
-  takeNodata(band, *copy);
+  takeNodata(name, band, *copy);
   if (!applyMask(name, band, *copy)) return nullptr;
   takeFacts(name, dataset, *copy);
   heights.data = copy->samples.data();
-  if (!strict) takeFill(name, *copy);
+  takeFill(name, strict, *copy);
   return copy;
 }
 

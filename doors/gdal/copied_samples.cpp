@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
+#include "base/nodata.hpp"
 #include "doors/gdal/copied_voids.hpp"
 #include "doors/gdal/source.hpp"
 
@@ -13,50 +15,60 @@ namespace tetrakis::gdal {
 namespace {
 
 /// Doubles by rows, so that the copy is the only large array. Voids are told as doubles: -DBL_MAX,
-/// a common one, is beyond the floats.
+/// a common one, is beyond the floats. What stands for them: base/nodata.hpp.
 class DoubleRows {
  public:
-  DoubleRows(GDALRasterBand& band, float* out) : band_(band), out_(out), nodata_(nodataOf(band)) {}
+  DoubleRows(GDALRasterBand& band, std::span<float> out)
+      : band_(band), out_(out), nodata_(nodataOf(band)) {}
 
   bool read(const ProgressPart& progress) {
-    const int width = band_.GetXSize(), height = band_.GetYSize();
-    std::vector<double> row(static_cast<size_t>(width));
-    std::vector<GByte> mask(row.size(), 255);
+    const size_t width = band_.GetXSize(), height = band_.GetYSize();
+    const int columns = band_.GetXSize();
+    std::vector<double> row(width);
+    std::vector<GByte> mask(width, 255);
     const bool masked = hasMask(band_);
-    for (int y = 0; y < height; ++y) {
-      if (band_.RasterIO(GF_Read, 0, y, width, 1, row.data(), width, 1, GDT_Float64, 0, 0,
+    for (size_t y = 0; y < height; ++y) {
+      const int line = static_cast<int>(y);
+      if (band_.RasterIO(GF_Read, 0, line, columns, 1, row.data(), columns, 1, GDT_Float64, 0, 0,
                          nullptr) != CE_None ||
-          (masked && band_.GetMaskBand()->RasterIO(GF_Read, 0, y, width, 1, mask.data(), width, 1,
-                                                   GDT_Byte, 0, 0, nullptr) != CE_None) ||
-          !progress.report(double(y + 1) / height))
+          (masked &&
+           band_.GetMaskBand()->RasterIO(GF_Read, 0, line, columns, 1, mask.data(), columns, 1,
+                                         GDT_Byte, 0, 0, nullptr) != CE_None) ||
+          !progress.report(double(y + 1) / double(height)))
         return false;
-      for (size_t x = 0; x < row.size(); ++x) *out_++ = narrowed(row[x], mask[x] != 0);
+      for (size_t x = 0; x < width; ++x) out_[y * width + x] = narrowed(row[x], mask[x] != 0);
     }
+    if (nodata_ && !merged_)
+      std::replace_if(
+          out_.begin(), out_.end(), [](float sample) { return std::isnan(sample); }, mark_);
     return true;
   }
   /// The largest of any sample that is not void.
   double rounding() const { return rounding_; }
+  /// What stands for voids, if any value does.
+  std::optional<double> nodata() const {
+    if (!nodata_) return std::nullopt;
+    return double{merged_ ? kNaN : mark_};
+  }
 
  private:
+  static constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+  /// NaN for voids, until all samples are known.
   float narrowed(double value, bool valid) {
-    if (nodata_ && nearlyEqual(value, *nodata_)) return floatNodata(*nodata_);
-    const float rounded = toFloat(value);
-    if (valid && std::isfinite(rounded))
-      rounding_ = std::max(rounding_, std::abs(value - static_cast<double>(rounded)));
+    if (nodata_ && meetsNodata(value, *nodata_)) return kNaN;
+    const float rounded = toFloat(value);  // an infinity is refused by tks_encode with its place
+    if (!valid || !std::isfinite(rounded)) return rounded;
+    merged_ = merged_ || meetsNodata(rounded, mark_);
+    rounding_ = std::max(rounding_, std::abs(value - static_cast<double>(rounded)));
     return rounded;
   }
 
-  /// Beyond the floats: infinity, which tks_encode refuses with its place.
-  static float toFloat(double value) {
-    constexpr double kLargest = std::numeric_limits<float>::max();
-    if (std::isfinite(value) && std::abs(value) > kLargest)
-      return std::copysign(std::numeric_limits<float>::infinity(), value < 0 ? -1.0F : 1.0F);
-    return static_cast<float>(value);
-  }
-
   GDALRasterBand& band_;
-  float* out_;
+  std::span<float> out_;
   std::optional<double> nodata_;
+  float mark_ = nodata_ ? narrowedNodata(*nodata_) : kNaN;
+  bool merged_ = false;  ///< a sample that is not void has become what meets the mark
   double rounding_ = 0;
 };
 
@@ -109,8 +121,11 @@ bool readSamples(const std::string& name, GDALRasterBand& band, bool strict, Cop
                          band.GetRasterDataType(), 0, 0, &extra) == CE_None ||
            reportStop(name);
   }
-  DoubleRows rows(band, reinterpret_cast<float*>(copy.samples.data()));
+  DoubleRows rows(
+      band, {reinterpret_cast<float*>(copy.samples.data()), copy.samples.size() / sizeof(float)});
   if (!rows.read(progress)) return reportStop(name);
+  copy.heights.has_nodata = rows.nodata().has_value();
+  copy.heights.nodata = rows.nodata().value_or(0);
   copy.rounding = rows.rounding();
   if (copy.rounding == 0) return true;
   if (strict) {

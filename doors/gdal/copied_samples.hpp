@@ -13,7 +13,8 @@ namespace tetrakis::gdal {
 std::optional<tks_sample> sampleOf(GDALRasterBand& band);
 
 /// Reads the samples into the copy, whose type of samples is known. strict: doubles that no float
-/// holds are refused; else a warning tells that they are rounded. False after a reported error.
+/// holds are refused; else a warning tells that they are rounded. The nodata value of doubles
+/// becomes that of floats. False after a reported error.
 bool readSamples(const std::string& name, GDALRasterBand& band, bool strict, CopiedHeights& copy,
                  const ProgressPart& progress);
 

@@ -20,8 +20,15 @@ bool hasAlpha(GDALDataset& dataset) {
   return dataset.GetRasterBand(last)->GetColorInterpretation() == GCI_AlphaBand;
 }
 
+/// A mask of the dataset's, or of the band's own.
+bool isMasked(GDALRasterBand& band) {
+  return (band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA | GMF_ALPHA)) == 0;
+}
+
 bool isMasked(GDALDataset& dataset) {
-  return dataset.GetRasterBand(1)->GetMaskFlags() == GMF_PER_DATASET;
+  for (GDALRasterBand* const band : dataset.GetBands())
+    if (isMasked(*band)) return true;
+  return false;
 }
 
 /// A value that GDAL hides.
@@ -31,15 +38,26 @@ bool hasNodata(GDALDataset& dataset) {
   return false;
 }
 
-/// Which texels any band shows: not 0. Nothing after a reported error.
-std::optional<std::vector<uint8_t>> readShown(GDALDataset& dataset) {
+/// Which texels any band shows: not 0.
+struct Shown {
+  std::vector<uint8_t> texels;
+  bool differs = false;  ///< from band to band
+};
+
+/// Nothing after a reported error.
+std::optional<Shown> readShown(GDALDataset& dataset) {
   const int width = dataset.GetRasterXSize(), height = dataset.GetRasterYSize();
-  std::vector<uint8_t> shown(size_t(width) * height), of_band(shown.size());
+  Shown shown;
+  std::vector<uint8_t> of_band(size_t(width) * height);
   for (GDALRasterBand* const band : dataset.GetBands()) {
     if (band->GetMaskBand()->RasterIO(GF_Read, 0, 0, width, height, of_band.data(), width, height,
                                       GDT_Byte, 0, 0, nullptr) != CE_None)
       return std::nullopt;
-    std::transform(shown.begin(), shown.end(), of_band.begin(), shown.begin(), std::bit_or<>());
+    if (shown.texels.empty()) shown.texels = of_band;
+    for (size_t i = 0; i < of_band.size(); ++i) {
+      shown.differs = shown.differs || (of_band[i] != 0) != (shown.texels[i] != 0);
+      shown.texels[i] |= of_band[i];
+    }
   }
   return shown;
 }
@@ -49,15 +67,28 @@ enum class Nodata { kKeptBeside, kAsAlpha };
 
 /// The texels that are not hidden, where an alpha will say so; empty: it will not. A mask always
 /// does; a nodata value does where some texels have it in all bands and others do not.
-std::optional<std::vector<uint8_t>> readAlpha(GDALDataset& dataset, Nodata nodata) {
+std::optional<std::vector<uint8_t>> readAlpha(const std::string& name, GDALDataset& dataset,
+                                              Nodata nodata) {
   const bool masked = isMasked(dataset);
   const bool cut = masked || (nodata == Nodata::kAsAlpha && hasNodata(dataset));
-  if (dataset.GetRasterCount() % 2 == 0 || !cut) return std::vector<uint8_t>();
-  std::optional<std::vector<uint8_t>> shown = readShown(dataset);
-  if (!shown || masked) return shown;
-  const size_t hidden = std::count(shown->begin(), shown->end(), 0);
-  if (hidden == 0 || hidden == shown->size()) shown->clear();
-  return shown;
+  if (dataset.GetRasterCount() % 2 == 0 || !cut) {
+    if (masked)
+      CPLError(CE_Warning, CPLE_AppDefined,
+               "%s: The mask beside the last band of the texture is not applied and not kept.",
+               name.c_str());
+    return std::vector<uint8_t>();
+  }
+  std::optional<Shown> shown = readShown(dataset);
+  if (!shown) return std::nullopt;
+  if (masked && shown->differs)
+    CPLError(CE_Warning, CPLE_AppDefined,
+             "%s: The masks of the bands of the texture differ: texels that all of them hide have "
+             "alpha 0.",
+             name.c_str());
+  std::vector<uint8_t>& texels = shown->texels;
+  const size_t hidden = std::count(texels.begin(), texels.end(), 0);
+  if (hidden == 0 || (!masked && hidden == texels.size())) texels.clear();
+  return std::move(texels);
 }
 
 struct DatasetCloser {
@@ -83,8 +114,9 @@ bool readTexels(GDALDataset& dataset, const std::vector<uint8_t>& shown, CopiedT
   return true;
 }
 
-std::unique_ptr<CopiedTexture> copyTexels(GDALDataset& dataset, Nodata nodata) {
-  const std::optional<std::vector<uint8_t>> shown = readAlpha(dataset, nodata);
+std::unique_ptr<CopiedTexture> copyTexels(const std::string& name, GDALDataset& dataset,
+                                          Nodata nodata) {
+  const std::optional<std::vector<uint8_t>> shown = readAlpha(name, dataset, nodata);
   if (!shown) return nullptr;
   auto copy = std::make_unique<CopiedTexture>();
   tks_image& image = copy->image;
@@ -126,8 +158,6 @@ std::string whyNoTexture(GDALDataset& dataset) {
     return "The bands of a texture are grey or RGB, then alpha or a further colour "
            "(gdal_translate -b, -colorinterp).";
   }
-  if (bands % 2 == 0 && !hasAlpha(dataset) && isMasked(dataset))
-    return "A texture whose last band is a colour has no mask (gdal_translate -mask none).";
   return "";
 }
 
@@ -172,7 +202,7 @@ std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::s
     warn("has a nodata value beside its last band, which is not applied and not kept");
   if (liesBeside(*dataset, heights))
     warn("lies beside the ground of the heights, which get its border");
-  return copyTexels(*dataset, Nodata::kAsAlpha);
+  return copyTexels(name, *dataset, Nodata::kAsAlpha);
 }
 
 std::unique_ptr<CopiedTexture> copyPicture(const std::string& name, GDALDataset& dataset) {
@@ -182,7 +212,7 @@ std::unique_ptr<CopiedTexture> copyPicture(const std::string& name, GDALDataset&
              "choose one (gdal_translate -b 1).",
              name.c_str());
   }
-  return copyTexels(dataset, Nodata::kKeptBeside);
+  return copyTexels(name, dataset, Nodata::kKeptBeside);
 }
 
 }  // namespace tetrakis::gdal

@@ -2,11 +2,15 @@
 #include "doors/gdal/copied_voids.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <type_traits>
 #include <vector>
 
+#include "base/nodata.hpp"
 #include "doors/gdal/source.hpp"
 
 namespace tetrakis::gdal {
@@ -63,6 +67,22 @@ bool holds(double value) {
          value <= double(std::numeric_limits<T>::max());
 }
 
+std::span<float> floatsOf(CopiedHeights& copy) {
+  return {reinterpret_cast<float*>(copy.samples.data()), copy.samples.size() / sizeof(float)};
+}
+
+/// The shortest decimal that reads back as this value.
+template <class T>
+std::string textOf(T value) {
+  if (std::isnan(value)) return "NaN";
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+void warn(const std::string& name, const std::string& sentence) {
+  CPLError(CE_Warning, CPLE_AppDefined, "%s: %s.", name.c_str(), sentence.c_str());
+}
+
 }  // namespace
 
 std::optional<double> nodataOf(GDALRasterBand& band) {
@@ -71,28 +91,30 @@ std::optional<double> nodataOf(GDALRasterBand& band) {
   return has_nodata ? std::optional(nodata) : std::nullopt;
 }
 
-float floatNodata(double nodata) {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  return static_cast<float>(std::isfinite(nodata) ? std::clamp(nodata, -kLargest, kLargest)
-                                                  : nodata);
-}
-
 bool hasMask(GDALRasterBand& band) {
   return (band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) == 0;
 }
 
-void takeNodata(GDALRasterBand& band, CopiedHeights& copy) {
+void takeNodata(const std::string& name, GDALRasterBand& band, CopiedHeights& copy) {
   const std::optional<double> nodata = nodataOf(band);
   if (!nodata) return;
-  copy.heights.has_nodata = 1;
-  copy.heights.nodata = *nodata;
-  if (copy.heights.sample == TKS_F32) {
+  tks_heights& heights = copy.heights;
+  if (heights.sample != TKS_F32) {
+    heights.nodata = *nodata;
+    const bool can = visit(copy, [&]<class T>(std::span<T>) { return holds<T>(*nodata); });
+    if (!can)
+      warn(name, "No sample of its type can have the nodata value " + textOf(*nodata) +
+                     ", which makes nothing void");
+  } else if (!heights.has_nodata) {
     const float value = floatNodata(*nodata);
-    copy.heights.nodata = value;
-    auto* const samples = reinterpret_cast<float*>(copy.samples.data());
-    for (size_t i = 0; i < copy.samples.size() / sizeof(float); ++i)
-      if (nearlyEqual(samples[i], value)) samples[i] = value;
+    heights.nodata = value;
+    for (float& sample : floatsOf(copy))
+      if (!std::isnan(sample) && meetsNodata(sample, value)) sample = value;
   }
+  heights.has_nodata = 1;
+  if (band.GetRasterDataType() == GDT_Float64 && !meetsNodata(*nodata, heights.nodata))
+    warn(name, "Floats of 32 bits do not hold its nodata value " + textOf(*nodata) +
+                   ", for which " + textOf(static_cast<float>(heights.nodata)) + " stands");
 }
 
 bool applyMask(const std::string& name, GDALRasterBand& band, CopiedHeights& copy) {
@@ -126,15 +148,23 @@ bool applyMask(const std::string& name, GDALRasterBand& band, CopiedHeights& cop
   return applied;
 }
 
-void takeFill(const std::string& name, CopiedHeights& copy) {
+void takeFill(const std::string& name, bool strict, CopiedHeights& copy) {
+  tks_heights& heights = copy.heights;
   tks_outliers found{sizeof found, 0, 0, 0};
-  if (tks_find_outliers(&copy.heights, &found) != TKS_OK || found.is_fill == 0) return;
-  copy.heights.has_nodata = 1;
-  copy.heights.nodata = found.value;
-  CPLError(CE_Warning, CPLE_AppDefined,
-           "%s: %llu samples are %.9g, far from all others: declared as nodata (not by a strict "
-           "copy).",
-           name.c_str(), static_cast<unsigned long long>(found.count), found.value);
+  if (tks_find_outliers(&heights, &found) != TKS_OK || found.count == 0) return;
+  const bool floats = heights.sample == TKS_F32;
+  const std::string value = floats ? textOf(static_cast<float>(found.value)) : textOf(found.value);
+  const std::string count = std::to_string(found.count);
+  if (found.is_fill == 0 || heights.has_nodata || strict) {
+    warn(name, count + " samples lie far from all others" +
+                   (heights.has_nodata ? " and from its nodata value" : "") + ", the farthest at " +
+                   value + ": if void, declare them (gdal_translate -a_nodata " + value + ")");
+    return;
+  }
+  heights.has_nodata = 1;
+  heights.nodata = found.value;
+  warn(name, count + " samples are " + value +
+                 ", far from all others: declared as nodata (not by a strict copy)");
 }
 
 }  // namespace tetrakis::gdal

@@ -159,12 +159,9 @@ bool encode(const std::string& name, const Parts& parts, CopySettings settings, 
 void cloneInfo(GDALPamDataset& copy, GDALDataset& source, bool heights) {
   copy.CloneInfo(&source, GCIF_METADATA | GCIF_GCPS | GCIF_ONLY_IF_MISSING);
   int flags = GCIF_PAM_DEFAULT & ~GCIF_MASK;
-  int has_nodata = FALSE;
-  copy.GetRasterBand(1)->GetNoDataValue(&has_nodata);
-  // What the stream declares is what its samples hold.
-  if (has_nodata) flags &= ~GCIF_NODATA;
-  // The stream has these of heights, and says which band of a texture has which colour.
-  flags &= heights ? ~(GCIF_SCALEOFFSET | GCIF_UNITTYPE) : ~GCIF_COLORINTERP;
+  // The stream has these of heights, and says which band of a texture has which colour. The nodata
+  // value of heights is what their samples hold by now.
+  flags &= heights ? ~(GCIF_SCALEOFFSET | GCIF_UNITTYPE | GCIF_NODATA) : ~GCIF_COLORINTERP;
   int number = 1;
   for (const int band : textureBands(source)) {
     auto* const of_copy = static_cast<GDALPamRasterBand*>(copy.GetRasterBand(number++));

@@ -4,6 +4,7 @@
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
+#include "base/length_unit.hpp"
 
 namespace tetrakis::gdal {
 namespace {
@@ -59,6 +60,11 @@ SpatialReference compound(SpatialReference horizontal, const std::string& vertic
       vertical_datum.starts_with("EPSG:") || vertical_datum.find('[') != std::string::npos;
   if (!text || horizontal->IsCompound() || horizontal->IsVertical()) return horizontal;
   const SpatialReference vertical = parse(vertical_datum);
+  // Longitude, latitude and height
+  if (vertical && vertical->IsGeographic() && vertical->GetAxesCount() == 3) {
+    horizontal->PromoteTo3D(nullptr);
+    return horizontal;
+  }
   if (!vertical || !vertical->IsVertical()) return horizontal;
   const std::string name =
       std::string(horizontal->GetName()) + " + " + std::string(vertical->GetName());
@@ -91,6 +97,20 @@ CrsTexts crsTexts(const OGRSpatialReference& system) {
   const bool codes = !over.empty() && !up.empty() && says(parse(over + "+" + up.substr(5)), system);
   if (codes) return {over, up, ""};
   return {wktOf(system), "", ""};
+}
+
+std::string heightUnitOf(const OGRSpatialReference& system) {
+  const Quiet quiet;
+  if (system.IsCompound() || system.IsVertical()) {
+    const char* name = nullptr;
+    const double metres = system.GetTargetLinearUnits("VERT_CS", &name);
+    const std::string ours = lengthName(metres);
+    return ours.empty() && name != nullptr ? name : ours;
+  }
+  double metres = 0;
+  const bool spatial = system.GetAxesCount() == 3 && !system.IsGeocentric() &&
+                       system.GetAxis(nullptr, 2, nullptr, &metres) != nullptr;
+  return spatial ? lengthName(metres) : "";
 }
 
 SpatialReference readCrs(const CrsTexts& texts, const std::string& file_name) {

@@ -20,7 +20,7 @@ constexpr uint16_t kDoubles = 34736, kTexts = 34737;
 
 /// The three tags of a GeoTIFF.
 struct KeyTags {
-  std::vector<uint16_t> directory{1, 1, 1, 0};  ///< revision 1.1; no keys yet
+  std::vector<uint16_t> directory{1, 1, 1, 0};  ///< revision 1.1.1, GeoTIFF 1.1; no keys yet
   std::vector<double> doubles;
   std::string texts;
 
@@ -87,7 +87,12 @@ bool takeValue(std::string_view& rest, uint16_t key, KeyTags& tags) {
 
 std::optional<KeyTags> parseKeys(std::string_view rest) {
   constexpr size_t kMostWords = 65535;
+  constexpr std::string_view kGeoTiff10 = "1.0 ";
   KeyTags tags;
+  if (rest.starts_with(kGeoTiff10)) {
+    tags.directory[2] = 0;
+    rest.remove_prefix(kGeoTiff10.size());
+  }
   while (!rest.empty()) {
     const auto key = numberIn<uint16_t>(takeUntil(rest, "= "));
     if (!key || !rest.starts_with('=')) return std::nullopt;

@@ -289,14 +289,14 @@ tks_status tks_encode(const tks_heights* heights, const tks_image* image,
  * those of 8 bits, the value 0, and whatever lies beside a single other value, never are. */
 typedef struct tks_outliers {
   size_t size;    /* sizeof(tks_outliers) */
-  uint64_t count; /* 0: there are none, or heights->has_nodata */
+  uint64_t count; /* 0: there are none beside the declared nodata value */
   double value;   /* the outermost of them, as a sample */
   int is_fill;    /* all have that value, and files write it where they have no height: -9999 and
                      other rows of nines, -32768, -32767, -2147483648, floats from 1e10 on. Whoever
                      declares it as nodata saves bytes, and most of the error of small streams */
 } tks_outliers;
 
-/* Looks for outliers among heights that no nodata value is declared for. tks_encode does not: what
+/* Looks for outliers among heights that are not the declared nodata value. tks_encode does not: what
  * is not declared is a height to it. TKS_USAGE: heights that tks_encode refuses as well. */
 tks_status tks_find_outliers(const tks_heights* heights, tks_outliers* out);
 

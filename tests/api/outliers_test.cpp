@@ -83,13 +83,30 @@ TEST(Outliers, HeightsAreNone) {
   EXPECT_EQ(outliersOf(std::vector<uint16_t>{0, 0, 5, 30, 25}).count, 0U) << "bare ground";
   EXPECT_EQ(outliersOf(std::vector<uint8_t>{0, 1, 255, 255}).count, 0U) << "8 bits";
   EXPECT_EQ(outliersOf(std::vector<float>{std::nanf("")}).count, 0U);
+}
+
+/// A declared nodata value is no height, and hides no other number that is none.
+TEST(Outliers, AreFoundBesideADeclaredNodataValue) {
   const std::vector<float> holes = {1, -9999, 2, -9999, 1500};
-  tks_heights declared = heightsOf(holes);
-  declared.has_nodata = 1;
-  declared.nodata = 7;
-  tks_outliers found{sizeof found, 9, 9, 9};
-  EXPECT_EQ(tks_find_outliers(&declared, &found), TKS_OK);
-  EXPECT_EQ(found.count, 0U);
+  const std::vector<int16_t> mixed = {5, -32768, 900, -32767, 40, -32768};
+  const auto besideNodata = [](tks_heights declared, double nodata) {
+    declared.has_nodata = 1;
+    declared.nodata = nodata;
+    tks_outliers found{sizeof found, 9, 9, 9};
+    EXPECT_EQ(tks_find_outliers(&declared, &found), TKS_OK);
+    return found;
+  };
+  EXPECT_EQ(besideNodata(heightsOf(holes), -9999).count, 0U);
+  EXPECT_EQ(besideNodata(heightsOf(holes), -9999.0001).count, 0U) << "the nearest float";
+  for (const double other : {7.0, 1e30, std::numeric_limits<double>::lowest(), std::nan("")}) {
+    const tks_outliers found = besideNodata(heightsOf(holes), other);
+    EXPECT_EQ(found.count, 2U) << other;
+    EXPECT_EQ(found.value, -9999) << other;
+    EXPECT_TRUE(found.is_fill) << other;
+  }
+  const tks_outliers found = besideNodata(heightsOf(mixed), -32767);
+  EXPECT_EQ(found.count, 2U);
+  EXPECT_EQ(found.value, -32768);
 }
 
 TEST(Outliers, WrongArgumentsAreRefused) {

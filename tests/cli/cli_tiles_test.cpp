@@ -207,10 +207,25 @@ TEST_F(CliTiles, WhatHasNoPlaceOnAGlobeIsRefused) {
   }
   encode(ramp(9, 9, 179.995, 46));  // to 180.004
   refused("tiles s.tks -o t", 1);
-  file.crs = "EPSG:3031";  // the south pole in the middle
-  file.geotransform = tools::GeoTransform{-45000, 10000, 0, 45000, 0, -10000};
-  encode(file);
-  refused("tiles s.tks -o t", 1);
+  // Poles inside and in a corner; zones of UTM, and maps around a pole, that cross 180 degrees by
+  // much, by less than a sample, in a corner.
+  using Transform = tools::GeoTransform;
+  for (const auto& [crs, transform] :
+       {std::pair("EPSG:3031", Transform{-45e3, 1e4, 0, 45e3, 0, -1e4}),
+        {"EPSG:3031", {-1e4, 1e4, 0, 8e4, 0, -1e4}},
+        {"EPSG:3413", {-5e3, 1e3, 0, 4e3, 0, -1e3}},
+        {"EPSG:32701", {165e3, 500, 0, 8001e3, 0, -500}},
+        {"EPSG:32660", {832e3, 500, 0, 30e3, 0, -500}},
+        {"EPSG:32601", {166.2e3, 30, 0, 200e3, 0, -30}},
+        {"EPSG:32760", {829e3, 1e3, 40, 9964e3, 40, -1e3}},
+        {"EPSG:3031", {-45e3, 1e4, 0, -1e6, 0, -1e4}}}) {
+    file.crs = crs;
+    file.geotransform = transform;
+    encode(file);
+    const Outcome run = cli("tiles s.tks -o t");
+    EXPECT_EQ(run.code, 1) << crs << ' ' << transform[0];
+    EXPECT_NE(run.err.find("both sides of the antimeridian"), std::string::npos) << run.err;
+  }
   ASSERT_EQ(cli("-q encode --texture texture.png --lossless -o image.tks").code, 0);
   refused("tiles image.tks -o t", 1);
   refused("tiles a.tks -o t --format zip", 1);

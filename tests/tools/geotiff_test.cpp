@@ -3,9 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "tests/support/same_bytes.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/tiny_tiff.hpp"
 #include "tools/files/files.hpp"
+#include "tools/files/pictures/tiff.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -215,6 +217,48 @@ TEST_F(GeoTiff, PlacesAreThoseOfGdal) {
   }
 }
 
+/// To GDAL the heights of GeoTIFF 1.0 have no CRS: that of a vertical one comes back as 1.0.
+TEST_F(GeoTiff, VerticalKeysKeepTheirRevision) {
+  const auto revision = [this](uint16_t minor, uint16_t vertical) {
+    tiff.shorts(kGeoKeys, {1, 1, minor, 3, 1024, 0, 1, 1, 3072, 0, 1, 32633, vertical, 0, 1,
+                           uint16_t(vertical == 4096 ? 5773 : 9001)});
+    const HeightFile heights = read();
+    EXPECT_EQ(heights.unit, "m");
+    EXPECT_EQ(heights.geo_keys.starts_with("1.0 1024=1 3072=32633 "), minor == 0);
+    EXPECT_TRUE(writeHeights(path("b.tif"), heights).ok());
+    const auto file = TiffFile::open(path("b.tif"), "r");
+    EXPECT_TRUE(file.ok());
+    const auto words = tagValues<uint16_t>(file->get(), kGeoKeys, TIFF_SHORT);
+    EXPECT_EQ(std::vector(words.begin(), words.begin() + 3), (std::vector<uint16_t>{1, 1, minor}));
+    EXPECT_EQ(readHeights(path("b.tif"))->geo_keys, heights.geo_keys);
+  };
+  for (const int vertical : {4096, 4099})
+    for (const int minor : {0, 1})
+      revision(static_cast<uint16_t>(minor), static_cast<uint16_t>(vertical));
+  tiff.shorts(kGeoKeys, {1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 32633});
+  EXPECT_EQ(read().geo_keys, "") << "nothing depends on the revision";
+}
+
+/// Heights of three axes and grads have units that PROJ knows.
+TEST_F(GeoTiff, SpatialSystemsAndGradsHaveUnits) {
+  tiff.shorts(kGeoKeys, {1, 1, 1, 3, 1024, 0, 1, 2, 2048, 0, 1, 4326, 4096, 0, 1, 4979});
+  EXPECT_EQ(read().crs, "EPSG:4979");
+  EXPECT_EQ(read().unit, "m");
+  EXPECT_EQ(read().geo_keys, "");
+  tiff.doubles(kPixelScale, {0.001, 0.001, 0});
+  tiff.doubles(kTiepoint, {0, 0, 0, 2, 50, 0});
+  tiff.shorts(kGeoKeys, {1, 1, 1, 2, 1024, 0, 1, 2, 2048, 0, 1, 4807});
+  const double north = read().spacing_y;
+  EXPECT_NEAR(north, 100, 0.5) << "a ten-thousandth of a quarter of the meridian";
+  for (const int unit : {9101, 9102, 9105}) {
+    tiff.shorts(kGeoKeys, {1, 1, 1, 3, 1024, 0, 1, 2, 2048, 0, 1, 4807, 2054, 0, 1,
+                           static_cast<uint16_t>(unit)});
+    tiff.doubles(kTiepoint, {0, 0, 0, 0, 0.5, 0});
+    const double degrees = unit == 9101 ? 57.29578 : unit == 9102 ? 1 : 0.9;
+    EXPECT_NEAR(read().spacing_y / degrees, 110.6, 1.2) << unit;
+  }
+}
+
 /// What crs and vertical_datum do not say is kept, and comes back from a file that is written.
 TEST_F(GeoTiff, KeysOfOtherMakersComeBack) {
   tiff.shorts(kGeoKeys, {1,    1,           0,    6, 1024, 0,           1,    1,         1025, 0,
@@ -345,8 +389,6 @@ TEST_F(GeoTiff, LayoutsThatAreNotReadExactlyAreRefused) {
     EXPECT_EQ(read.status().code(), TKS_USAGE) << what << ": " << read.status().message();
     tiff = plain;
   };
-  tiff.shorts(TinyTiff::kPhotometric, {0});
-  expectRefused("white is zero");
   tiff.shorts(TinyTiff::kPhotometric, {3});
   tiff.shorts(TinyTiff::kColorMap, std::vector<uint16_t>(3 * 256));
   expectRefused("palette");
@@ -366,6 +408,15 @@ TEST_F(GeoTiff, FewBitsAreReadAsTheyAre) {
         bits == 1 ? std::vector{1, 0, 1, 1, 0} : std::vector{1, 15, 0, 2, 3};
     for (size_t i = 0; i < wanted.size(); ++i) EXPECT_EQ(int(read->data[i]), wanted[i]) << i;
   }
+}
+
+/// Heights are no shades.
+TEST_F(GeoTiff, WhiteStoredAsZeroChangesNoHeight) {
+  const auto heights = readHeights(save("a.tif", tiff.bytes()));
+  tiff.shorts(TinyTiff::kPhotometric, {0});
+  const auto white = readHeights(save("b.tif", tiff.bytes()));
+  ASSERT_TRUE(heights.ok() && white.ok()) << white.status().message();
+  EXPECT_TRUE(test::sameBytes(white->data, heights->data));
 }
 
 /// A few bytes may declare any size.

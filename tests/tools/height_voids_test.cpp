@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which samples of a height file are void: nodata as GDAL compares it, masks, and what only looks
 // like nodata. And which samples are taken at all.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -83,15 +84,35 @@ TEST_F(HeightVoids, FloatsThatGdalTakesForNodataBecomeIt) {
     EXPECT_EQ(samples[1], *heights->nodata) << text;
     EXPECT_EQ(samples[2], *heights->nodata) << text;
     EXPECT_EQ(samples[3], -1e30F) << text;
-    EXPECT_TRUE(notes.empty());
+    ASSERT_EQ(notes.size(), 1U);
+    EXPECT_NE(notes[0].text.find("at -1e+30: if void"), std::string::npos) << notes[0].text;
   }
   const auto given = read(tiff, -9999.0001);
   ASSERT_TRUE(given.ok());
   EXPECT_EQ(samplesOf<float>(*given)[5], static_cast<float>(-9999.0001));
   EXPECT_EQ(*given->nodata, double{static_cast<float>(-9999.0001)});
   EXPECT_EQ(samplesOf<float>(*given)[6], -9998.9F);
-  tiff.ascii(TinyTiff::kGdalNodata, "-1.7976931348623157e+308");
-  EXPECT_FALSE(read(tiff)->nodata);
+}
+
+/// Floats are compared with the nearest float, as GDAL does.
+TEST_F(HeightVoids, NodataOfFloatsIsTheNearestFloat) {
+  struct Case {
+    const char* text;
+    double nodata;
+  };
+  TinyTiff tiff = tiffOf<float>({1, kLowest, 0, -0.0F, 1e-42F, 5});
+  for (const auto& [text, nodata] :
+       {Case{"-1.7976931348623157e+308", -HUGE_VAL}, Case{"1e300", HUGE_VAL},
+        Case{"2.2250738585072014e-308", 0}, Case{"1e-42", double{1e-42F}}, Case{"-0", 0},
+        Case{"0.1", double{0.1F}}}) {
+    tiff.ascii(TinyTiff::kGdalNodata, text);
+    const auto heights = read(tiff);
+    ASSERT_TRUE(heights.ok() && heights->nodata) << text;
+    EXPECT_EQ(*heights->nodata, nodata) << text;
+    const auto samples = samplesOf<float>(*heights);
+    EXPECT_EQ(std::vector(samples.begin(), samples.begin() + 6),
+              (std::vector<float>{1, kLowest, 0, 0, 1e-42F, 5}));
+  }
 }
 
 TEST_F(HeightVoids, NumbersThatFilesWriteWithoutAHeightAreVoid) {
@@ -128,7 +149,7 @@ TEST_F(HeightVoids, OtherNumbersStayHeights) {
 
 TEST_F(HeightVoids, NodataInWordsOfOldLibrariesIsNoNumber) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  TinyTiff tiff = tiffOf<float>({1, -1, nan, 5});
+  TinyTiff tiff = tiffOf<float>({1, -1, nan, 2});
   for (const char* text :
        {"nan", "-nan", "-1.#IND", "1.#QNAN", "1.#QNAN00", "-1.#IND00", "1.#SNAN"}) {
     tiff.ascii(TinyTiff::kGdalNodata, text);
@@ -256,7 +277,8 @@ TEST_F(HeightVoids, IsolatedValuesAreNotedUnlessDeclared) {
     EXPECT_TRUE(notes.empty());
     tiff.ascii(TinyTiff::kGdalNodata, value);
     ASSERT_TRUE(read(tiff).ok());
-    EXPECT_TRUE(notes.empty());
+    for (const Note& note : notes)  // beside it others may be isolated
+      EXPECT_EQ(note.text.find("at " + value), std::string::npos) << note.text;
   };
   expectNote(tiffOf<float>({1, 2, kLowest, 3, 1e32F}), "-3.4028235e+38");
   expectNote(tiffOf<float>({1, 2, 1e33F, 3, 2e30F}), "1e+33");
@@ -280,7 +302,7 @@ TEST_F(HeightVoids, IsolatedValuesAreNotedUnlessDeclared) {
 TEST_F(HeightVoids, DoublesThatAreFloatsAreTaken) {
   using Limits = std::numeric_limits<double>;
   TinyTiff tiff = tiffOf<double>({0.25, -0.0, double{kLowest}, 1e-40F, Limits::quiet_NaN()});
-  const auto heights = read(tiff, 7.0);
+  const auto heights = read(tiff, Limits::quiet_NaN());
   ASSERT_TRUE(heights.ok()) << heights.status().message();
   EXPECT_EQ(heights->sample, TKS_F32);
   const auto samples = samplesOf<float>(*heights);
@@ -315,8 +337,78 @@ TEST_F(HeightVoids, NodataOfDoublesNeedNotBeAFloat) {
   }
 }
 
+/// Whatever the nodata value of doubles is, the same samples are void among floats, and no others.
+TEST_F(HeightVoids, NoHeightOfDoublesBecomesVoid) {
+  using Limits = std::numeric_limits<double>;
+  const std::vector<double> numbers = {
+      0,   -0.0, Limits::min(), Limits::denorm_min(), 1e-42, 1.0001e-42, 1e-45,  1e-300,
+      0.1, 0.3,  -9999,         -9999.0034,           1e10,  3e38,       kLowest};
+  std::vector<double> nodatas = numbers;
+  for (const double value : {Limits::lowest(), Limits::max(), 1e300, HUGE_VAL, Limits::quiet_NaN()})
+    nodatas.push_back(value);
+  for (const double nodata : nodatas) {
+    std::vector<double> row = numbers;
+    row.push_back(nodata);
+    const auto heights = read(tiffOf(row), nodata);
+    ASSERT_TRUE(heights.ok()) << nodata << ' ' << heights.status().message();
+    ASSERT_TRUE(heights->nodata);
+    const double kept = *heights->nodata;
+    const auto samples = samplesOf<float>(*heights);
+    for (size_t i = 0; i < row.size(); ++i) {
+      const bool is_void = std::abs(row[i] - nodata) < 2.4e-7 * std::abs(row[i] + nodata) ||
+                           row[i] == nodata || std::isnan(row[i]);
+      EXPECT_EQ(std::isnan(samples[i]) || samples[i] == kept, is_void) << nodata << ' ' << row[i];
+      if (!is_void) {
+        EXPECT_EQ(samples[i], static_cast<float>(row[i]));
+      }
+    }
+    const bool told = std::any_of(notes.begin(), notes.end(), [](const Note& note) {
+      return note.text.starts_with("floats of 32 bits do not hold its nodata value");
+    });
+    EXPECT_EQ(told, !(std::isnan(kept) && std::isnan(nodata)) &&
+                        !(std::abs(kept - nodata) <= 2.4e-7 * std::abs(kept + nodata)) &&
+                        kept != nodata)
+        << nodata;
+  }
+}
+
+/// What a mask leaves out may be any number, and counts in no rounding.
+TEST_F(HeightVoids, MaskedDoublesNeedNotBeFloats) {
+  TinyTiff tiff = tiffOf<double>({1, 1e300, 2, 3, 0.1, 4, 5, HUGE_VAL, 6, 7, 0.3});
+  tiff.addPage(maskOf({true, false, true, true, false, true, true, false, true, true, false,
+                       true, false, true, true, false, true, true, false, true, true, false,
+                       true, false, true, true, false, true, true, false, true, true, false},
+                      11, 8));
+  const auto heights = read(tiff);
+  ASSERT_TRUE(heights.ok()) << heights.status().message();
+  EXPECT_EQ(heights->rounding, 0);
+  EXPECT_TRUE(std::isnan(*heights->nodata));
+  EXPECT_TRUE(std::isnan(samplesOf<float>(*heights)[1]));
+  EXPECT_EQ(samplesOf<float>(*heights)[3], 3);
+}
+
+TEST_F(HeightVoids, VoidsOfAnotherNumberThanDeclaredAreNoted) {
+  const auto expectNote = [this](TinyTiff tiff, const char* declared, const std::string& said) {
+    tiff.ascii(TinyTiff::kGdalNodata, declared);
+    const auto heights = read(tiff);
+    ASSERT_TRUE(heights.ok() && heights->nodata);
+    ASSERT_EQ(notes.size(), 1U) << declared;
+    EXPECT_EQ(notes[0].option, "--nodata");
+    EXPECT_NE(notes[0].text.find(said), std::string::npos) << notes[0].text;
+  };
+  expectNote(tiffOf<int16_t>({-400, 8848, -32768, 3}), "-32767",
+             "3 samples lie far from all others and from its nodata value -32767, at -32768: if "
+             "void, give --nodata -32768");
+  expectNote(tiffOf<float>({1, 2, -9999, 1500}), "-32768", "give --nodata -9999");
+  expectNote(tiffOf<float>({1, 2, kLowest, 1500}), "-9999", "give --nodata -3.4028235e+38");
+  expectNote(tiffOf<float>({1, 2, -9999, 1500}), "nan", "give --nodata -9999");
+  expectNote(tiffOf<float>({1, 2, -9999, 1500, -32768}), "-32768", "only a mask can say so");
+  ASSERT_TRUE(read(tiffOf<float>({1, 2, -9999, 1500}), std::nan("")).ok());
+  EXPECT_TRUE(notes.empty()) << "all are heights, as their user says";
+}
+
 TEST_F(HeightVoids, NodataThatNoSampleCanHaveIsNoted) {
-  TinyTiff tiff = tiffOf<int16_t>({1, -9999, 3});
+  TinyTiff tiff = tiffOf<int16_t>({1, -9999, 15000});
   for (const char* text : {"-9999.4", "70000", "nan", "-9999"}) {
     tiff.ascii(TinyTiff::kGdalNodata, text);
     ASSERT_TRUE(read(tiff).ok());

@@ -7,7 +7,10 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <span>
+#include <utility>
 
+#include "base/nodata.hpp"
 #include "tools/files/file_bytes.hpp"
 #include "tools/files/files.hpp"
 #include "tools/files/gdal_mask.hpp"
@@ -18,6 +21,7 @@
 #include "tools/files/place/pam.hpp"
 #include "tools/files/place/world_file.hpp"
 #include "tools/files/plain_heights.hpp"
+#include "tools/files/text.hpp"
 #include "tools/files/void_samples.hpp"
 
 namespace tetrakis::tools {
@@ -52,9 +56,6 @@ Result<tks_sample> heightSampleOf(const Raster& raster) {
                                  " channels, heights have one: choose it (gdal_translate -b 1); "
                                  "colours that stand for heights have to be decoded first");
   }
-  if (raster.white_is_zero) {
-    return Status(TKS_USAGE, raster.name + " stores white as 0: heights are no shades");
-  }
   if (raster.stretched) {
     return Status(TKS_USAGE, raster.name +
                                  " has samples that reading would stretch to all of 8 or "
@@ -74,28 +75,35 @@ Result<tks_sample> heightSampleOf(const Raster& raster) {
 }
 
 struct Floats {
-  std::vector<std::byte> samples;
+  std::vector<float> samples;
+  std::optional<double> nodata;  ///< what stands for voids
   double rounding = 0;
 };
 
-/// Doubles as the nearest floats, those that meet the nodata value as its float or NaN. Fails if
-/// one is beyond all floats.
-Result<Floats> narrowed(const std::vector<std::byte>& doubles, const std::optional<double>& nodata,
-                        const std::string& name) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  const auto mark = static_cast<float>(nodata ? asSample(*nodata, TKS_F32).value_or(kNaN) : kNaN);
-  Floats floats{std::vector<std::byte>(doubles.size() / sizeof(double) * sizeof(float))};
-  for (size_t i = 0; i < floats.samples.size() / sizeof(float); ++i) {
-    double value = 0;
-    std::memcpy(&value, doubles.data() + i * sizeof value, sizeof value);
-    const bool is_void = nodata && meetsNodata(value, *nodata);
-    const float sample = is_void ? mark : toFloat(value);
-    std::memcpy(floats.samples.data() + i * sizeof sample, &sample, sizeof sample);
-    if (is_void || !std::isfinite(value)) continue;
+/// Doubles as the nearest floats, those that meet the nodata value as what stands for them
+/// (base/nodata.hpp). Fails if one that is not void, nor left out by the mask (empty: none is), is
+/// beyond all floats.
+Result<Floats> narrowed(std::span<const double> doubles, const std::optional<double>& nodata,
+                        const std::vector<uint8_t>& mask, const std::string& name) {
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  const float mark = nodata ? narrowedNodata(*nodata) : kNaN;
+  const auto isVoid = [&nodata](double value) { return nodata && meetsNodata(value, *nodata); };
+  Floats floats;
+  bool merged = false;
+  floats.samples.reserve(doubles.size());
+  for (size_t i = 0; i < doubles.size(); ++i) {
+    const double value = doubles[i];
+    const float sample = toFloat(value);
+    floats.samples.push_back(isVoid(value) ? mark : sample);
+    if (isVoid(value) || !std::isfinite(value) || (!mask.empty() && mask[i] == 0)) continue;
     if (!std::isfinite(sample))
       return Status(TKS_USAGE, name + " holds 64-bit floats beyond the range of 32 bits");
+    merged = merged || meetsNodata(sample, mark);
     floats.rounding = std::max(floats.rounding, std::abs(value - static_cast<double>(sample)));
   }
+  if (nodata) floats.nodata = merged ? kNaN : mark;
+  for (size_t i = 0; merged && i < doubles.size(); ++i)
+    if (isVoid(doubles[i])) floats.samples[i] = kNaN;
   return floats;
 }
 
@@ -106,25 +114,51 @@ Note noteOnDoubles(double rounding) {
   return {std::string("64-bit floats are rounded to 32 bits, by up to ") + text.data(), ""};
 }
 
-/// Heights, and the mask that their file holds (empty: none).
+/// Where floats of 32 bits declare another nodata value than the file.
+std::optional<Note> noteOnNarrowing(double nodata, double kept) {
+  if (meetsNodata(nodata, kept)) return {};
+  return Note{"floats of 32 bits do not hold its nodata value " + shortest(nodata) +
+                  ", for which " + (std::isnan(kept) ? "NaN" : shortest(static_cast<float>(kept))) +
+                  " stands",
+              ""};
+}
+
+/// Takes doubles as floats.
+Status narrow(const std::vector<std::byte>& wide, const std::vector<uint8_t>& mask,
+              const std::string& name, HeightFile& heights, Notes& notes) {
+  const std::span doubles(reinterpret_cast<const double*>(wide.data()),
+                          wide.size() / sizeof(double));
+  const auto floats = narrowed(doubles, heights.nodata, mask, name);
+  if (!floats.ok()) return floats.status();
+  const auto bytes = std::as_bytes(std::span(floats->samples));
+  heights.data.assign(bytes.begin(), bytes.end());
+  heights.rounding = floats->rounding;
+  notes.push_back(noteOnDoubles(heights.rounding));
+  const std::optional<double> declared = std::exchange(heights.nodata, floats->nodata);
+  if (!declared) return {};
+  if (const auto note = noteOnNarrowing(*declared, *floats->nodata)) notes.push_back(*note);
+  return {};
+}
+
+/// Heights, and the mask that their file holds, or that lies beside it (empty: none).
 struct Reading {
   HeightFile heights;
   std::vector<uint8_t> mask;
 };
 
-/// Of a mask page, or of what is missing; empty: all is there.
-Result<std::vector<uint8_t>> maskOf(const Raster& raster, uint32_t width, uint32_t height) {
-  std::vector<uint8_t> mask;
-  if (raster.mask) {
-    auto page = readMaskPage(raster.file.path(), width, height);
-    if (!page.ok()) return page;
-    mask = std::move(*page);
-  }
-  if (!raster.sparse) return mask;
+/// Of a mask beside the file, which goes before a page of it, as GDAL has it, and of what is
+/// missing; empty: all is there.
+Result<std::vector<uint8_t>> maskOf(const Raster& raster, const std::string& path, uint32_t width,
+                                    uint32_t height) {
+  auto mask = readMaskBeside(path, width, height);
+  if (mask.ok() && mask->shown.empty() && raster.mask)
+    mask = readMaskPage(raster.file.path(), width, height);
+  if (!mask.ok()) return mask.status();
+  if (!raster.sparse) return std::move(mask->shown);
   auto there = maskOfMissing(raster.file.path(), width, height);
   if (!there.ok()) return there;
-  for (size_t i = 0; i < mask.size(); ++i)
-    if (mask[i] == 0) (*there)[i] = 0;
+  for (size_t i = 0; i < mask->shown.size(); ++i)
+    if (mask->shown[i] == 0) (*there)[i] = 0;
   return there;
 }
 
@@ -146,32 +180,35 @@ Result<Reading> readRasterHeights(const std::string& path, const std::optional<d
   }
   if (raster->unread_place)
     notes.push_back({"its place in GML, or in damaged tags, is not read", ""});
-  takePam(path, heights);
+  takePam(path, heights, notes);
   if (nodata) heights.nodata = nodata;
   const bool none = nodata && std::isnan(*nodata);  // says that all samples are heights
   if (const auto note = noteOnNodata(heights); note && !none) notes.push_back(*note);
+  auto mask = maskOf(*raster, path, heights.width, heights.height);
+  if (!mask.ok()) return mask.status();
+  reading.mask = std::move(*mask);
   const bool wide = raster->shape.sample == PictureSample::kDouble;
   auto data = readSamples(*raster, wide ? PictureSample::kDouble : storedAs(*sample));
   if (!data.ok()) return data.status();
-  heights.data = std::move(*data);
   if (wide) {
-    auto floats = narrowed(heights.data, heights.nodata, raster->name);
-    if (!floats.ok()) return floats.status();
-    heights.data = std::move(floats->samples);
-    heights.rounding = floats->rounding;
-    notes.push_back(noteOnDoubles(heights.rounding));
+    const Status narrow_status = narrow(*data, reading.mask, raster->name, heights, notes);
+    if (!narrow_status.ok()) return narrow_status;
+  } else {
+    heights.data = std::move(*data);
   }
   if (raster->further_pages) notes.push_back({"only the first page is read", ""});
-  auto mask = maskOf(*raster, heights.width, heights.height);
-  if (!mask.ok()) return mask.status();
-  reading.mask = std::move(*mask);
   if (raster->sparse) notes.push_back({"strips or tiles that the file leaves out are void", ""});
   return reading;
 }
 
-Result<Reading> readPlain(Result<HeightFile> heights) {
+/// The nodata value is as given, else that of the format.
+Result<Reading> readPlain(const std::string& path, Result<HeightFile> heights,
+                          const std::optional<double>& nodata) {
   if (!heights.ok()) return heights.status();
-  return Reading{std::move(*heights), {}};
+  if (nodata) heights->nodata = nodata;
+  auto mask = readMaskBeside(path, heights->width, heights->height);
+  if (!mask.ok()) return mask.status();
+  return Reading{std::move(*heights), std::move(mask->shown)};
 }
 
 /// The name of a file that has no header, less what is said of its shape; nothing for others.
@@ -184,9 +221,9 @@ std::optional<std::string> withoutHeader(const std::string& path) {
 
 Result<Reading> readAnyHeights(const std::string& path, const std::optional<double>& nodata,
                                Notes& notes) {
-  if (const auto raw = parseRawName(path)) return readPlain(readRaw(*raw));
+  if (const auto raw = parseRawName(path)) return readPlain(path, readRaw(*raw), nodata);
   const std::string format = formatOf(path, "");
-  if (format == "hgt") return readPlain(readHgt(path));
+  if (format == "hgt") return readPlain(path, readHgt(path), nodata);
   const auto shapeless = withoutHeader(path);
   if (!shapeless) return readRasterHeights(path, nodata, notes);
   return Status(TKS_USAGE, quoted(path) + " needs its shape: give " + *shapeless +
@@ -203,17 +240,10 @@ Status findPlace(const std::string& path, HeightFile& heights) {
   return {};
 }
 
-/// A mask beside the file goes before the one in it, as GDAL has it.
 Status settleVoids(const std::string& path, Reading& reading, Notes& notes) {
-  HeightFile& heights = reading.heights;
-  if (heights.sample == TKS_F32 && heights.nodata)
-    heights.nodata = asSample(*heights.nodata, TKS_F32);
-  matchNodata(heights);
-  auto beside = readMaskBeside(path, heights.width, heights.height);
-  if (!beside.ok()) return beside.status();
-  const Status masked = applyMask(heights, beside->empty() ? reading.mask : *beside, notes);
+  matchNodata(reading.heights);
+  const Status masked = applyMask(reading.heights, reading.mask, notes);
   if (!masked.ok()) return {masked.code(), quoted(path) + ": " + masked.message()};
-  if (const auto note = takeOutliers(heights)) notes.push_back(*note);
   return {};
 }
 
@@ -252,10 +282,11 @@ Result<HeightFile> readHeights(const std::string& path, const std::optional<doub
   Notes& told = notes ? *notes : unread;
   auto reading = readAnyHeights(path, nodata, told);
   if (!reading.ok()) return reading.status();
-  if (nodata) reading->heights.nodata = nodata;
   if (Status place = findPlace(path, reading->heights); !place.ok()) return place;
   const Status settled = settleVoids(path, *reading, told);
   if (!settled.ok()) return settled;
+  const bool none = nodata && std::isnan(*nodata);  // says that all samples are heights
+  if (const auto note = none ? std::nullopt : takeOutliers(reading->heights)) told.push_back(*note);
   return std::move(reading->heights);
 }
 

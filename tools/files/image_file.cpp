@@ -86,6 +86,7 @@ bool isWidened(const ImageFile& image) {
 enum class Masked {
   kNo,
   kAsAlpha,
+  kOfBands,
   kBesideAlpha,
   kNodataAsAlpha,
   kNodataBesideAlpha,
@@ -151,6 +152,8 @@ std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked,
   if (image.hasFurtherColour())
     add("last channel taken for a colour, because the file does not call it alpha");
   if (masked == Masked::kAsAlpha) add("mask kept as alpha");
+  if (masked == Masked::kOfBands)
+    add("masks of its bands differ: texels that all of them hide have alpha 0");
   if (masked == Masked::kNodataAsAlpha) {
     add("texels of its nodata value have alpha 0");
   } else if (masked == Masked::kNodataEverywhere) {
@@ -168,11 +171,11 @@ std::string noteOn(const Raster& raster, const ImageFile& image, Masked masked,
 }
 
 /// A mask beside the file goes before the one in it, as GDAL has it. Empty: there is none.
-Result<std::vector<uint8_t>> maskOf(const Raster& raster, const std::string& path) {
+Result<GdalMask> maskOf(const Raster& raster, const std::string& path) {
   const auto width = static_cast<uint32_t>(raster.shape.width);
   const auto height = static_cast<uint32_t>(raster.shape.height);
   auto beside = readMaskBeside(path, width, height);
-  if (!beside.ok() || !beside->empty() || !raster.mask) return beside;
+  if (!beside.ok() || !beside->shown.empty() || !raster.mask) return beside;
   return readMaskPage(raster.file.path(), width, height);
 }
 
@@ -199,10 +202,11 @@ Result<Masked> applyMask(const Raster& raster, const std::string& path,
                          const std::vector<uint8_t>& nodata, ImageFile& image) {
   const auto mask = maskOf(raster, path);
   if (!mask.ok()) return mask.status();
-  if (std::find(mask->begin(), mask->end(), 0) == mask->end()) return applyNodata(nodata, image);
+  const bool hides = std::find(mask->shown.begin(), mask->shown.end(), 0) != mask->shown.end();
+  if (!hides && !mask->differs) return applyNodata(nodata, image);
   if (image.channels % 2 == 0) return Masked::kBesideAlpha;
-  image = withAlpha(image, *mask);
-  return Masked::kAsAlpha;
+  if (hides) image = withAlpha(image, mask->shown);
+  return mask->differs ? Masked::kOfBands : Masked::kAsAlpha;
 }
 
 /// Applies the orientation tag (TIFF 6.0: where the stored row 0 and column 0 stand in the
@@ -223,7 +227,7 @@ Result<Georeference> placeOf(const Raster& raster, const std::string& path, Note
     if (!tags.ok()) return tags;
     place = std::move(*tags);
   }
-  takePam(path, place);
+  takePam(path, place, notes);
   if (place.geotransform) return place;
   const auto transform = readWorldFile(path);
   if (!transform.ok()) return transform.status();

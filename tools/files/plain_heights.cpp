@@ -142,7 +142,7 @@ Result<HeightFile> readHgt(const std::string& path) {
   if (!corner) return heights;
   heights.geotransform = tileAt(*corner, heights.width, heights.height);
   if (const auto spacing = groundSpacing(*heights.geotransform, heights.width, heights.height,
-                                         {true, 0}, heights.crs)) {
+                                         {1, 0}, heights.crs)) {
     heights.spacing_x = (*spacing)[0];
     heights.spacing_y = (*spacing)[1];
   }

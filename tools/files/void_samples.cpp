@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/nodata.hpp"
 #include "base/samples.hpp"
 #include "tools/files/sample_types.hpp"
 #include "tools/files/text.hpp"
@@ -22,15 +23,6 @@ std::optional<double> asInteger(double nodata) {
   const bool fits = nodata >= double{Limits::min()} && nodata <= double{Limits::max()} &&
                     nodata == std::trunc(nodata);
   return fits ? std::optional(nodata) : std::nullopt;
-}
-
-std::optional<double> asFloat(double nodata) {
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  if (std::isfinite(nodata) && std::abs(nodata) > kLargest) {
-    const double largest = std::copysign(kLargest, nodata);
-    return meetsNodata(nodata, largest) ? std::optional(largest) : std::nullopt;
-  }
-  return static_cast<double>(static_cast<float>(nodata));
 }
 
 /// The outermost value that no valid sample has, of the 65536 at the end of the type's range where
@@ -53,11 +45,11 @@ std::optional<double> freeValue(std::span<const T> samples, const std::vector<ui
   return std::is_signed_v<T> ? double{Limits::min()} + free : double{Limits::max()} - free;
 }
 
-uint64_t countOf(double nodata, const HeightFile& heights) {
-  return visitSamples(heights, [nodata](auto samples) {
-    return static_cast<uint64_t>(std::count_if(
-        samples.begin(), samples.end(),
-        [nodata](auto sample) { return meetsNodata(static_cast<double>(sample), nodata); }));
+uint64_t countOf(double value, const HeightFile& heights) {
+  return visitSamples(heights, [value](auto samples) {
+    return static_cast<uint64_t>(
+        std::count_if(samples.begin(), samples.end(),
+                      [value](auto sample) { return static_cast<double>(sample) == value; }));
   });
 }
 
@@ -67,41 +59,21 @@ std::string textOf(double value, tks_sample sample) {
 
 }  // namespace
 
-float toFloat(double value) {
-  // A conversion that overflows is undefined.
-  if (std::abs(value) <= double{std::numeric_limits<float>::max()} || !std::isfinite(value))
-    return static_cast<float>(value);
-  return std::copysign(std::numeric_limits<float>::infinity(), value < 0 ? -1.0F : 1.0F);
-}
-
-bool meetsNodata(double sample, double nodata) {
-  if (std::isnan(nodata)) return std::isnan(sample);
-  constexpr double kRelative = 2.0 * std::numeric_limits<float>::epsilon();
-  constexpr double kLargest = std::numeric_limits<float>::max();
-  // GDAL adds floats: a sum that overflows is larger than any difference.
-  const bool overflows = std::abs(sample) <= kLargest && std::abs(nodata) <= kLargest &&
-                         std::isinf(static_cast<float>(sample) + static_cast<float>(nodata));
-  return sample == nodata || overflows ||
-         std::abs(sample - nodata) < kRelative * std::abs(sample + nodata);
-}
-
 std::optional<double> asSample(double nodata, tks_sample sample) {
   return withSampleType(sample, [nodata]<class T>(T) {
     if constexpr (std::is_integral_v<T>) return asInteger<T>(nodata);
-    return asFloat(nodata);
+    return std::optional(double{floatNodata(nodata)});
   });
 }
 
 void matchNodata(HeightFile& heights) {
   if (heights.sample != TKS_F32 || !heights.nodata) return;
-  const auto nodata = static_cast<float>(*heights.nodata);
-  visitSamples(heights, [nodata](auto samples) {
-    for (auto& sample : samples) {
-      const auto value = static_cast<double>(sample);
-      if (value != double{nodata} && !std::isnan(nodata) && meetsNodata(value, double{nodata}))
-        sample = static_cast<std::remove_reference_t<decltype(sample)>>(nodata);
-    }
-  });
+  const float nodata = floatNodata(*heights.nodata);
+  heights.nodata = nodata;
+  const std::span samples(reinterpret_cast<float*>(heights.data.data()),
+                          heights.data.size() / sizeof(float));
+  for (float& sample : samples)
+    if (!std::isnan(sample) && sample != nodata && meetsNodata(sample, nodata)) sample = nodata;
 }
 
 Status applyMask(HeightFile& heights, const std::vector<uint8_t>& mask, Notes& notes) {
@@ -154,20 +126,21 @@ std::optional<Note> takeOutliers(HeightFile& heights) {
   const tks_heights described = asHeights(heights);
   if (tks_find_outliers(&described, &found) != TKS_OK || found.count == 0) return std::nullopt;
   const std::string value = textOf(found.value, heights.sample);
-  if (found.is_fill == 0 && countOf(found.value, heights) < found.count) {
-    return Note{counted(found.count, "sample lies", "samples lie") +
-                    " far from all others, the farthest at " + value +
-                    ": if they are void, only a mask can say so",
+  const bool alone = countOf(found.value, heights) == found.count;
+  if (found.is_fill != 0 && !heights.nodata) {
+    heights.nodata = found.value;
+    return Note{counted(found.count, "sample is ", "samples are ") + value +
+                    ", far from all others: taken as void (--nodata nan keeps heights)",
                 "--nodata"};
   }
-  if (found.is_fill == 0) {
-    return Note{counted(found.count, "sample lies", "samples lie") + " far from all others, at " +
-                    value + ": if void, give --nodata " + value,
-                "--nodata"};
-  }
-  heights.nodata = found.value;
-  return Note{counted(found.count, "sample is ", "samples are ") + value +
-                  ", far from all others: taken as void (--nodata nan keeps heights)",
+  const std::string beside =
+      heights.nodata ? " and from its nodata value " + textOf(*heights.nodata, heights.sample) : "";
+  const std::string far = counted(found.count, "sample lies", "samples lie") +
+                          " far from all others" + beside +
+                          (alone ? ", at " : ", the farthest at ") + value;
+  const bool sayable = alone && (!heights.nodata || countOf(*heights.nodata, heights) == 0);
+  return Note{far + (sayable ? ": if void, give --nodata " + value
+                             : ": if they are void, only a mask can say so"),
               "--nodata"};
 }
 

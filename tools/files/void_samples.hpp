@@ -12,18 +12,12 @@
 
 namespace tetrakis::tools {
 
-/// Whether GDAL takes a float for this nodata value: a text of few digits must meet it, so the
-/// last bits do not count (ARE_REAL_EQUAL() in gdal_priv.h). A NaN meets NaN.
-bool meetsNodata(double sample, double nodata);
-
-/// The nodata value as a sample of this type holds it; nothing if it is none of its values. What
-/// overflows a float by less than its last bits is its largest value.
+/// The nodata value as a sample of this type holds it (floats: floatNodata()); nothing if it is
+/// none of its values.
 std::optional<double> asSample(double nodata, tks_sample sample);
 
-/// The nearest float; an infinity beyond the largest.
-float toFloat(double value);
-
-/// Gives floats that meet the nodata value that very value, since streams compare exactly.
+/// Makes the nodata value of floats a float, and those that meet it that very value, since streams
+/// compare exactly.
 void matchNodata(HeightFile& heights);
 
 /// Where `mask` is 0 samples become void: the nodata value, or NaN, or (integers without one) a
@@ -37,7 +31,8 @@ std::optional<Note> noteOnNodata(const HeightFile& heights);
 uint64_t nansBesideNodata(const HeightFile& heights);
 
 /// Without a nodata value, a number that files write where they have no height gives it
-/// (tks_find_outliers), with a note. Other outliers only have a note.
+/// (tks_find_outliers), with a note. Other outliers only have a note, and so have all beside a
+/// nodata value.
 std::optional<Note> takeOutliers(HeightFile& heights);
 
 }  // namespace tetrakis::tools

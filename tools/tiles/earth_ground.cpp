@@ -2,10 +2,13 @@
 #include "tools/tiles/earth_ground.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include "tools/tiles/longitude_trail.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -55,17 +58,24 @@ Result<EarthGround> EarthGround::create(const tks_info& info) {
   return ground;
 }
 
-/// By 65 x 65 places from edge to edge.
+/// By 65 x 65 places from edge to edge. Around a pole, and where ground crosses the antimeridian,
+/// longitudes of neighbours come apart; those of a grid in degrees go on beyond 180.
 Status EarthGround::findBounds() {
   constexpr int kPlaces = 64;
+  const Status split(TKS_USAGE,
+                     "the heights hold a pole or lie on both sides of the antimeridian: cut them "
+                     "there and make tiles of each part");
+  std::array<LongitudeTrail, kPlaces + 1> rows;
   const double none = std::numeric_limits<double>::infinity();
   bounds_ = {none, none, -none, -none};
   for (int i = 0; i <= kPlaces; ++i) {
+    LongitudeTrail down;
     for (int j = 0; j <= kPlaces; ++j) {
       const double c = double(width_) * i / kPlaces, r = double(height_) * j / kPlaces;
       const auto [x, y] = place_.earthAt(c, r);
       if (!std::isfinite(x) || !std::isfinite(y))
         return {TKS_USAGE, "parts of the heights lie beyond the places that their CRS is for"};
+      if (rows[j].comesApart(x) || down.comesApart(x)) return split;
       bounds_.west = std::min(bounds_.west, x);
       bounds_.east = std::max(bounds_.east, x);
       bounds_.south = std::min(bounds_.south, y);
@@ -90,13 +100,7 @@ Status EarthGround::findBounds() {
                         bounds_.south >= -90 - row && bounds_.north <= 90 + row;
   bounds_ = {std::max(bounds_.west, -180.0), std::max(bounds_.south, -90.0),
              std::min(bounds_.east, 180.0), std::min(bounds_.north, 90.0)};
-  // A raster in degrees may well go round the Earth; others of that width have come apart.
-  const double first = place_.earthAt(0, 0)[0], last = place_.earthAt(width_, 0)[0];
-  const bool whole = width <= 180 || std::abs(last - first) > width - 1;
-  if (on_earth && whole) return {};
-  return {TKS_USAGE,
-          "the heights hold a pole or lie on both sides of the antimeridian: cut them "
-          "there and make tiles of each part"};
+  return on_earth ? Status() : split;
 }
 
 void EarthGround::sampleParallel(const LevelSurface& surface, double latitude,

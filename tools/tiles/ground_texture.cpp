@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tools/files/meshes/mesh_writers.hpp"
+#include "tools/tiles/longitude_trail.hpp"
 #include "tools/tiles/terrain_level.hpp"
 
 namespace tetrakis::tools {
@@ -148,15 +149,23 @@ Result<GeographicBounds> GroundTexture::bounds() const {
   constexpr int kPlaces = 64;
   const double none = std::numeric_limits<double>::infinity();
   GeographicBounds bounds{none, none, -none, -none};
+  std::array<LongitudeTrail, 4> sides;
+  bool apart = false;
   for (int i = 0; i <= kPlaces; ++i) {
     const double x = double(width_) * i / kPlaces, y = double(height_) * i / kPlaces;
+    size_t side = 0;
     for (const auto& [column, row] :
          {std::pair(x, 0.0), {x, double(height_)}, {0.0, y}, {double(width_), y}}) {
       const auto [longitude, latitude] = place_.earthAt(column, row);
+      apart = sides[side++].comesApart(longitude) || apart;
       bounds = {std::min(bounds.west, longitude), std::min(bounds.south, latitude),
                 std::max(bounds.east, longitude), std::max(bounds.north, latitude)};
     }
   }
+  if (apart)
+    return Status(TKS_USAGE,
+                  "the texture lies on both sides of the antimeridian: cut it there and make tiles "
+                  "of each part");
   constexpr double kSlack = 1e-6;
   if (bounds.west >= -180 - kSlack && bounds.east <= 180 + kSlack && bounds.south >= -90 - kSlack &&
       bounds.north <= 90 + kSlack && bounds.west < bounds.east && bounds.south < bounds.north)

@@ -130,6 +130,10 @@ def test_auto_declares_what_files_write_where_they_have_no_height(dtype):
         assert stream.info.nodata is None
     with pytest.raises(tetrakis.TksUsageError, match="auto"):
         tetrakis.encode(heights, nodata="none")
+    masked = np.ma.MaskedArray(heights.astype("i2"), mask=np.roll(hole, 1, axis=1))
+    with tetrakis.open(tetrakis.encode(masked, nodata="auto")) as stream:
+        assert stream.info.nodata != -9999  # a mask needs a value of its own
+        np.testing.assert_array_equal(stream.heights(masked=True).mask, masked.mask)
 
 
 def test_masked_integers_get_a_nodata_that_is_free():

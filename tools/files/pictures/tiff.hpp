@@ -33,6 +33,7 @@ enum GeoKey : uint16_t {
   kGeodeticCrsGeoKey = 2048,
   kGeodeticCitationGeoKey = 2049,
   kGeogAngularUnitsGeoKey = 2054,
+  kGeogAngularUnitSizeGeoKey = 2055,
   kGeogSemiMajorAxisGeoKey = 2057,
   kGeogSemiMinorAxisGeoKey = 2058,
   kGeogInvFlatteningGeoKey = 2059,

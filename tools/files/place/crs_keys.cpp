@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "base/length_unit.hpp"
 #include "tools/files/place/proj_objects.hpp"
@@ -76,13 +77,28 @@ void describeProjected(PJ_CONTEXT* context, const PJ* crs, GeoKeys& keys) {
   setUnit(kProjLinearUnitsGeoKey, unitCodeOf(context, crs), keys);
 }
 
+/// As Esri writes it, or, where that means another CRS (a datum of another name), as GDAL does.
+std::string wktOf(PJ_CONTEXT* context, const PJ* crs) {
+  const char* options[] = {"MULTILINE=NO", nullptr};
+  std::string first;
+  for (const PJ_WKT_TYPE type : {PJ_WKT1_ESRI, PJ_WKT1_GDAL}) {
+    const char* const wkt = proj_as_wkt(context, crs, type, options);
+    if (!wkt) continue;
+    const std::string text = wkt;
+    const ProjObject back(proj_create(context, text.c_str()));
+    if (back && proj_is_equivalent_to_with_ctx(context, crs, back.get(), PJ_COMP_EQUIVALENT))
+      return text;
+    if (first.empty()) first = text;
+  }
+  return first;
+}
+
 /// Without a code: as WKT where GDAL and Esri look for it.
 void setAsText(PJ_CONTEXT* context, const PJ* crs, GeoKeys& keys) {
-  const char* options[] = {"MULTILINE=NO", nullptr};
-  const char* wkt = proj_as_wkt(context, crs, PJ_WKT1_ESRI, options);
-  if (!wkt) return;
+  const std::string wkt = wktOf(context, crs);
+  if (wkt.empty()) return;
   keys.codes[kGtModelTypeGeoKey] = kUserDefined;
-  keys.texts[kProjectedCitationGeoKey] = std::string("ESRI PE String = ") + wkt;
+  keys.texts[kProjectedCitationGeoKey] = "ESRI PE String = " + wkt;
 }
 
 /// compound: a vertical part follows.
@@ -134,17 +150,43 @@ void setRegistration(tks_registration registration, GeoKeys& keys) {
     keys.codes[kGtRasterTypeGeoKey] = static_cast<uint16_t>(registration);
 }
 
+/// Longitude, latitude and height, without the height: EPSG has both under one name.
+ProjObject flatPart(PJ_CONTEXT* context, const PJ* crs) {
+  if (!crs || proj_get_type(crs) != PJ_TYPE_GEOGRAPHIC_3D_CRS) return nullptr;
+  constexpr int kExactly = 0;
+  const PJ_TYPE flat = PJ_TYPE_GEOGRAPHIC_2D_CRS;
+  PJ_OBJ_LIST* const found =
+      proj_create_from_name(context, "EPSG", proj_get_name(crs), &flat, 1, kExactly, 1, nullptr);
+  const bool any = found && proj_list_get_count(found) > 0;
+  ProjObject part(any ? proj_list_get(context, found, 0) : nullptr);
+  proj_list_destroy(found);
+  return part;
+}
+
 }  // namespace
+
+bool addsHeightsTo(const std::string& crs, const std::string& spatial) {
+  const ProjContext context = quietContext();
+  const ProjObject found = findCrs(context.get(), spatial);
+  const ProjObject flat = flatPart(context.get(), found.get());
+  return flat && codeOf(flat.get()) != 0 && codeOf(flat.get()) == codeIn(crs);
+}
 
 GeoKeys crsKeys(const std::string& crs, const std::string& vertical_datum,
                 const std::string& unit) {
   GeoKeys keys;
   const ProjContext context = quietContext();
   PJ_CONTEXT* const c = context.get();
-  const ProjObject horizontal = horizontalPart(c, findCrs(c, crs));
+  ProjObject horizontal = horizontalPart(c, findCrs(c, crs));
+  uint16_t spatial = 0;
+  if (ProjObject flat = flatPart(c, horizontal.get()); flat && codeOf(flat.get()) != 0) {
+    spatial = codeOf(horizontal.get());
+    horizontal = std::move(flat);
+  }
   const ProjObject vertical =
       verticalPart(c, findCrs(c, vertical_datum.empty() ? crs : vertical_datum));
-  const uint16_t code = vertical ? codeOf(vertical.get()) : codeIn(vertical_datum);
+  uint16_t code = vertical ? codeOf(vertical.get()) : codeIn(vertical_datum);
+  if (!vertical && vertical_datum.empty()) code = spatial;
   if (horizontal) {
     setHorizontal(c, horizontal.get(), code != 0, keys);
   } else if (!crs.empty()) {

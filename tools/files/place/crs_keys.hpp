@@ -8,6 +8,10 @@
 
 namespace tetrakis::tools {
 
+/// Whether a CRS of longitude, latitude and height is this one with heights, both by EPSG codes.
+/// The keys have both codes, that of three dimensions as that of the heights.
+bool addsHeightsTo(const std::string& crs, const std::string& spatial);
+
 /// Of a CRS ("EPSG:code", WKT, or a name; "" if unknown) and what the heights are above, likewise:
 /// codes where PROJ has some, names and, of a CRS, WKT where it does not. unit: of heights above
 /// something that has no code.

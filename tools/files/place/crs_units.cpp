@@ -21,25 +21,33 @@ bool isLocalGrid(PJ_CONTEXT* context, const PJ* crs) {
   return system && proj_cs_get_type(context, system.get()) == PJ_CS_TYPE_CARTESIAN;
 }
 
-ProjObject partWith(PJ_CONTEXT* context, ProjObject crs, CrsAxis axis) {
-  if (axis == CrsAxis::kVertical) return verticalPart(context, std::move(crs));
-  crs = horizontalPart(context, std::move(crs));
-  if (crs && proj_get_type(crs.get()) != PJ_TYPE_PROJECTED_CRS && !isLocalGrid(context, crs.get()))
-    crs.reset();
-  return crs;
-}
-
-/// Of its first axis: metres or radians in one, and its name; nothing if there is none.
-std::optional<CrsUnit> axisUnit(PJ_CONTEXT* context, const PJ* crs) {
+/// Of the axis with this number: metres or radians in one, and its name; nothing if there is none.
+std::optional<CrsUnit> axisUnit(PJ_CONTEXT* context, const PJ* crs, int index) {
   const ProjObject system(proj_crs_get_coordinate_system(context, crs));
   CrsUnit unit;
   const char* name = nullptr;
-  if (!system || !proj_cs_get_axis_info(context, system.get(), 0, nullptr, nullptr, nullptr,
+  if (!system || !proj_cs_get_axis_info(context, system.get(), index, nullptr, nullptr, nullptr,
                                         &unit.metres, &name, nullptr, nullptr)) {
     return std::nullopt;
   }
   if (name) unit.name = name;
   return unit;
+}
+
+std::optional<CrsUnit> horizontalUnit(PJ_CONTEXT* context, const std::string& crs) {
+  const ProjObject part = horizontalPart(context, findCrs(context, crs));
+  const bool lengths = part && (proj_get_type(part.get()) == PJ_TYPE_PROJECTED_CRS ||
+                                isLocalGrid(context, part.get()));
+  return lengths ? axisUnit(context, part.get(), 0) : std::nullopt;
+}
+
+/// Of the third axis where a CRS has three.
+std::optional<CrsUnit> verticalUnit(PJ_CONTEXT* context, const std::string& crs) {
+  if (const ProjObject part = verticalPart(context, findCrs(context, crs)))
+    return axisUnit(context, part.get(), 0);
+  const ProjObject part = horizontalPart(context, findCrs(context, crs));
+  const bool geocentric = part && proj_get_type(part.get()) == PJ_TYPE_GEOCENTRIC_CRS;
+  return part && !geocentric ? axisUnit(context, part.get(), 2) : std::nullopt;
 }
 
 CrsUnit named(const char* name, double metres) {
@@ -48,14 +56,28 @@ CrsUnit named(const char* name, double metres) {
   return {ours, *metresPerUnit(ours)};
 }
 
+/// By its EPSG code: metres or radians in one, and its name.
+std::optional<CrsUnit> databaseUnit(uint16_t code, std::string_view wanted) {
+  const ProjContext context = quietContext();
+  const char* name = nullptr;
+  const char* category = nullptr;
+  double size = 0;
+  if (!context ||
+      !proj_uom_get_info_from_database(context.get(), "EPSG", std::to_string(code).c_str(), &name,
+                                       &size, &category) ||
+      category != wanted || !(size > 0)) {
+    return std::nullopt;
+  }
+  return CrsUnit{name ? name : "", size};
+}
+
 }  // namespace
 
 std::optional<CrsUnit> crsUnit(const std::string& crs, CrsAxis axis) {
   const ProjContext context = quietContext();
   if (!context) return std::nullopt;
-  const ProjObject part = partWith(context.get(), findCrs(context.get(), crs), axis);
-  if (!part) return std::nullopt;
-  const auto unit = axisUnit(context.get(), part.get());
+  const auto unit = axis == CrsAxis::kVertical ? verticalUnit(context.get(), crs)
+                                               : horizontalUnit(context.get(), crs);
   if (!unit || !(unit->metres > 0) || isDegree(unit->metres)) return std::nullopt;
   return named(unit->name.c_str(), unit->metres);
 }
@@ -70,32 +92,35 @@ bool isKnownCrs(const std::string& crs) {
   return context && findCrs(context.get(), crs);
 }
 
-bool isInDegrees(const std::string& crs) {
+double degreesPerUnit(const std::string& crs) {
   const ProjContext context = quietContext();
-  if (!context) return false;
+  if (!context) return 0;
   const ProjObject part = horizontalPart(context.get(), findCrs(context.get(), crs));
-  if (!part) return false;
+  if (!part) return 0;
   const PJ_TYPE type = proj_get_type(part.get());
-  if (type != PJ_TYPE_GEOGRAPHIC_2D_CRS && type != PJ_TYPE_GEOGRAPHIC_3D_CRS) return false;
-  const auto unit = axisUnit(context.get(), part.get());
-  return unit && isDegree(unit->metres);
+  if (type != PJ_TYPE_GEOGRAPHIC_2D_CRS && type != PJ_TYPE_GEOGRAPHIC_3D_CRS) return 0;
+  const auto unit = axisUnit(context.get(), part.get(), 0);
+  return unit ? degreesIn(unit->metres) : 0;
+}
+
+double degreesIn(double radians) {
+  if (isDegree(radians)) return 1;
+  return std::isfinite(radians) && radians > 0 ? radians * 180 / std::numbers::pi : 0;
+}
+
+double epsgAngle(uint16_t code) {
+  constexpr uint16_t kDegree = 9102;
+  if (code == kDegree) return 1;
+  const auto unit = databaseUnit(code, "angular");
+  return unit ? degreesIn(unit->metres) : 0;
 }
 
 std::optional<CrsUnit> epsgUnit(uint16_t code) {
   for (const LengthUnit& known : kLengthUnits) {
     if (known.code == code) return CrsUnit{known.name, known.metres};
   }
-  const ProjContext context = quietContext();
-  const char* name = nullptr;
-  const char* category = nullptr;
-  double metres = 0;
-  if (!context ||
-      !proj_uom_get_info_from_database(context.get(), "EPSG", std::to_string(code).c_str(), &name,
-                                       &metres, &category)) {
-    return std::nullopt;
-  }
-  return category == std::string_view("linear") && metres > 0 ? std::optional(named(name, metres))
-                                                              : std::nullopt;
+  const auto unit = databaseUnit(code, "linear");
+  return unit ? std::optional(named(unit->name.c_str(), unit->metres)) : std::nullopt;
 }
 
 }  // namespace tetrakis::tools

@@ -11,6 +11,9 @@
 namespace tetrakis::tools {
 namespace {
 
+/// Before keys whose vertical part is none to GDAL.
+constexpr std::string_view kRevision10 = "1.0";
+
 /// Always told from a code.
 std::string numberText(double number) {
   std::string text = shortest(number);
@@ -96,7 +99,7 @@ std::string textOf(const GeoKeys& keys) {
       list += numberText(number);
     }
   }
-  std::string out;
+  std::string out(keys.minor_revision == 0 ? kRevision10 : "");
   for (const auto& [id, value] : values) {
     if (!out.empty()) out += ' ';
     out += std::to_string(id) + '=' + value;
@@ -107,6 +110,11 @@ std::string textOf(const GeoKeys& keys) {
 std::optional<GeoKeys> parseGeoKeys(std::string_view text) {
   GeoKeys keys;
   Scanner in(text);
+  if (in.until(" =") == kRevision10 && in.take(' ')) {
+    keys.minor_revision = 0;
+  } else {
+    in = Scanner(text);
+  }
   for (int last = 0; !in.ended();) {
     const auto id = in.number<uint16_t>(in.until("= "));
     if (!id || *id <= last || !in.take('=') || !takeValue(in, *id, keys)) return std::nullopt;

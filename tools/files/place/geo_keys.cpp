@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "tools/files/place/geo_tags.hpp"
+#include "tools/files/place/geo_units.hpp"
 #include "tools/files/text.hpp"
 
 namespace tetrakis::tools {
@@ -35,7 +36,8 @@ bool GeoKeys::contain(const GeoKeys& other) const {
       return found != all.end() && found->second == item.second;
     });
   };
-  return holds(codes, other.codes) && holds(numbers, other.numbers) && holds(texts, other.texts);
+  return minor_revision == other.minor_revision && holds(codes, other.codes) &&
+         holds(numbers, other.numbers) && holds(texts, other.texts);
 }
 
 /// Key directory: four 16-bit words of header, the last one the number of keys; then for each key
@@ -61,6 +63,9 @@ GeoKeys readGeoKeys(TIFF* tiff) {
       keys.texts[id] = asUtf8(std::move(text));
     }
   }
+  const bool vertical = statesHeights(keys) || keys.codes.contains(kVerticalDatumGeoKey) ||
+                        keys.texts.contains(kVerticalCitationGeoKey);
+  if (words[1] == 1 && words[2] == 0 && vertical) keys.minor_revision = 0;
   return keys;
 }
 
@@ -79,7 +84,7 @@ bool writeGeoKeys(TIFF* tiff, const GeoKeys& keys) {
     ascii += text + '|';
   }
   if (std::max({entries.size(), doubles.size(), ascii.size()}) > UINT16_MAX) return false;
-  std::vector<uint16_t> words{1, 1, 1, static_cast<uint16_t>(entries.size())};  // revision 1.1
+  std::vector<uint16_t> words{1, 1, keys.minor_revision, static_cast<uint16_t>(entries.size())};
   for (const auto& [id, entry] : entries) {
     words.push_back(id);
     for (const size_t word : entry) words.push_back(static_cast<uint16_t>(word));

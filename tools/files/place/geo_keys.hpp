@@ -17,6 +17,9 @@ struct GeoKeys {
   std::map<uint16_t, uint16_t> codes;
   std::map<uint16_t, std::vector<double>> numbers;
   std::map<uint16_t, std::string> texts;
+  /// Of GeoTIFF 1: 0 where the keys of a GeoTIFF 1.0 state a vertical CRS, which GDAL then leaves
+  /// out of the CRS. All other keys mean the same in both.
+  uint16_t minor_revision = 1;
 
   /// 0 (undefined) when missing.
   uint16_t code(GeoKey key) const { return codes.contains(key) ? codes.at(key) : uint16_t{0}; }
@@ -29,7 +32,7 @@ struct GeoKeys {
   std::string firstText(std::initializer_list<GeoKey> order) const;
   bool empty() const { return codes.empty() && numbers.empty() && texts.empty(); }
   void remove(GeoKey key);
-  /// Whether all of the other's keys are here with the same values.
+  /// Whether all of the other's keys are here with the same values and meaning.
   bool contain(const GeoKeys& other) const;
 };
 
@@ -41,7 +44,7 @@ bool writeGeoKeys(TIFF* tiff, const GeoKeys& keys);
 
 /// Keys in rising order, each `number=value`, blanks between them (docs/FORMAT.md, section 2): a
 /// code as an integer, numbers with a point or an exponent and commas between them, text in double
-/// quotes, of which those inside are doubled.
+/// quotes, of which those inside are doubled. "1.0" goes before keys of that revision.
 std::string textOf(const GeoKeys& keys);
 
 /// The reverse; nothing if the text is not of that form.

@@ -60,6 +60,15 @@ std::optional<double> gridUnit(const GeoKeys& keys) {
   return stated || namesGridUnit(keys) ? stated : gridUnitOfCrs(keys);
 }
 
+double angleUnit(const GeoKeys& keys) {
+  const uint16_t code = keys.code(kGeogAngularUnitsGeoKey);
+  const std::string crs = keys.epsg(kGeodeticCrsGeoKey);
+  const double of_crs = code == 0 && !crs.empty() ? degreesPerUnit(crs) : 0;
+  if (code == 0) return of_crs > 0 ? of_crs : 1;
+  return code == kUserDefined ? degreesIn(keys.number(kGeogAngularUnitSizeGeoKey))
+                              : epsgAngle(code);
+}
+
 Ellipsoid statedEllipsoid(const GeoKeys& keys) {
   const double major = keys.number(kGeogSemiMajorAxisGeoKey);
   const double minor = keys.number(kGeogSemiMinorAxisGeoKey);

@@ -17,6 +17,10 @@ std::optional<double> gridUnit(const GeoKeys& keys);
 /// Of a grid that need not be projected, as of a building site: as the unit keys say, or nothing.
 std::optional<double> statedGridUnit(const GeoKeys& keys);
 
+/// Degrees in one unit of a geographic grid: as the unit keys say, else as the CRS says by its
+/// code, else 1; 0 if the unit that is stated is none.
+double angleUnit(const GeoKeys& keys);
+
 /// That of the Earth where no axis is stated, as beside a code.
 Ellipsoid statedEllipsoid(const GeoKeys& keys);
 

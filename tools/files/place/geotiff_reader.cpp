@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <pugixml.hpp>
+#include <utility>
 #include <vector>
 
 #include "base/length_unit.hpp"
@@ -66,6 +67,8 @@ void keepKeys(Raster& raster, GeoKeys keys) {
 void setVerticalDatum(HeightFile& heights, const GeoKeys& keys) {
   heights.vertical_datum = keys.epsg(kVerticalGeoKey);
   if (heights.vertical_datum.empty()) heights.vertical_datum = keys.text(kVerticalCitationGeoKey);
+  if (keys.minor_revision > 0 && addsHeightsTo(heights.crs, heights.vertical_datum))
+    heights.crs = std::exchange(heights.vertical_datum, "");
 }
 
 /// What GDAL's metadata say of the unit goes before the keys.

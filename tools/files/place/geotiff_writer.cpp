@@ -36,7 +36,8 @@ std::string escaped(const std::string& text) {
   return xml.str();
 }
 
-/// A unit that the keys state needs no item.
+/// A unit that the keys state needs no item, but for that of three axes, which GDAL does not look
+/// for.
 bool setGdalTags(TIFF* tiff, const HeightFile& heights, const GeoKeys& keys) {
   pugi::xml_document document;
   pugi::xml_node root = document.append_child("GDALMetadata");
@@ -49,7 +50,8 @@ bool setGdalTags(TIFF* tiff, const HeightFile& heights, const GeoKeys& keys) {
   };
   if (heights.offset != 0) add("OFFSET", "offset", shortest(heights.offset));
   if (heights.scale != 1) add("SCALE", "scale", shortest(heights.scale));
-  const bool stated = statesHeights(keys) && heightUnit(keys) == heights.unit;
+  const bool stated = statesHeights(keys) && heightUnit(keys) == heights.unit &&
+                      !addsHeightsTo(keys.epsg(kGeodeticCrsGeoKey), keys.epsg(kVerticalGeoKey));
   if (!heights.unit.empty() && !stated) add("UNITTYPE", "unittype", heights.unit);
   if (!heights.description.empty()) add("DESCRIPTION", "description", escaped(heights.description));
   std::ostringstream xml;

@@ -22,6 +22,7 @@ void giveVerticalDatum(HeightFile& heights, const std::string& datum) {
   for (const GeoKey key :
        {kVerticalGeoKey, kVerticalCitationGeoKey, kVerticalDatumGeoKey, kVerticalUnitsGeoKey})
     keys->remove(key);
+  keys->minor_revision = 1;
   heights.geo_keys = textOf(*keys);
 }
 

@@ -11,8 +11,8 @@ namespace tetrakis::tools {
 GroundAxes groundAxes(const GeoTransform& t, uint32_t width, uint32_t height,
                       const std::string& crs) {
   MetresPerDegree metres{1, 1};
-  if (!crs.empty() && isInDegrees(crs))
-    metres = metresPerDegree(t[3] + width / 2.0 * t[4] + height / 2.0 * t[5]);
+  if (const double degrees = crs.empty() ? 0 : degreesPerUnit(crs); degrees > 0)
+    metres = metresPerDegree((t[3] + width / 2.0 * t[4] + height / 2.0 * t[5]) * degrees);
   const auto direction = [&metres](double east, double north) {
     const double x = east * metres.east, y = north * metres.north, length = std::hypot(x, y);
     return std::array<double, 2>{x / length, -y / length};

@@ -14,21 +14,22 @@ std::optional<std::array<double, 2>> groundSpacing(const GeoTransform& t, uint32
                                                    uint32_t height, const GridUnit& unit,
                                                    const std::string& crs) {
   const double middle = t[3] + width / 2.0 * t[4] + height / 2.0 * t[5];
-  const MetresPerDegree metres = unit.degrees ? metresPerDegree(middle, unit.ellipsoid)
-                                              : MetresPerDegree{unit.metres, unit.metres};
+  MetresPerDegree metres{unit.metres, unit.metres};
+  if (unit.degrees > 0) {
+    metres = metresPerDegree(middle * unit.degrees, unit.ellipsoid);
+    metres = {metres.east * unit.degrees, metres.north * unit.degrees};
+  }
   const double x = std::hypot(t[1] * metres.east, t[4] * metres.north);
   const double y = std::hypot(t[2] * metres.east, t[5] * metres.north);
   if (!std::isfinite(x) || !std::isfinite(y) || x <= 0 || y <= 0) return std::nullopt;
   const std::array<double, 2> spacing = {x, y};
-  return unit.degrees || crs.empty() ? spacing : groundUnderMap(spacing, crs, t, width, height);
+  return unit.degrees > 0 || crs.empty() ? spacing : groundUnderMap(spacing, crs, t, width, height);
 }
 
 GridUnit gridUnitOf(const GeoKeys& keys) {
   const uint16_t model = keys.code(kGtModelTypeGeoKey);
   if (model == kModelTypeGeographic) {
-    constexpr uint16_t kWholeDegree = 9102;
-    const uint16_t unit = keys.code(kGeogAngularUnitsGeoKey);
-    return {unit == 0 || unit == kWholeDegree, 0, statedEllipsoid(keys)};
+    return {angleUnit(keys), 0, statedEllipsoid(keys)};
   }
   if (model == kModelTypeGeocentric) return {};
   if (model == kModelTypeProjected) return {false, gridUnit(keys).value_or(0)};
@@ -39,7 +40,8 @@ GridUnit gridUnitOf(const GeoKeys& keys) {
 
 GridUnit gridUnitOf(const std::string& crs) {
   if (crs.empty()) return {};
-  if (isInDegrees(crs)) return {true, 0, ellipsoidOf(crs)};
+  if (const double degrees = degreesPerUnit(crs); degrees > 0)
+    return {degrees, 0, ellipsoidOf(crs)};
   const auto unit = crsUnit(crs, CrsAxis::kHorizontal);
   return {false, unit ? unit->metres : 0};
 }

@@ -17,14 +17,14 @@ namespace tetrakis::tools {
 
 /// Of the coordinates of a grid.
 struct GridUnit {
-  bool degrees = false;
+  double degrees = 0;     ///< in one unit of an angle; 0: it is none
   double metres = 0;      ///< in one unit of a length; 0: unknown
-  Ellipsoid ellipsoid{};  ///< of degrees
+  Ellipsoid ellipsoid{};  ///< of angles
 
-  bool known() const { return degrees || metres > 0; }
+  bool known() const { return degrees > 0 || metres > 0; }
 };
 
-/// Along rows and columns, of degrees at the middle of the raster (earth.hpp), of maps on the
+/// Along rows and columns, of angles at the middle of the raster (earth.hpp), of maps on the
 /// ground below it (map_scale.hpp); nothing if the unit is unknown, the middle is no latitude, or a
 /// distance is none. crs: empty where it is unknown.
 std::optional<std::array<double, 2>> groundSpacing(const GeoTransform& transform, uint32_t width,
@@ -34,7 +34,7 @@ std::optional<std::array<double, 2>> groundSpacing(const GeoTransform& transform
 /// As the keys of a GeoTIFF say: of any grid in a unit that they state, else in that of the CRS.
 GridUnit gridUnitOf(const GeoKeys& keys);
 
-/// Unknown for a CRS that PROJ does not know (crs_units.hpp), or whose angles are no degrees.
+/// Unknown for a CRS that PROJ does not know (crs_units.hpp).
 GridUnit gridUnitOf(const std::string& crs);
 
 /// Of heights, as the stream states it, or else from their place, keys and CRS as far as these

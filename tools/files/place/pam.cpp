@@ -59,6 +59,35 @@ pugi::xml_document documentBeside(const std::string& picture) {
   return document;
 }
 
+/// What ArcGIS keeps of a picture that it has placed.
+pugi::xml_node arcGisIn(const pugi::xml_node& dataset) {
+  return dataset.find_child_by_attribute("Metadata", "domain", "xml:ESRI").child("GeodataXform");
+}
+
+/// ArcGIS keeps the CRS with its transform.
+std::string crsIn(const pugi::xml_node& dataset) {
+  const std::string wkt = asUtf8(dataset.child("SRS").text().get());
+  if (!wkt.empty()) return wkt;
+  return asUtf8(arcGisIn(dataset).child("SpatialReference").child("WKT").text().get());
+}
+
+/// GDAL takes no polynomial of ArcGIS either.
+void tellArcGis(const pugi::xml_node& dataset, const Georeference& place, Notes& notes) {
+  const pugi::xml_node transform = arcGisIn(dataset);
+  if (place.geotransform) return;
+  if (transform.child("SourceGCPs")) {
+    notes.push_back(
+        {"of the .aux.xml of ArcGIS only the CRS is read, not its control points: "
+         "gdal_translate applies them",
+         ""});
+  } else if (transform.child("CoeffX")) {
+    notes.push_back(
+        {"of the .aux.xml of ArcGIS only the CRS is read, not its polynomial: a world "
+         "file beside, or gdal_edit.py -a_ullr, can say where it lies",
+         ""});
+  }
+}
+
 void takePlace(const pugi::xml_node& dataset, Georeference& place) {
   if (const auto transform = transformIn(dataset.child("GeoTransform")))
     place.geotransform = transform;
@@ -82,22 +111,24 @@ void takeBand(const pugi::xml_node& band, HeightFile& heights) {
 
 }  // namespace
 
-void takePam(const std::string& picture, Georeference& place) {
+void takePam(const std::string& picture, Georeference& place, Notes& notes) {
   const pugi::xml_document document = documentBeside(picture);
   const pugi::xml_node dataset = document.child("PAMDataset");
   takePlace(dataset, place);
-  const std::string wkt = asUtf8(dataset.child("SRS").text().get());
+  tellArcGis(dataset, place, notes);
+  const std::string wkt = crsIn(dataset);
   if (wkt.empty()) return;
   place.crs = shortCrs(wkt);
   place.geo_keys.clear();
 }
 
-void takePam(const std::string& picture, HeightFile& heights) {
+void takePam(const std::string& picture, HeightFile& heights, Notes& notes) {
   const pugi::xml_document document = documentBeside(picture);
   const pugi::xml_node dataset = document.child("PAMDataset");
   if (!dataset) return;
   takePlace(dataset, heights);
-  const std::string wkt = asUtf8(dataset.child("SRS").text().get());
+  tellArcGis(dataset, heights, notes);
+  const std::string wkt = crsIn(dataset);
   if (!wkt.empty()) giveCrs(heights, shortCrs(wkt));
   if (dataset.child("GeoTransform")) setGroundSpacing(heights);
   for (const pugi::xml_node band : dataset.children("PAMRasterBand"))

@@ -11,12 +11,13 @@
 
 namespace tetrakis::tools {
 
-/// Takes the place that lies beside a picture, as far as there is one.
-void takePam(const std::string& picture, Georeference& place);
+/// Takes the place that lies beside a picture, as far as there is one. Notes tell of a transform of
+/// ArcGIS, of which only the CRS is taken.
+void takePam(const std::string& picture, Georeference& place, Notes& notes);
 
 /// Takes what lies beside heights, of the first band: place, unit, scale, offset, description, and
 /// the nodata value.
-void takePam(const std::string& picture, HeightFile& heights);
+void takePam(const std::string& picture, HeightFile& heights, Notes& notes);
 
 /// Takes what lies beside a picture of the colours of its bands.
 void takePam(const std::string& picture, std::vector<BandColour>& colours);

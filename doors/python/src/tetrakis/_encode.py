@@ -110,7 +110,9 @@ def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
 
 
 def _declare_fill(heights: c.Heights) -> None:
-    """Declares what files write where they have no height."""
+    """Declares what files write where they have no height, unless a mask has chosen a value."""
+    if heights.has_nodata:
+        return
     found = c.Outliers(size=ctypes.sizeof(c.Outliers))
     code = c.lib.tks_find_outliers(ctypes.byref(heights), ctypes.byref(found))
     if code == 0 and found.is_fill:
