@@ -68,7 +68,7 @@ Status retakePackets(tks_decoder& decoder) {
 
 /// The stream ends for the decoder where it was.
 Status refuse(tks_decoder& decoder, const Status& status) {
-  decoder.refused = status;
+  decoder.refused = Status(status);  // copied first: a copy may end memory
   return status;
 }
 
@@ -113,10 +113,13 @@ Status put(tks_decoder& decoder, std::span<const Run> runs) {
                                 limit + "."});
   }
   const size_t front = decoder.data.size();
+  decoder.is_lost = true;  // if memory ends on the way
   if (decoder.pieces.empty()) decoder.pieces.put(0, decoder.data);
   for (const auto& [place, bytes] : runs) decoder.pieces.put(place, bytes);
   decoder.data = decoder.pieces.from(0);
-  if (const Status status = retakePackets(decoder); !status.ok()) {
+  const Status status = retakePackets(decoder);
+  decoder.is_lost = false;
+  if (!status.ok()) {
     decoder.data = decoder.data.first(front);
     return refuse(decoder, status);
   }
