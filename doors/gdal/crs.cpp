@@ -5,6 +5,8 @@
 #include <cpl_error.h>
 #include <cpl_string.h>
 
+#include "base/shown_text.hpp"
+
 namespace tetrakis::gdal {
 namespace {
 
@@ -104,7 +106,7 @@ SpatialReference readCrs(const CrsTexts& texts, const std::string& file_name) {
   CPLError(CE_Warning, CPLE_AppDefined,
            "%s: The reference system \"%.200s\" is none that PROJ knows; the raster is opened "
            "without one.",
-           file_name.c_str(), texts.crs.c_str());
+           shownText(file_name).c_str(), shownText(texts.crs).c_str());
   return nullptr;
 }
 
