@@ -32,7 +32,7 @@ Status retakePackets(tks_decoder& decoder, std::span<const ByteRange> ranges) {
 
 /// The stream ends for the decoder where it was.
 Status refuse(tks_decoder& decoder, const Status& status) {
-  decoder.refused = status;
+  decoder.refused = Status(status);  // copied first: a copy may end memory
   return status;
 }
 
@@ -76,6 +76,7 @@ Status put(tks_decoder& decoder, std::span<const Run> runs) {
                                 limit + "."});
   }
   const size_t front = decoder.data.size();
+  decoder.is_lost = true;  // if memory ends on the way
   if (decoder.pieces.empty()) {
     decoder.pieces.put(0, decoder.data);
     decoder.data = decoder.pieces.from(0);
@@ -86,7 +87,9 @@ Status put(tks_decoder& decoder, std::span<const Run> runs) {
     decoder.pieces.put(place, bytes);
     decoder.data = decoder.pieces.from(0);
   }
-  if (const Status status = retakePackets(decoder, ranges); !status.ok()) {
+  const Status status = retakePackets(decoder, ranges);
+  decoder.is_lost = false;
+  if (!status.ok()) {
     decoder.data = decoder.data.first(front);
     return refuse(decoder, status);
   }

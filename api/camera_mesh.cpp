@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "api/guarded.hpp"
 #include "api/memory.hpp"
-#include "api/message.hpp"
 #include "api/screen_camera.hpp"
 #include "api/sized.hpp"
 #include "api/surface_mesh.hpp"

@@ -40,6 +40,11 @@ Status noHeights() {
   return {TKS_USAGE, "The stream holds no heights."};
 }
 
+Status lost() {
+  return {TKS_NO_MEMORY,
+          "Memory was exhausted while the decoder took bytes: close it and open the stream anew."};
+}
+
 Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window* window) {
   const StreamHeader& header = decoder.parsed.header;
   const bool texture = part == TKS_PART_TEXTURE;

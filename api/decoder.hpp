@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "api/message.hpp"
+#include "api/guarded.hpp"
 #include "base/view.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
@@ -40,9 +40,11 @@ struct tks_decoder {
   tetrakis::HeightsMemory heights_memory;  ///< for views of all levels
   tetrakis::TextureMemory texture_memory;
   uint32_t threads = 1;
-  uint64_t max_memory = 0;   ///< of the decoder and any call
-  tetrakis::Status refused;  ///< once bytes were: it takes no more
-  std::string message;
+  uint64_t max_memory = 0;    ///< of the decoder and any call
+  tetrakis::Status refused;   ///< once bytes were: it takes no more
+  bool is_lost = false;       ///< memory ended while it took bytes: it decodes nothing any more
+  tetrakis::Status last;      ///< of the last call, which owns its sentence, ...
+  const char* sentence = "";  ///< ... unless memory was exhausted
 };
 
 namespace tetrakis::inline api {
@@ -72,6 +74,9 @@ void forget(tks_decoder& decoder);
 Status wrongIndex();
 Status noHeights();
 
+/// Of a decoder that is_lost.
+Status lost();
+
 /// What a call shows of the component that a part belongs to: the window, or, without one, all of
 /// the level that is set for the component. TKS_USAGE with a sentence unless the stream holds the
 /// component, the level is 0 or there is no window, and the window lies inside.
@@ -95,13 +100,22 @@ inline int coarsestLevelOf(const auto& component) {
   return component ? coarsestLevel(component->shown()) : 0;
 }
 
-/// Runs f and keeps its sentence in the decoder.
+/// Runs f and keeps its sentence in the decoder. When memory ends, so does what the decoder
+/// remembers of tracks: it may be half of a step.
 template <class F>
 tks_status keeping(tks_decoder* decoder, F&& f) {
   if (decoder == nullptr) return TKS_USAGE;
-  const Status status = guarded(f);
-  decoder->message = status.message();
-  return status.code();
+  const auto work = [&] {
+    decoder->last = decoder->is_lost ? lost() : f();
+    decoder->sentence = decoder->last.message().c_str();
+    return decoder->last.code();
+  };
+  const auto exhausted = [&](const char* sentence) {
+    decoder->sentence = sentence;
+    decoder->heights_memory.clear();
+    decoder->texture_memory.clear();
+  };
+  return guarded(work, exhausted);
 }
 
 }  // namespace tetrakis::inline api

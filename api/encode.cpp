@@ -9,7 +9,7 @@
 #include <initializer_list>
 
 #include "api/buffer.hpp"
-#include "api/message.hpp"
+#include "api/guarded.hpp"
 #include "api/proof.hpp"
 #include "api/sized.hpp"
 #include "base/utf8.hpp"
@@ -188,37 +188,37 @@ Status encodeAndProve(const tks_heights* heights, const tks_image* image,
 tks_status tks_encode(const tks_heights* heights, const tks_image* image,
                       const tks_encode_options* options, tks_buffer* out, char* message,
                       size_t message_size) {
-  if (out == nullptr) return tetrakis::report(tetrakis::outputMissing(), message, message_size);
-  *out = {nullptr, 0};
-  const tetrakis::Status status = tetrakis::guarded([&]() -> tetrakis::Status {
+  if (out != nullptr) *out = {nullptr, 0};
+  return tetrakis::reporting(message, message_size, [&]() -> tetrakis::Status {
+    if (out == nullptr) return tetrakis::outputMissing();
     try {
       return tetrakis::encodeAndProve(heights, image, options, out);
     } catch (const tetrakis::Stopped&) {
       return tetrakis::misuse("Encoding was stopped by the caller.");
     }
   });
-  return tetrakis::report(status, message, message_size);
 }
 
 uint32_t tks_find_white_level(const tks_image* image) {
   if (image == nullptr) return 0;
-  tks_image known;
   uint32_t found = 0;
-  const tetrakis::Status status = tetrakis::guarded([&] {
+  tetrakis::answering([&] {
+    tks_image known;
     tetrakis::Status taken = tetrakis::takeImage(*image, known);
     if (taken.ok()) found = tetrakis::findWhiteLevel(known);
     return taken;
   });
-  return status.ok() ? found : 0;
+  return found;
 }
 
 tks_status tks_find_outliers(const tks_heights* heights, tks_outliers* out) {
   if (heights == nullptr || out == nullptr || out->size < sizeof *out ||
       out->size > tetrakis::kMostStructBytes)
     return TKS_USAGE;
-  tks_heights known;
-  const tetrakis::Status status =
-      tetrakis::guarded([&] { return tetrakis::takeHeights(*heights, known); });
-  if (status.ok()) tetrakis::giveSized(tetrakis::findOutliers(known), *out);
-  return status.code();
+  return tetrakis::answering([&] {
+    tks_heights known;
+    tetrakis::Status status = tetrakis::takeHeights(*heights, known);
+    if (status.ok()) tetrakis::giveSized(tetrakis::findOutliers(known), *out);
+    return status;
+  });
 }

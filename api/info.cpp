@@ -199,13 +199,16 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info) {
   if (decoder == nullptr || info == nullptr || info->size < kVersions ||
       info->size > tetrakis::kMostStructBytes)
     return TKS_USAGE;
-  tks_info full = {};
-  for (const auto fill :
-       {tetrakis::fillStream, tetrakis::fillHeights, tetrakis::fillTexture, tetrakis::fillMetadata,
-        tetrakis::fillGeoreference, tetrakis::fillPositions, tetrakis::fillQuality})
-    fill(*decoder, full);
-  tetrakis::giveSized(full, *info);
-  return TKS_OK;
+  return tetrakis::answering([&]() -> tetrakis::Status {
+    if (decoder->is_lost) return tetrakis::lost();
+    tks_info full = {};
+    for (const auto fill : {tetrakis::fillStream, tetrakis::fillHeights, tetrakis::fillTexture,
+                            tetrakis::fillMetadata, tetrakis::fillGeoreference,
+                            tetrakis::fillPositions, tetrakis::fillQuality})
+      fill(*decoder, full);
+    tetrakis::giveSized(full, *info);
+    return {};
+  });
 }
 
 tks_status tks_verify(tks_decoder* decoder) {

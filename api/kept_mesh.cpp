@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "api/message.hpp"
+#include "api/guarded.hpp"
 #include "api/surface_mesh.hpp"
 #include "codec/mesh/quadtree/mesh_tree.hpp"
 #include "codec/mesh/void_mesh.hpp"
@@ -54,10 +54,10 @@ tks_status tks_decode_mesh_tree(tks_decoder* decoder, tks_mesh_kind kind, uint32
 tks_status tks_view_mesh(const tks_mesh_tree* tree, const double clip[16], tks_mesh* out) {
   if (tree == nullptr || clip == nullptr || out == nullptr) return TKS_USAGE;
   *out = {};
-  const tetrakis::Status status =
-      tetrakis::guarded([&] { return tetrakis::viewMesh(*tree, clip, *out); });
-  if (!status.ok()) tks_free_mesh(out);
-  return status.code();
+  const tks_status status =
+      tetrakis::answering([&] { return tetrakis::viewMesh(*tree, clip, *out); });
+  if (status != TKS_OK) tks_free_mesh(out);
+  return status;
 }
 
 void tks_free_mesh_tree(tks_mesh_tree* tree) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "api/guarded.hpp"
 #include "api/memory.hpp"
-#include "api/message.hpp"
 #include "api/surface_mesh.hpp"
 #include "api/written.hpp"
 #include "codec/mesh/budget_mesh.hpp"

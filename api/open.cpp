@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
 #include <string>
 
 #include "api/decoder.hpp"
+#include "api/guarded.hpp"
 #include "api/memory.hpp"
-#include "api/message.hpp"
 #include "api/sized.hpp"
 
 namespace tetrakis::inline api {
@@ -184,36 +185,26 @@ Status takeMorePackets(tks_decoder& decoder, std::span<const ByteRange> ranges) 
 tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes) {
   if (bytes == nullptr || (data == nullptr && size != 0)) return TKS_USAGE;
   *bytes = 0;
-  const tetrakis::Status status = tetrakis::guarded([&]() -> tetrakis::Status {
+  return tetrakis::answering([&]() -> tetrakis::Status {
     const auto needed = tetrakis::headerBytes({data, size});
     if (!needed.ok()) return needed.status();
     *bytes = *needed;
     if (*needed > size) return {TKS_TRUNCATED, "The header is cut short."};
     return {};
   });
-  return status.code();
 }
 
 tks_status tks_open(const uint8_t* data, size_t size, const tks_limits* limits, tks_decoder** out,
                     char* message, size_t message_size) {
-  const auto refuse = [&](const tetrakis::Status& status) {
-    return tetrakis::report(status, message, message_size);
-  };
-  if (out == nullptr) return refuse(tetrakis::outputMissing());
-  *out = nullptr;
-  if (data == nullptr && size != 0)
-    return refuse({TKS_USAGE, "The bytes of the stream are missing."});
-  tks_decoder* decoder = nullptr;
-  const tetrakis::Status status = tetrakis::guarded([&]() -> tetrakis::Status {
-    decoder = new tks_decoder;
-    return tetrakis::open({data, size}, limits, *decoder);
+  if (out != nullptr) *out = nullptr;
+  return tetrakis::reporting(message, message_size, [&]() -> tetrakis::Status {
+    if (out == nullptr) return tetrakis::outputMissing();
+    if (data == nullptr && size != 0) return {TKS_USAGE, "The bytes of the stream are missing."};
+    auto decoder = std::make_unique<tks_decoder>();
+    tetrakis::Status status = tetrakis::open({data, size}, limits, *decoder);
+    if (status.ok()) *out = decoder.release();
+    return status;
   });
-  if (status.ok()) {
-    *out = decoder;
-  } else {
-    delete decoder;
-  }
-  return tetrakis::report(status, message, message_size);
 }
 
 void tks_close(tks_decoder* decoder) {
@@ -221,7 +212,7 @@ void tks_close(tks_decoder* decoder) {
 }
 
 const char* tks_message(const tks_decoder* decoder) {
-  return decoder ? decoder->message.c_str() : "";
+  return decoder ? decoder->sentence : "";
 }
 
 tks_status tks_set_threads(tks_decoder* decoder, uint32_t threads) {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,12 @@ namespace {
 Status broken(const std::string& what) {
   return {TKS_MISMATCH,
           "The encoder could not keep its promise: " + what + "; please report this fault."};
+}
+
+/// Whether a call has done its work. That memory is exhausted says nothing of the promise.
+bool works(tks_status status) {
+  if (status == TKS_NO_MEMORY) throw std::bad_alloc();
+  return status == TKS_OK;
 }
 
 template <class T>
@@ -62,7 +69,7 @@ Status proveHeights(tks_decoder* decoder, const tks_heights& heights,
   return withSampleType(heights.sample, [&](auto type) -> Status {
     using T = decltype(type);
     std::vector<T> decoded(size_t{heights.width} * heights.height);
-    if (tks_decode_heights(decoder, decoded.data(), decoded.size() * sizeof(T)) != TKS_OK)
+    if (!works(tks_decode_heights(decoder, decoded.data(), decoded.size() * sizeof(T))))
       return broken(tks_message(decoder));
     const auto* truth = static_cast<const T*>(heights.data);
     for (size_t i = 0; i < decoded.size(); ++i) {
@@ -77,7 +84,7 @@ Status proveHeights(tks_decoder* decoder, const tks_heights& heights,
 Status proveTexture(tks_decoder* decoder, const tks_image& image) {
   std::vector<uint8_t> decoded(size_t{image.width} * image.height * image.channels *
                                tks_sample_bytes(image.sample));
-  if (tks_decode_texture(decoder, decoded.data(), decoded.size()) != TKS_OK)
+  if (!works(tks_decode_texture(decoder, decoded.data(), decoded.size())))
     return broken(tks_message(decoder));
   if (std::memcmp(decoded.data(), image.data, decoded.size()) == 0) return {};
   return broken("a texel does not come back");
@@ -98,13 +105,13 @@ Status prove(std::span<const uint8_t> stream, const tks_heights* heights, const 
     return broken("the stream takes more than its budget");
   tks_decoder* opened = nullptr;
   const tks_limits limits = noLimits();
-  if (tks_open(stream.data(), stream.size(), &limits, &opened, nullptr, 0) != TKS_OK)
+  if (!works(tks_open(stream.data(), stream.size(), &limits, &opened, nullptr, 0)))
     return broken("the stream does not open");
   const std::unique_ptr<tks_decoder, void (*)(tks_decoder*)> decoder(opened, tks_close);
   tks_set_threads(opened, options.threads);
   tks_info info = {};
   info.size = sizeof info;
-  if (tks_get_info(opened, &info) != TKS_OK) return broken("the stream says nothing of itself");
+  if (!works(tks_get_info(opened, &info))) return broken("the stream says nothing of itself");
   const bool lossless = info.lossless != 0;
   if (options.lossless != 0 && !lossless) return broken("the stream is not lossless");
   if (heights != nullptr && (lossless || options.max_error > 0)) {

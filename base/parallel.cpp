@@ -5,6 +5,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -74,6 +75,8 @@ void parallelFor(uint32_t threads, size_t count, const std::function<void(size_t
       started.emplace_back([&, watch = watchOfThread()] { queue.runFor(watch); });
   } catch (const std::system_error&) {
     // Those that have started, and this one, do the work.
+  } catch (const std::bad_alloc&) {
+    // Likewise: a thread takes memory of its own.
   }
   queue.run();
   for (std::thread& thread : started) thread.join();

@@ -26,15 +26,21 @@ bool mayFollow(uint8_t first, uint8_t second) {
 
 }  // namespace
 
+size_t utf8Length(std::string_view text) {
+  const auto first = static_cast<uint8_t>(text[0]);
+  const int trail = trailOf(first);
+  if (trail < 0 || static_cast<size_t>(trail) >= text.size()) return 0;
+  if (trail > 0 && !mayFollow(first, static_cast<uint8_t>(text[1]))) return 0;
+  for (int k = 2; k <= trail; ++k)
+    if ((static_cast<uint8_t>(text[static_cast<size_t>(k)]) & 0xC0) != 0x80) return 0;
+  return static_cast<size_t>(trail) + 1;
+}
+
 bool isUtf8(std::string_view text) {
-  for (size_t i = 0; i < text.size(); ++i) {
-    const auto first = static_cast<uint8_t>(text[i]);
-    const int trail = trailOf(first);
-    if (trail < 0 || static_cast<size_t>(trail) >= text.size() - i) return false;
-    if (trail > 0 && !mayFollow(first, static_cast<uint8_t>(text[i + 1]))) return false;
-    for (int k = 2; k <= trail; ++k)
-      if ((static_cast<uint8_t>(text[i + static_cast<size_t>(k)]) & 0xC0) != 0x80) return false;
-    i += static_cast<size_t>(trail);
+  while (!text.empty()) {
+    const size_t length = utf8Length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
   }
   return true;
 }

@@ -6,6 +6,8 @@
 #include <cpl_string.h>
 #include "base/length_unit.hpp"
 
+#include "base/shown_text.hpp"
+
 namespace tetrakis::gdal {
 namespace {
 
@@ -124,7 +126,7 @@ SpatialReference readCrs(const CrsTexts& texts, const std::string& file_name) {
   CPLError(CE_Warning, CPLE_AppDefined,
            "%s: The reference system \"%.200s\" is none that PROJ knows; the raster is opened "
            "without one.",
-           file_name.c_str(), texts.crs.c_str());
+           shownText(file_name).c_str(), shownText(texts.crs).c_str());
   return nullptr;
 }
 

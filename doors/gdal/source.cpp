@@ -9,6 +9,8 @@
 #include <cpl_error.h>
 #include <cpl_string.h>
 
+#include "base/shown_text.hpp"
+
 namespace tetrakis::gdal {
 namespace {
 
@@ -47,8 +49,9 @@ tks_limits limits() {
 }  // namespace
 
 void reportFailure(tks_status status, const std::string& name, const std::string& sentence) {
-  CPLError(CE_Failure, errorNumber(status), "%s: %s", name.c_str(),
-           status == TKS_NO_MEMORY ? "There is not enough memory." : sentence.c_str());
+  const std::string told =
+      status == TKS_NO_MEMORY ? "There is not enough memory." : shownText(sentence);
+  CPLError(CE_Failure, errorNumber(status), "%s: %s", shownText(name).c_str(), told.c_str());
 }
 
 std::unique_ptr<Source> Source::open(const std::string& name, const OpenSettings& settings) {

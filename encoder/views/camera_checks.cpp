@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/shown_text.hpp"
 #include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/views/view_inputs.hpp"
 #include "ratecontrol/pictures/screen_points.hpp"
@@ -17,7 +18,7 @@ namespace {
 constexpr size_t kFewPoints = 1 << 10, kManyPoints = 1 << 19;
 
 Status blames(const Camera& camera, const char* what) {
-  return {TKS_USAGE, "Camera '" + camera.name + "' " + what + "."};
+  return {TKS_USAGE, "Camera '" + shownText(camera.name) + "' " + what + "."};
 }
 
 /// The ground may fill so small a part of the picture that no point of a few falls on it.

@@ -10,7 +10,8 @@
 
 namespace {
 
-std::atomic<int64_t> now = 0, peak = 0;
+std::atomic<int64_t> now = 0, peak = 0, blocks = 0;
+std::atomic<uint64_t> left = 0;  // allocations until the one that fails; 0: none will
 
 void count(int64_t bytes) {
   const int64_t sum = now += bytes;
@@ -25,7 +26,15 @@ int64_t sizeOf(void* memory) {
 
 void* counted(void* memory) {
   count(sizeOf(memory));
+  blocks += memory != nullptr;
   return memory;
+}
+
+bool fails() {
+  uint64_t before = left;
+  while (before > 0 && !left.compare_exchange_weak(before, before - 1)) {
+  }
+  return before == 1;
 }
 
 }  // namespace
@@ -40,13 +49,14 @@ void* __wrap_calloc(size_t, size_t);
 void __wrap_free(void*);
 
 void* __wrap_malloc(size_t bytes) {
-  return counted(__real_malloc(bytes));
+  return fails() ? nullptr : counted(__real_malloc(bytes));
 }
 void* __wrap_calloc(size_t items, size_t bytes) {
-  return counted(__real_calloc(items, bytes));
+  return fails() ? nullptr : counted(__real_calloc(items, bytes));
 }
 void __wrap_free(void* memory) {
   count(-sizeOf(memory));
+  blocks -= memory != nullptr;
   __real_free(memory);
 }
 }
@@ -70,6 +80,18 @@ void startCounting() {
 
 uint64_t countedPeak() {
   return static_cast<uint64_t>(std::max<int64_t>(peak, 0));
+}
+
+int64_t liveBlocks() {
+  return blocks;
+}
+
+void failAllocation(uint64_t number) {
+  left = number;
+}
+
+bool allocationHasFailed() {
+  return left == 0;
 }
 
 }  // namespace tetrakis::test

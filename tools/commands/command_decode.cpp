@@ -154,8 +154,7 @@ class Decoding {
     if (arguments_.json) {
       engine_json_ = engineJson(*heights);
     } else if (!quiet_) {
-      std::fprintf(stderr, "%s: %s\n", outputs_.height->name().c_str(),
-                   engineText(*heights).c_str());
+      tellLine(outputs_.height->name() + ": " + engineText(*heights));
     }
     return outputs_.height->stage(
         [&](const std::string& path) { return writeEngineHeights(path, *heights); });

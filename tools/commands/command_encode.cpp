@@ -203,7 +203,7 @@ Status tellSummary(const EncodeArguments& arguments, std::span<const uint8_t> st
   if (!decoder) return decoder.status();
   tellNote(boundNote(arguments, decoder->info()), quiet);
   tellNote(maskNote(decoder->info()), quiet);
-  std::fprintf(stderr, "%s\n", summary(arguments.output, decoder->info()).c_str());
+  tellLine(summary(arguments.output, decoder->info()));
   return Status();
 }
 

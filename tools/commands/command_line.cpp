@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tools/commands/command.hpp"
+#include "tools/commands/notes.hpp"
 #include "tools/commands/options.hpp"
 #include "tools/files/memory_limit.hpp"
 
@@ -95,7 +96,7 @@ std::string withNamesOfOptions(std::string sentence) {
 
 int report(const Status& status) {
   if (status.ok()) return TKS_OK;
-  std::fprintf(stderr, "tetrakis: %s\n", withNamesOfOptions(status.message()).c_str());
+  tellLine("tetrakis: " + withNamesOfOptions(status.message()));
   return exitCode(status.code());
 }
 

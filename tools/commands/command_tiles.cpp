@@ -97,10 +97,9 @@ Status makeTiles(const TilesArguments& arguments, bool quiet) {
   if (!quiet) {
     const std::string pictures =
         written->pictures == 0 ? "" : std::to_string(written->pictures) + " of imagery, ";
-    std::fprintf(stderr, "%s: %llu tiles, levels %u to %u, %s%llu bytes\n",
-                 arguments.folder.c_str(), static_cast<unsigned long long>(written->tiles),
-                 written->first, written->deepest, pictures.c_str(),
-                 static_cast<unsigned long long>(written->bytes));
+    tellLine(arguments.folder + ": " + std::to_string(written->tiles) + " tiles, levels " +
+             std::to_string(written->first) + " to " + std::to_string(written->deepest) + ", " +
+             pictures + std::to_string(written->bytes) + " bytes");
   }
   return {};
 }

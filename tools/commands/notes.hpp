@@ -7,14 +7,20 @@
 #include <string>
 
 #include "base/length_unit.hpp"
+#include "base/shown_text.hpp"
 #include "tetrakis/tetrakis.h"
 #include "tools/files/file_bytes.hpp"
 
 namespace tetrakis::tools {
 
-/// A line on standard error, unless it is empty or -q is given.
+/// A line on standard error, whatever texts of streams and files it quotes.
+inline void tellLine(const std::string& text) {
+  std::fprintf(stderr, "%s\n", shownText(text).c_str());
+}
+
+/// The same of a note, unless it is empty or -q is given.
 inline void tellNote(const std::string& text, bool quiet) {
-  if (!quiet && !text.empty()) std::fprintf(stderr, "note: %s\n", text.c_str());
+  if (!quiet && !text.empty()) tellLine("note: " + text);
 }
 
 /// What is to be said where heights count as metres beside the ground; "" if their unit is a

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/shown_text.hpp"
+
 namespace tetrakis::tools {
 namespace {
 
@@ -23,10 +25,7 @@ std::string dumpValue(const Json& value, int indent) {
 std::string shown(const Json& value) {
   if (value.is_null()) return "-";
   if (!value.is_string()) return dumpValue(value, -1);
-  std::string text = value.get<std::string>();
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  return text;
+  return shownText(value.get<std::string>());
 }
 
 void flatten(const std::string& key, const Json& value, Rows& rows) {
@@ -74,7 +73,8 @@ std::string table(const Json& json) {
   return text;
 }
 
-Status print(const std::string& text) {
+Status print(const std::string& given) {
+  const std::string text = shownLines(given);
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
     return Status();
   return Status(TKS_IO, std::string("cannot write standard output: ") + std::strerror(errno));

@@ -25,11 +25,11 @@ Json legible(Json json);
 /// Indented JSON with a final newline. Bytes that are no UTF-8 are replaced.
 std::string dump(const Json& json);
 
-/// One line a value, keys aligned, members of objects as "object.member"; null is "-". Control
-/// characters of texts are replaced: a stream cannot steer the terminal.
+/// One line a value, keys aligned, members of objects as "object.member"; null is "-". Texts
+/// are as shownText() shows them: a stream cannot steer the terminal.
 std::string table(const Json& json);
 
-/// Writes to standard output. TKS_IO if that fails.
-Status print(const std::string& text);
+/// Writes lines, or JSON, to standard output as shownLines() shows them. TKS_IO if that fails.
+Status print(const std::string& given);
 
 }  // namespace tetrakis::tools

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/shown_text.hpp"
 #include "tools/files/pictures/picture_formats.hpp"
 #include "tools/files/text.hpp"
 #include "tools/report/page_data.hpp"
@@ -35,7 +36,7 @@ std::string textOf(const unsigned char (&bytes)[N]) {
 
 std::string escaped(std::string_view text) {
   std::string html;
-  for (const char c : text) {
+  for (const char c : shownLines(text)) {
     if (c == '&')
       html += "&amp;";
     else if (c == '<')

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every function of tetrakis.h while memory ends at its first allocation, at its second, and so on
+// until it meets none: it says so in its sentence, writes nothing, leaks nothing, and its decoder
+// goes on, or says that it does not.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <regex>
+#include <set>
+
+#include "tests/support/ending_memory.hpp"
+#include "tests/support/indexed_terrain.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+constexpr tks_window kWindow{3, 2, 5, 4};
+
+std::vector<Called> heightCalls() {
+  const auto samples = [](tks_info info) { return size_t{info.width} * info.height; };
+  return {{"tks_decode_heights",
+           [](Desk& d) { return tks_decode_heights(d.decoder, d.out.data(), d.heightBytes()); }},
+          {"tks_decode_heights_window",
+           [](Desk& d) {
+             const size_t bytes = 20 * tks_sample_bytes(d.info.sample);
+             return tks_decode_heights_window(d.decoder, &kWindow, d.out.data(), bytes);
+           }},
+          {"tks_decode_surface",
+           [=](Desk& d) {
+             auto* const out = reinterpret_cast<float*>(d.out.data());
+             return tks_decode_surface(d.decoder, out, samples(d.info));
+           }},
+          {"tks_decode_surface_window",
+           [](Desk& d) {
+             auto* const out = reinterpret_cast<float*>(d.out.data());
+             return tks_decode_surface_window(d.decoder, &kWindow, out, 20);
+           }},
+          {"tks_decode_validity",
+           [=](Desk& d) { return tks_decode_validity(d.decoder, d.out.data(), samples(d.info)); }}};
+}
+
+std::vector<Called> textureCalls() {
+  return {{"tks_decode_texture",
+           [](Desk& d) { return tks_decode_texture(d.decoder, d.out.data(), d.texelBytes()); }},
+          {"tks_decode_texture_window", [](Desk& d) {
+             const size_t bytes =
+                 20 * d.info.texture_channels * tks_sample_bytes(d.info.texture_sample);
+             return tks_decode_texture_window(d.decoder, &kWindow, d.out.data(), bytes);
+           }}};
+}
+
+std::vector<Called> meshCalls() {
+  return {{"tks_decode_mesh",
+           [](Desk& d) { return tks_decode_mesh(d.decoder, TKS_MESH_BUDGET, 50, &d.mesh); }},
+          {"tks_decode_screen_mesh",
+           [](Desk& d) {
+             const tks_screen_camera camera = alongRows(5, -10, 900);
+             tks_screen screen = {};
+             screen.size = sizeof screen;
+             screen.cameras = &camera;
+             screen.camera_count = 1;
+             return tks_decode_screen_mesh(d.decoder, &screen, 50, &d.mesh);
+           }},
+          {"tks_decode_mesh_tree",
+           [](Desk& d) {
+             tks_free_mesh_tree(d.tree);
+             return tks_decode_mesh_tree(d.decoder, TKS_MESH_CODED, 0, &d.tree);
+           }},
+          {"tks_view_mesh",
+           [](Desk& d) {
+             const tks_screen_camera map = mapOf(0, 0, 8, 6);
+             return tks_view_mesh(d.tree, map.clip, &d.mesh);
+           },
+           [](Desk& d) {
+             EXPECT_EQ(tks_decode_mesh_tree(d.decoder, TKS_MESH_CODED, 0, &d.tree), TKS_OK);
+           },
+           [](Desk&) {}, false}};
+}
+
+std::vector<Called> decoderCalls() {
+  return {{"tks_get_info",
+           [](Desk& d) {
+             tks_info info = {};
+             info.size = sizeof info;
+             return tks_get_info(d.decoder, &info);
+           },
+           [](Desk&) {}, [](Desk&) {}, false},
+          {"tks_set_levels", [](Desk& d) { return tks_set_levels(d.decoder, 0, 0); }},
+          {"tks_set_threads", [](Desk& d) { return tks_set_threads(d.decoder, 3); }},
+          {"tks_verify", [](Desk& d) { return tks_verify(d.decoder); }},
+          {"tks_check_memory", [](Desk& d) {
+             uint64_t bytes = 0;
+             return tks_check_memory(d.decoder, TKS_PART_HEIGHTS, &kWindow, 0, 0, &bytes);
+           }}};
+}
+
+/// Of streams with an index.
+std::vector<Called> indexCalls() {
+  return {
+      {"tks_needed_ranges",
+       [](Desk& d) { return tks_needed_ranges(d.decoder, TKS_PART_HEIGHTS, &kWindow, &d.ranges); }},
+      {"tks_plan",
+       [](Desk& d) {
+         const tks_screen_camera camera = alongRows(5, -10, 900);
+         tks_fetch fetch = {};
+         fetch.size = sizeof fetch;
+         fetch.bytes = 900;
+         fetch.request_bytes = 20;
+         return tks_plan(d.decoder, &camera, &fetch, &d.ranges);
+       }},
+      {"tks_reorder", [](Desk& d) {
+         const tks_screen_camera camera = alongRows(5, -10, 900);
+         return tks_reorder(d.decoder, &camera, 1, &d.buffer);
+       }}};
+}
+
+samples::Raster smallHeights() {
+  return samples::make({samples::Pattern::kRidges, 19, 17, 1, TKS_I16});
+}
+
+/// Heights and a texture in regions, with an index.
+const Bytes& indexedStream() {
+  static const Bytes stream = [] {
+    const samples::Raster heights = smallHeights();
+    const samples::Raster image = samples::make({samples::Pattern::kRidges, 20, 18, 3, TKS_U8});
+    return encodeRegions(&heights, &image, lossless());
+  }();
+  return stream;
+}
+
+/// Calls that give a decoder of some first bytes others. Then it decodes all that it has.
+std::vector<Called> givingCalls() {
+  static const Bytes& all = indexedStream();
+  static const size_t half = all.size() / 2;
+  const auto decode = [](Desk& d) {
+    EXPECT_EQ(tks_decode_heights(d.decoder, d.out.data(), d.heightBytes()), TKS_OK);
+    uint8_t* const texels = d.out.data() + d.heightBytes();
+    EXPECT_EQ(tks_decode_texture(d.decoder, texels, d.texelBytes()), TKS_OK);
+  };
+  const auto giving = [&](const std::string& name, std::function<tks_status(Desk&)> run) {
+    return Called{name, std::move(run), decode, decode, true, true};
+  };
+  return {
+      giving("tks_append", [](Desk& d) { return tks_append(d.decoder, all.data() + half, 300); }),
+      giving("tks_put",
+             [](Desk& d) { return tks_put(d.decoder, half + 9, all.data() + half + 9, 180); }),
+      giving("tks_put_ranges", [](Desk& d) {
+        const tks_range ranges[] = {{half + 200, 40, 0}, {half + 1, 60, 0}};
+        const uint8_t* const data[] = {all.data() + half + 200, all.data() + half + 1};
+        return tks_put_ranges(d.decoder, ranges, data, 2);
+      })};
+}
+
+/// Calls without a decoder.
+std::vector<Called> firstCalls() {
+  static const Bytes& stream = indexedStream();
+  return {{"tks_open",
+           [](Desk& d) {
+             tks_decoder* decoder = nullptr;
+             const tks_status status = tks_open(stream.data(), stream.size(), nullptr, &decoder,
+                                                d.message, sizeof d.message);
+             EXPECT_EQ(decoder == nullptr, status != TKS_OK);
+             tks_close(decoder);
+             return status;
+           }},
+          {"tks_header_bytes",
+           [](Desk& d) {
+             uint64_t bytes = 0;
+             const tks_status status = tks_header_bytes(stream.data(), stream.size(), &bytes);
+             if (status == TKS_OK) d.out[0] = static_cast<uint8_t>(bytes);
+             return status;
+           },
+           [](Desk&) {}, [](Desk&) {}, false},
+          {"tks_find_outliers",
+           [](Desk&) {
+             static const samples::Raster raster = smallHeights();
+             const tks_heights heights = raster.heights();
+             tks_outliers outliers = {};
+             outliers.size = sizeof outliers;
+             return tks_find_outliers(&heights, &outliers);
+           },
+           [](Desk&) {}, [](Desk&) {}, false},
+          {"tks_find_white_level",
+           [](Desk& d) {
+             static const samples::Raster raster =
+                 samples::make({samples::Pattern::kRidges, 9, 8, 2, TKS_U16});
+             const tks_image image = raster.image();
+             const uint32_t found = tks_find_white_level(&image);
+             if (found > 0) d.out[0] = static_cast<uint8_t>(found);
+             return found > 0 ? TKS_OK : TKS_NO_MEMORY;
+           },
+           [](Desk&) {}, [](Desk&) {}, false},
+          {"tks_sample_bytes",
+           [](Desk&) { return tks_sample_bytes(TKS_F32) == 4 ? TKS_OK : TKS_USAGE; }}};
+}
+
+std::vector<Called> encodingCalls() {
+  static const samples::Raster heights =
+      samples::make({samples::Pattern::kRidges, 7, 6, 1, TKS_I16});
+  static const samples::Raster image = samples::make({samples::Pattern::kRidges, 5, 6, 3, TKS_U8});
+  const auto encoding = [](const tks_heights& h, const tks_image& i, tks_encode_options options) {
+    options.threads = 2;
+    return Called{"tks_encode", [=](Desk& d) {
+                    tks_free_buffer(&d.buffer);
+                    return tks_encode(h.size > 0 ? &h : nullptr, i.size > 0 ? &i : nullptr,
+                                      &options, &d.buffer, d.message, sizeof d.message);
+                  }};
+  };
+  return {encoding(heights.heights(), {}, lossless()), encoding({}, image.image(), lossless()),
+          encoding(heights.heights(), image.image(), budget(150))};
+}
+
+/// A stream of the conformance vectors.
+Bytes vectorOf(const std::string& name) {
+  std::ifstream file(std::string(TETRAKIS_VECTORS) + "/" + name + ".tks", std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void exhaustAll(const std::vector<Called>& calls, Prefix stream) {
+  for (const Called& called : calls) exhaust(called, stream);
+}
+
+TEST(ExhaustedMemory, OfCallsWithoutADecoder) {
+  exhaustAll(firstCalls(), {});
+}
+
+TEST(ExhaustedMemory, OfCallsAboutAStream) {
+  exhaustAll(decoderCalls(), indexedStream());
+  exhaustAll(indexCalls(), indexedStream());
+}
+
+TEST(ExhaustedMemory, OfMoreBytes) {
+  exhaustAll(givingCalls(), Prefix(indexedStream()).first(indexedStream().size() / 2));
+}
+
+TEST(ExhaustedMemory, OfMeshes) {
+  const samples::Raster heights = samples::make({samples::Pattern::kRidges, 9, 8, 1, TKS_I16});
+  exhaustAll(meshCalls(), encode(&heights, nullptr, lossless()));
+  exhaustAll(meshCalls(), vectorOf("checker_voids_18x9"));
+}
+
+TEST(ExhaustedMemory, OfEncoders) {
+  for (const Called& called : encodingCalls()) exhaust(called, {});
+}
+
+/// A vector of each way to code heights, and of each way to code textures.
+TEST(ExhaustedMemory, OfDecoders) {
+  for (const char* name :
+       {"regions_coast_gridless_60x41", "noise_steps_regions_40x33", "noise_relative_f32_30x20",
+        "noise_facets_30x20", "noise_drawn_heights_30x21", "noise_table_knots_28x23",
+        "noise_late_table_60_28x23", "noise_repeats_f32_70x31", "noise_flat_none_30x30"}) {
+    SCOPED_TRACE(name);
+    exhaustAll(heightCalls(), vectorOf(name));
+  }
+  for (const char* name :
+       {"tables_overlay_80x60", "further_rgb_regions_53x38", "noise_repeats_texels_61x44",
+        "noise_drawn_21x20", "stored_rgb_15x13", "bridged_cutout_grey16_45x64"}) {
+    SCOPED_TRACE(name);
+    exhaustAll(textureCalls(), vectorOf(name));
+  }
+}
+
+/// Threads that are refused, or end, in the middle of work.
+TEST(ExhaustedMemory, OfThreads) {
+  std::vector<Called> calls = heightCalls();
+  const std::vector<Called> more = textureCalls();
+  calls.insert(calls.end(), more.begin(), more.end());
+  for (Called& called : calls)
+    called.before = [](Desk& d) { EXPECT_EQ(tks_set_threads(d.decoder, 4), TKS_OK); };
+  exhaustAll(calls, indexedStream());
+}
+
+/// All functions that the header declares.
+TEST(ExhaustedMemory, IsTriedOfEveryFunction) {
+  std::set<std::string> tried = {"tks_free_buffer", "tks_free_mesh",      "tks_free_ranges",
+                                 "tks_close",       "tks_free_mesh_tree", "tks_message"};
+  for (const auto& calls : {firstCalls(), decoderCalls(), indexCalls(), givingCalls(), meshCalls(),
+                            encodingCalls(), heightCalls(), textureCalls()})
+    for (const Called& called : calls) tried.insert(called.name);
+  std::ifstream file(TETRAKIS_HEADER);
+  const std::string header{std::istreambuf_iterator<char>(file), {}};
+  const std::regex declared("\\n[a-z][A-Za-z0-9_ ]*[ *](tks_[a-z_]+)\\(");
+  std::set<std::string> functions;
+  for (std::sregex_iterator at(header.begin(), header.end(), declared), end; at != end; ++at)
+    functions.insert((*at)[1]);
+  EXPECT_GT(functions.size(), 30u);
+  EXPECT_EQ(functions, tried);
+}
+
+}  // namespace
+}  // namespace tetrakis::test

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Calls of the library while memory ends at their first allocation, at their second, and so on
+// until they meet none.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/stream_fixture.hpp"
+
+namespace tetrakis::test {
+
+constexpr size_t kMostOut = 1 << 16;
+
+/// A decoder and all that calls may hand over. Its end takes no memory.
+class Desk {
+ public:
+  explicit Desk(Prefix stream) : out(kMostOut, 0xa5) {
+    info.size = sizeof info;
+    if (stream.empty()) return;
+    EXPECT_EQ(tks_open(stream.data(), stream.size(), nullptr, &decoder, nullptr, 0), TKS_OK);
+    EXPECT_EQ(tks_get_info(decoder, &info), TKS_OK);
+  }
+  Desk(const Desk&) = delete;
+  Desk& operator=(const Desk&) = delete;
+  ~Desk() {
+    failAllocation(1);
+    tks_free_buffer(&buffer);
+    tks_free_mesh(&mesh);
+    tks_free_ranges(&ranges);
+    tks_free_mesh_tree(tree);
+    tks_close(decoder);
+    EXPECT_FALSE(allocationHasFailed());
+    failAllocation(0);
+  }
+  /// All that calls have handed over.
+  Bytes given() const {
+    Bytes all = out;
+    const auto add = [&](const void* data, size_t bytes) {
+      const auto* from = static_cast<const uint8_t*>(data);
+      if (bytes > 0) all.insert(all.end(), from, from + bytes);
+    };
+    add(buffer.data, buffer.size);
+    add(mesh.grid_index, mesh.vertex_count * sizeof *mesh.grid_index);
+    add(mesh.height, mesh.vertex_count * sizeof *mesh.height);
+    add(mesh.triangles, 3 * mesh.triangle_count * sizeof *mesh.triangles);
+    for (size_t i = 0; i < ranges.count; ++i) add(&ranges.ranges[i], 2 * sizeof(uint64_t));
+    return all;
+  }
+
+  size_t heightBytes() const {
+    return size_t{info.width} * info.height * tks_sample_bytes(info.sample);
+  }
+  size_t texelBytes() const {
+    return size_t{info.texture_width} * info.texture_height * info.texture_channels *
+           tks_sample_bytes(info.texture_sample);
+  }
+
+  tks_decoder* decoder = nullptr;
+  tks_info info = {};
+  Bytes out;
+  tks_buffer buffer = {};
+  tks_mesh mesh = {};
+  tks_ranges ranges = {};
+  tks_mesh_tree* tree = nullptr;
+  char message[128] = "";
+};
+
+/// A function of the library, with arguments that it takes.
+struct Called {
+  std::string name;
+  std::function<tks_status(Desk&)> run;
+  std::function<void(Desk&)> before = [](Desk&) {};  ///< what comes ahead of it
+  std::function<void(Desk&)> after = [](Desk&) {};   ///< what shows that it has done its work
+  bool has_sentence = true;
+  bool may_be_lost = false;  ///< the decoder may say that it takes no more
+};
+
+inline const char* sentenceOf(const Desk& desk) {
+  return desk.decoder != nullptr ? tks_message(desk.decoder) : desk.message;
+}
+
+/// The same call again, with all the memory that it wants.
+inline void expectGoesOn(const Called& called, Desk& desk, const Bytes& wanted) {
+  const tks_status again = called.run(desk);
+  if (called.may_be_lost && again == TKS_NO_MEMORY) {
+    EXPECT_STRNE(sentenceOf(desk), "Not enough memory.");
+    tks_info info = {};
+    info.size = sizeof info;
+    EXPECT_EQ(tks_get_info(desk.decoder, &info), TKS_NO_MEMORY);
+    return;
+  }
+  EXPECT_EQ(again, TKS_OK) << sentenceOf(desk);
+  called.after(desk);
+  EXPECT_EQ(desk.given(), wanted);
+}
+
+/// The call whose allocation of that number fails. Whether there was one.
+inline bool failsAt(uint64_t number, const Called& called, Prefix stream, const Bytes& wanted) {
+  Desk desk(stream);
+  called.before(desk);
+  const Bytes blank = desk.given();
+  failAllocation(number);
+  const tks_status status = called.run(desk);
+  const bool met = allocationHasFailed();
+  failAllocation(0);
+  if (!met || status == TKS_OK) {  // work of which a thread was refused is done by the others
+    EXPECT_EQ(status, TKS_OK) << sentenceOf(desk);
+    called.after(desk);
+    EXPECT_EQ(desk.given(), wanted);
+    return met;
+  }
+  EXPECT_EQ(status, TKS_NO_MEMORY);
+  if (called.has_sentence) {
+    EXPECT_STREQ(sentenceOf(desk), "Not enough memory.");
+  }
+  EXPECT_EQ(desk.given(), blank);
+  expectGoesOn(called, desk, wanted);
+  return true;
+}
+
+/// Every one of the first two hundred allocations, then ever fewer: encoders make many thousands,
+/// in loops.
+inline void exhaust(const Called& called, Prefix stream) {
+  SCOPED_TRACE(called.name);
+  Bytes wanted;
+  {
+    Desk desk(stream);
+    called.before(desk);
+    ASSERT_EQ(called.run(desk), TKS_OK) << sentenceOf(desk);
+    called.after(desk);
+    wanted = desk.given();
+  }
+  for (uint64_t number = 1;; number += 1 + number / 200) {
+    SCOPED_TRACE("allocation " + std::to_string(number));
+    const int64_t before = liveBlocks();
+    const bool met = failsAt(number, called, stream, wanted);
+    EXPECT_EQ(liveBlocks(), before);
+    if (!met || ::testing::Test::HasFailure()) return;
+  }
+}
+
+}  // namespace tetrakis::test
