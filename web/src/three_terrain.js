@@ -24,8 +24,9 @@ const LEAST_STEP = 2 ** 16, MOST_STEP = 2 ** 20;
 /** What error of a texture is seen where a texel fills a pixel. */
 const GOOD_PSNR = 40;
 
-/** Milliseconds between calls of update() by which a page is taken to draw all the time. */
-const STEADY = 100;
+/** Milliseconds between calls of update() by which a page is taken to draw all the time, and to
+ * draw on, however slowly. */
+const STEADY = 100, SLOW = 1000;
 
 /** Triangles of a mesh that has time to glide: to begin takes some 20 ms for as many. */
 const MOST_GLIDING = 1e5;
@@ -123,16 +124,24 @@ export class TksTerrain extends Mesh {
   #take(texture) {
     this.#upload?.texture.dispose();
     this.#upload = null;
-    if (isSliced(texture, this.#renderer) && this.#isDrawnSteadily()) {
-      this.#upload = new Upload(texture);
-    } else {
-      this.setMap(texture);
-    }
+    if (!isSliced(texture, this.#renderer) || !this.#isDrawn(SLOW)) return this.setMap(texture);
+    this.#upload = new Upload(texture);
+    this.#awaitUpdates(this.#upload);
   }
   #bringSlice() {
     if (!this.#upload?.step(this.#renderer)) return;
     this.setMap(this.#upload.texture);
     this.#upload = null;
+  }
+  /** Of a page that does not call update() any more the rest comes at once. */
+  #awaitUpdates(upload) {
+    setTimeout(() => {
+      if (this.#upload !== upload) return;
+      if (this.#isDrawn(SLOW)) return this.#awaitUpdates(upload);
+      this.#upload = null;
+      this.setMap(upload.texture);
+      this.dispatchEvent({type: 'frame', frame: this.frame});
+    }, SLOW);
   }
 
   setMap(texture) {
@@ -247,7 +256,7 @@ export class TksTerrain extends Mesh {
         const frame =
           await this.terrain.decode({bytes: have, texels, triangles, normals: true, signal});
         if (signal.aborted) return false;
-        this.show(frame, {glide: this.#isDrawnSteadily()});
+        this.show(frame, {glide: this.#isDrawn(STEADY)});
       }
       this.#wanted = have === bytes || view ? have : bytes;
       this.#texels = texels;
@@ -260,10 +269,10 @@ export class TksTerrain extends Mesh {
     }
   }
 
-  /** Whether a surface that glides is drawn until it is there. */
-  #isDrawnSteadily() {
+  /** Whether pictures follow each other within so many ms: what moves will get where it goes. */
+  #isDrawn(ms) {
     const [last, before] = this.#updated;
-    return performance.now() - last < STEADY && last - before < STEADY;
+    return performance.now() - last < ms && last - before < ms;
   }
 
   dispose() {
@@ -271,6 +280,7 @@ export class TksTerrain extends Mesh {
     this.geometry.dispose();
     this.#map?.dispose();
     this.#upload?.texture.dispose();
+    this.#upload = null;
     this.material.dispose();
     this.terrain.dispose();
   }

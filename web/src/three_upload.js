@@ -7,8 +7,9 @@ const SLICE = 2 ** 21, LARGE = 2 ** 22;
 
 /** Whether a renderer of three.js can take slices of this texture, and it is large enough. */
 export function isSliced(texture, renderer) {
-  return Boolean(renderer?.isWebGLRenderer && texture.addUpdateRange) &&
-    texture.image.data.length > LARGE;
+  const canTake = renderer?.isWebGLRenderer && texture.addUpdateRange &&
+    'mipmapsAutoUpdate' in texture;
+  return Boolean(canTake) && texture.image.data.length > LARGE;
 }
 
 export class Upload {
@@ -21,7 +22,7 @@ export class Upload {
   step(renderer) {
     const {texture} = this, {width, height} = texture.image;
     if (this.#row < 0) {
-      texture.source.dataReady = false;
+      texture.source.dataReady = texture.mipmapsAutoUpdate = false;  // not at each slice
       renderer.initTexture(texture);
       texture.source.dataReady = true;
       this.#row = 0;
@@ -30,10 +31,15 @@ export class Upload {
     const end = Math.min(height, this.#row + Math.ceil(SLICE / (4 * width)));
     // three.js takes what lies in one row.
     for (let row = this.#row; row < end; ++row) texture.addUpdateRange(4 * width * row, 4 * width);
-    texture.generateMipmaps = end === height;
     texture.needsUpdate = true;
     renderer.initTexture(texture);
     this.#row = end;
+    if (end === height) this.#makeMipmaps(renderer, renderer.getContext());
     return end === height;
+  }
+  #makeMipmaps({properties, state}, gl) {
+    state.bindTexture(gl.TEXTURE_2D, properties.get(this.texture).__webglTexture);
+    gl.generateMipmap(gl.TEXTURE_2D);
+    state.unbindTexture();
   }
 }

@@ -135,6 +135,53 @@ test('a server that calls modules something else is no trouble', async () => {
   }
 });
 
+test('a large texture comes to the graphics card in slices, and looks as one that came at once',
+  {timeout: 120000}, async () => {
+    await withPage({headers: {'access-control-allow-origin': '*'}}, async (page, server) => {
+      const seen = await page.evaluate(async (address) => {
+        const {MeshBasicMaterial, OrthographicCamera, Scene, WebGLRenderer} = await import('three');
+        const {open} = await import('/src/index.js');
+        const {TksTerrain, textureOf} = await import('/src/three.js');
+        const side = 2048, data = new Uint8ClampedArray(4 * side * side);
+        for (let i = 0; i < side * side; ++i) {
+          data.set([(i % side) / 8, Math.floor(i / side) / 8, i % 251, 255], 4 * i);
+        }
+        const object =
+          new TksTerrain(await open(address), {material: new MeshBasicMaterial(), glideTime: 0});
+        await object.begin();
+        const renderer = new WebGLRenderer({preserveDrawingBuffer: true}), scene = new Scene();
+        renderer.setSize(64, 64);
+        scene.add(object);
+        const camera = new OrthographicCamera(-1500, 1500, 1500, -1500, 1, 1e5);
+        object.geometry.computeBoundingBox();
+        camera.position.set(0, object.geometry.boundingBox.max.y + 1000, 0);
+        camera.up.set(0, 0, -1);
+        camera.lookAt(0, 0, 0);
+        const drawn = () => {
+          object.update(camera, 0);  // fetches nothing for a picture without a height
+          renderer.render(scene, camera);
+          const gl = renderer.getContext(), pixels = new Uint8Array(4 * 64 * 64);
+          gl.readPixels(0, 0, 64, 64, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+          return pixels;
+        };
+        for (let i = 0; i < 3; ++i) drawn();
+        const raster = {width: side, height: side, data};
+        object.show({info: object.terrain.info, texture: raster});
+        const before = object.material.map.image.width;
+        let pictures = 0;
+        for (; object.material.map.image.width !== side; ++pictures) drawn();
+        const last = drawn();
+        object.setMap(textureOf(raster));
+        const atOnce = drawn();
+        return {before, pictures, colours: new Set(new Uint32Array(atOnce.buffer)).size,
+          worst: Math.max(...last.map((value, i) => Math.abs(value - atOnce[i])))};
+      }, server.url + 'a.tks');
+      assert.ok(seen.before <= 128 && seen.pictures >= 8 && seen.colours > 100,
+        JSON.stringify(seen));
+      assert.ok(seen.worst <= 1, `${seen.worst}`);
+    });
+  });
+
 test('a hundred terrains that are opened and disposed leave nothing', async () => {
   await withPage({headers: {'access-control-allow-origin': '*'}}, async (page, server) => {
     const devtools = await page.context().newCDPSession(page);
