@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "api/buffer.hpp"
-#include "api/message.hpp"
+#include "api/guarded.hpp"
 #include "api/sized.hpp"
 #include "encoder/position_fit.hpp"
 
@@ -44,5 +44,5 @@ Status fit(const tks_ground* given, tks_buffer& out) {
 tks_status tks_fit_positions(const tks_ground* ground, tks_buffer* out) {
   if (out == nullptr) return TKS_USAGE;
   *out = {nullptr, 0};
-  return tetrakis::guarded([&] { return tetrakis::fit(ground, *out); }).code();
+  return tetrakis::answering([&] { return tetrakis::fit(ground, *out); });
 }

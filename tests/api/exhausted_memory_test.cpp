@@ -90,6 +90,11 @@ std::vector<Called> decoderCalls() {
           {"tks_set_levels", [](Desk& d) { return tks_set_levels(d.decoder, 0, 0); }},
           {"tks_set_threads", [](Desk& d) { return tks_set_threads(d.decoder, 3); }},
           {"tks_verify", [](Desk& d) { return tks_verify(d.decoder); }},
+          {"tks_fed_level",
+           [](Desk& d) {
+             uint32_t level = 0;
+             return tks_fed_level(d.decoder, TKS_PART_HEIGHTS, &level);
+           }},
           {"tks_check_memory", [](Desk& d) {
              uint64_t bytes = 0;
              return tks_check_memory(d.decoder, TKS_PART_HEIGHTS, &kWindow, 0, 0, &bytes);
@@ -196,6 +201,53 @@ std::vector<Called> firstCalls() {
            [](Desk&) { return tks_sample_bytes(TKS_F32) == 4 ? TKS_OK : TKS_USAGE; }}};
 }
 
+int onEquator(void*, double column, double row, double* longitude, double* latitude) {
+  *longitude = 0.01 * column;
+  *latitude = -0.01 * row;
+  return 0;
+}
+
+tks_status fitPositions(tks_buffer& out) {
+  tks_ground ground = {};
+  ground.size = sizeof ground;
+  ground.width = 19;
+  ground.height = 17;
+  ground.locate = onEquator;
+  return tks_fit_positions(&ground, &out);
+}
+
+std::vector<Called> fittingCalls() {
+  return {{"tks_fit_positions", [](Desk& d) {
+             tks_free_buffer(&d.buffer);
+             return fitPositions(d.buffer);
+           }}};
+}
+
+/// Of streams with positions.
+std::vector<Called> positionCalls() {
+  return {{"tks_locate", [](Desk& d) {
+             const tks_pixel pixel{TKS_PART_HEIGHTS, 3, 4};
+             double longitude = 0, latitude = 0;
+             return tks_locate(d.decoder, &pixel, &longitude, &latitude);
+           }}};
+}
+
+Bytes streamWithPositions() {
+  tks_buffer positions = {};
+  EXPECT_EQ(fitPositions(positions), TKS_OK);
+  const samples::Raster raster = smallHeights();
+  tks_heights heights = raster.heights();
+  heights.positions = positions.data;
+  heights.positions_size = positions.size;
+  tks_buffer stream = {};
+  const tks_encode_options options = lossless();
+  EXPECT_EQ(tks_encode(&heights, nullptr, &options, &stream, nullptr, 0), TKS_OK);
+  const Bytes bytes(stream.data, stream.data + stream.size);
+  tks_free_buffer(&stream);
+  tks_free_buffer(&positions);
+  return bytes;
+}
+
 std::vector<Called> encodingCalls() {
   static const samples::Raster heights =
       samples::make({samples::Pattern::kRidges, 7, 6, 1, TKS_I16});
@@ -229,6 +281,11 @@ TEST(ExhaustedMemory, OfCallsWithoutADecoder) {
 TEST(ExhaustedMemory, OfCallsAboutAStream) {
   exhaustAll(decoderCalls(), indexedStream());
   exhaustAll(indexCalls(), indexedStream());
+}
+
+TEST(ExhaustedMemory, OfPositions) {
+  exhaustAll(fittingCalls(), {});
+  exhaustAll(positionCalls(), streamWithPositions());
 }
 
 TEST(ExhaustedMemory, OfMoreBytes) {
@@ -277,7 +334,8 @@ TEST(ExhaustedMemory, IsTriedOfEveryFunction) {
   std::set<std::string> tried = {"tks_free_buffer", "tks_free_mesh",      "tks_free_ranges",
                                  "tks_close",       "tks_free_mesh_tree", "tks_message"};
   for (const auto& calls : {firstCalls(), decoderCalls(), indexCalls(), givingCalls(), meshCalls(),
-                            encodingCalls(), heightCalls(), textureCalls()})
+                            fittingCalls(), positionCalls(), encodingCalls(), heightCalls(),
+                            textureCalls()})
     for (const Called& called : calls) tried.insert(called.name);
   std::ifstream file(TETRAKIS_HEADER);
   const std::string header{std::istreambuf_iterator<char>(file), {}};
