@@ -333,9 +333,9 @@ TEST(ExhaustedMemory, OfThreads) {
 TEST(ExhaustedMemory, IsTriedOfEveryFunction) {
   std::set<std::string> tried = {"tks_free_buffer", "tks_free_mesh",      "tks_free_ranges",
                                  "tks_close",       "tks_free_mesh_tree", "tks_message"};
-  for (const auto& calls : {firstCalls(), decoderCalls(), indexCalls(), givingCalls(), meshCalls(),
-                            fittingCalls(), positionCalls(), encodingCalls(), heightCalls(),
-                            textureCalls()})
+  for (const auto& calls :
+       {firstCalls(), decoderCalls(), indexCalls(), givingCalls(), meshCalls(), fittingCalls(),
+        positionCalls(), encodingCalls(), heightCalls(), textureCalls()})
     for (const Called& called : calls) tried.insert(called.name);
   std::ifstream file(TETRAKIS_HEADER);
   const std::string header{std::istreambuf_iterator<char>(file), {}};
