@@ -25,8 +25,11 @@ class ScatteredPackets {
   /// taken: what was taken of the stream up to its first gap. The header outlives this.
   ScatteredPackets(const ParsedHeader& parsed, const Demultiplexed& taken);
 
-  /// The bytes that this takes for so many packets of an index.
-  static uint64_t bytesOf(uint64_t packets) { return packets * sizeof(Place); }
+  /// The bytes that this takes at most for so many packets of an index.
+  static uint64_t bytesOf(uint64_t packets) {
+    constexpr uint64_t kNodes = 128;  // of two maps, of a track that has but one packet
+    return packets * (sizeof(Place) + kNodes);
+  }
 
   /// TKS_CORRUPT where the index tells another head than that of a packet in the range, as far as
   /// that is there, or a track that there is not.

@@ -69,9 +69,12 @@ double secondsOf(const ManyPackets& packets, const Arrive& arrive) {
     const double before = processorSeconds();
     arrive(stream, packets);
     least = std::min(least, processorSeconds() - before);
-    EXPECT_EQ(stream.info().available_bytes, packets.bytes.size());
-    EXPECT_EQ(stream.info().packets, packets.begins.size() - 1);
-    EXPECT_EQ(stream.info().geometry_bytes, 3 * (packets.begins.size() - 1));
+    tks_info info = {};
+    info.size = sizeof info;
+    EXPECT_EQ(tks_get_info(stream.get(), &info), TKS_OK);
+    EXPECT_EQ(info.available_bytes, packets.bytes.size());
+    EXPECT_EQ(info.packets, packets.begins.size() - 1);
+    EXPECT_EQ(info.geometry_bytes, 3 * (packets.begins.size() - 1));
   }
   return least;
 }
