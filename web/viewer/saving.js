@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of what is shown, for other programs: a mesh (.glb), heights (.tif), a texture (.png).
 import {glbOf} from './glb.js';
+import {tell} from './page.js';
 import {geoTiffOf} from './tiff.js';
 
 /** Along a side: what a canvas and the memory of a page take. */
@@ -40,16 +41,29 @@ async function textureFile(terrain, bytes) {
 }
 
 /** The file of a kind, 'glb', 'tif' or 'png', of a terrain whose `bytes` first bytes are shown. */
-export function fileOf(kind, {object, terrain, bytes}) {
+function fileOf(kind, {object, terrain, bytes}) {
   if (kind === 'glb') return meshFile(object);
   return kind === 'tif' ? heightsFile(terrain, bytes) : textureFile(terrain, bytes);
 }
 
 /** Has the browser keep a file. */
-export function download(blob, name) {
+function download(blob, name) {
   const link = document.createElement('a');
   link.href = URL.createObjectURL(blob);
   link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+}
+
+/** Buttons save what `shown()` gives: {object, terrain, bytes, name}. */
+export function listenToSaves(shown) {
+  const save = async ({currentTarget: {dataset: {kind}}}) => {
+    const {name, ...parts} = shown();
+    try {
+      download(await fileOf(kind, parts), `${name.replace(/\.[^.]*$/, '')}.${kind}`);
+    } catch (error) {
+      tell(error.message);
+    }
+  };
+  for (const button of document.querySelectorAll('.saves')) button.addEventListener('click', save);
 }

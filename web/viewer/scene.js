@@ -186,27 +186,13 @@ export class Picture {
   pointAt(x, y) {
     return this.#object?.frame ? pointOn(this.#object, this.camera, x, y) : null;
   }
-  /** Of the camera, clockwise from north, in radians. */
-  get heading() {
-    const ahead = this.camera.getWorldDirection(new Vector3());
-    const isSteep = Math.abs(ahead.y) > 0.999;
-    if (isSteep) ahead.set(0, 1, 0).transformDirection(this.camera.matrixWorld);
-    return Math.atan2(ahead.x, -ahead.z);
-  }
   /** Turns the camera around what it looks at until north is above. */
   faceNorth() {
-    const way = this.camera.position.clone().sub(this.orbit.target);
-    this.camera.position.copy(this.orbit.target)
-      .add(new Vector3(0, way.y, Math.hypot(way.x, way.z)));
+    const {target} = this.orbit, {x, y, z} = this.camera.position.clone().sub(target);
+    this.camera.position.copy(target).add(new Vector3(0, y, Math.hypot(x, z)));
     this.isMoved = true;
     this.orbit.update();
     this.draw();
-  }
-  /** Pixels of a metre of the ground across, where the camera looks at; 0 while it flies. */
-  get pixelsPerMetre() {
-    if (this.fly.enabled) return 0;
-    const distance = this.camera.position.distanceTo(this.orbit.target);
-    return innerHeight / (2 * distance * Math.tan(MathUtils.degToRad(this.camera.fov) / 2));
   }
 
   /** How many times as high as wide the terrain is. */

@@ -12,10 +12,11 @@ import {encodedFile, inputOf, isStream} from './coding.js';
 import {Comparison} from './comparison.js';
 import {decoder} from './decoder.js';
 import {FetchMap} from './fetch_map.js';
+import {listenToFiles} from './files.js';
 import {$, entitle, explainMoves, freeArea, isSmallScreen, tell} from './page.js';
 import {describer, listenToPointer} from './pointer.js';
 import {emptiness, formatBytes, formatCount, readOut} from './read_out.js';
-import {download, fileOf} from './saving.js';
+import {listenToSaves} from './saving.js';
 import {Picture} from './scene.js';
 import {listenToSun} from './sun.js';
 import {tint} from './tint.js';
@@ -308,16 +309,6 @@ function exaggerate() {
   picture.setExaggeration(times);
 }
 
-/** Keeps what is shown as a file of another kind. */
-async function save({target: {dataset: {kind}}}) {
-  try {
-    const blob = await fileOf(kind, {object, terrain, bytes: shown.bytes});
-    download(blob, `${called.name.replace(/\.[^.]*$/, '')}.${kind}`);
-  } catch (error) {
-    tell(error.message);
-  }
-}
-
 function listenToControls() {
   $('bytes').addEventListener('input', setWanted);
   $('triangles').addEventListener('input', setWanted);
@@ -326,7 +317,7 @@ function listenToControls() {
     rest();
   });
   $('north').addEventListener('click', () => object && picture.faceNorth());
-  for (const button of document.querySelectorAll('.saves')) button.addEventListener('click', save);
+  listenToSaves(() => ({object, terrain, bytes: shown.bytes, name: called.name}));
   $('wireframe').addEventListener('change', () => {
     if (object) object.material.wireframe = $('wireframe').checked;
     picture.draw();
@@ -357,44 +348,19 @@ function listenToControls() {
   });
 }
 
-/** What is chosen, typed or dropped is opened. */
-function listenToFiles() {
-  for (const id of ['another', 'choose']) $(id).addEventListener('click', () => $('file').click());
-  $('file').addEventListener('change', () => {
-    openFiles([...$('file').files]);
-  });
-  $('address').addEventListener('submit', (event) => {
-    event.preventDefault();
-    const address = new FormData(event.target).get('url');
-    openInput(address, nameOf(address));
-  });
-  addEventListener('dragover', (event) => {
-    event.preventDefault();
-    document.body.classList.add('dropping');
-  });
-  addEventListener('dragleave', (event) => {
-    if (!event.relatedTarget) document.body.classList.remove('dropping');
-  });
-  addEventListener('drop', (event) => {
-    event.preventDefault();
-    document.body.classList.remove('dropping');
-    openFiles([...event.dataTransfer.files]);
-  });
-}
-
 /** Takes over what the page has asked for already: {address, stop, terrain, first}, or nothing. */
 export function begin(asked) {
   picture.onrest = rest;
-  picture.ondraw = () => drawBearings({
-    heading: picture.heading,
-    pixelsPerMetre: terrain && isMeasured(terrain.info) ? picture.pixelsPerMetre : 0,
-  });
+  picture.ondraw = () => {
+    const hasScale = terrain && isMeasured(terrain.info) && !picture.fly.enabled;
+    drawBearings(picture.camera, hasScale ? picture.orbit.target : null);
+  };
   $('exaggeration').value = givenHeight();
   listenToSun(picture);
   addEventListener('hashchange', followLink);
   listenToPointer(picture, (point) => describe(point));
   listenToControls();
-  listenToFiles();
+  listenToFiles(openFiles, (address) => openInput(address, nameOf(address)));
   explainMoves($('fly').checked);
   if (isSmallScreen()) $('fold').click();
   const early = [...$('file').files];  // chosen while this script was on its way
