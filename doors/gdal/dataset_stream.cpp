@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the metadata domain TKS says of a stream: how much of it is there, what it promises, and what
-// it states of errors.
+// What the metadata domain TKS says of a stream: how much of it is there, what it promises, and
+// what it states of errors.
 #include <string>
 
 #include <cpl_string.h>

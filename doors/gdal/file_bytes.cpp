@@ -56,8 +56,9 @@ bool readOne(VSILFILE* file, const tks_range& range, std::vector<uint8_t>& bytes
          VSIFReadL(bytes.data(), 1, bytes.size(), file) == bytes.size();
 }
 
-/// Side by side where the kind of file can, else one after the other. A single range GDAL would read
-/// through a cache of its own, in pieces of 16 kB, but two that touch are one request of their size.
+/// Side by side where the kind of file can, else one after the other. A single range GDAL would
+/// read through a cache of its own, in pieces of 16 kB, but two that touch are one request of their
+/// size.
 bool readSideBySide(VSILFILE* file, const std::vector<tks_range>& requests,
                     std::vector<std::vector<uint8_t>>& bytes) {
   std::vector<void*> data;

@@ -9,8 +9,8 @@
 
 namespace tetrakis::gdal {
 
-/// A name for a file of this process alone, beside `name` where files can be renamed, else in GDAL's
-/// folder of temporary files.
+/// A name for a file of this process alone, beside `name` where files can be renamed, else in
+/// GDAL's folder of temporary files.
 std::string temporaryNameFor(const std::string& name);
 
 /// Whether it is there to be opened: /vsistdout/ has passed on what was written.

@@ -39,7 +39,7 @@ class Source {
   /// Null after an error was reported.
   static std::unique_ptr<Source> open(const std::string& name, const OpenSettings& settings);
 
-  /// Of level 0. Its texts live until samples are asked for.
+  /// Of level 0. Its texts live until samples or errors are asked for.
   const tks_info& info() const { return info_; }
   /// Whether all of the stream is there to be read.
   bool complete() const { return end_ == info_.stream_bytes; }
@@ -68,9 +68,10 @@ class Source {
   uint32_t regionSide() const;
 
   /// All pixels of a level, channels interleaved, which are kept: coarse ones take a third of the
-  /// raster's memory together. Null after an error was reported. A level above 0 takes no more bytes of the stream than
-  /// the overview that is made of it has (what it shows comes first, and a small map takes a small
-  /// download), or those that it needs, where these are fewer or no prefix shows all ground.
+  /// raster's memory together. Null after an error was reported. A level above 0 takes no more
+  /// bytes of the stream than the overview that is made of it has (what it shows comes first, and
+  /// a small map takes a small download), or those that it needs, where these are fewer or no
+  /// prefix shows all ground.
   const std::byte* level(uint32_t level);
   /// A part of level 0.
   bool window(const tks_window& window, std::vector<std::byte>& out);
@@ -81,7 +82,7 @@ class Source {
   Source(std::string name, const OpenSettings& settings, File file)
       : name_(std::move(name)), settings_(settings), bytes_(std::move(file)) {}
   bool readHeader();
-  /// Reads the header, as far as there is one, and how many bytes it takes at least. Nothing after a
+  /// Reads as much as the header takes, or there is, and returns how many bytes. Nothing after a
   /// reported error.
   std::optional<uint64_t> findHeader();
   bool checkLength();

@@ -67,14 +67,12 @@ def test_programs_write_streams(inputs, tmp_path, tool):
     written = {}
     for driver, extension in (("GTiff", "tif"), ("TKS", "tks")):
         name = str(tmp_path / f"out.{extension}")
-        names = {"gdal_calc.py": [f"--outfile={name}", f"--format={driver}"]}
-        names["gdal_merge.py"] = ["-of", driver, "-o", name]
-        command = [tool, *names.get(tool, []), *COMMANDS[tool]]
-        if tool not in names:
-            command += [name] if tool == "gdaldem" else []
-            command = [tool, "-of", driver, *COMMANDS[tool], name]
-        if tool == "gdaldem":
-            command = [tool, *COMMANDS[tool], name, "-of", driver]
+        output = {
+            "gdal_calc.py": [f"--outfile={name}", f"--format={driver}"],
+            "gdal_merge.py": ["-of", driver, "-o", name],
+            "gdaldem": [name, "-of", driver],
+        }.get(tool)
+        command = [tool, *COMMANDS[tool], *(output or ["-of", driver, name])]
         done = subprocess.run(
             command, cwd=inputs, capture_output=True, text=True, timeout=60, check=False
         )
@@ -126,7 +124,10 @@ def test_all_that_is_set_is_kept(tmp_path):
     assert set(os.listdir(tmp_path)) == {"a.tks", "a.tks.aux.xml"}
 
 
-@pytest.mark.parametrize("kind", ["Byte", "UInt16", "Int16", "UInt32", "Int32", "Float32", "Float64"])
+KINDS = ["Byte", "UInt16", "Int16", "UInt32", "Int32", "Float32", "Float64"]
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_types(tmp_path, kind):
     heights = terrain(70, 90, "u1")
     dataset = create(tmp_path / "a.tks", kind=gdal.GetDataTypeByName(kind))
@@ -237,7 +238,8 @@ def test_a_failure_leaves_nothing(tmp_path, options, words):
 def test_a_process_that_dies_leaves_nothing(tmp_path):
     script = (
         "import os, signal, sys, numpy as np; from osgeo import gdal;"
-        "dataset = gdal.GetDriverByName('TKS').Create(sys.argv[1], 2000, 2000, 1, gdal.GDT_Float32);"
+        "driver = gdal.GetDriverByName('TKS');"
+        "dataset = driver.Create(sys.argv[1], 2000, 2000, 1, gdal.GDT_Float32);"
         "dataset.GetRasterBand(1).WriteArray(np.random.rand(2000, 2000).astype('f4'));"
         "dataset.FlushCache();"
         "os.kill(os.getpid(), signal.SIGKILL)"

@@ -20,9 +20,8 @@ def rmse(dataset):
 def test_gdalinfo_tells_all(tmp_path):
     name = tmp_path / "a.tks"
     copy(terrain(), name)
-    done = subprocess.run(
-        ["gdalinfo", "-mdd", "TKS", str(name)], capture_output=True, text=True, check=True, timeout=60
-    )
+    command = ["gdalinfo", "-mdd", "TKS", str(name)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
     size = name.stat().st_size
     for line in (
         "COMPLETE=YES",

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Windows, pans, points and sweeps: how much of a raster is decoded for them, and read over HTTP."""
+"""Windows, pans, points, rows: how much of a raster is decoded for them, and read over HTTP."""
 
 import re
 import time
