@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -24,8 +23,7 @@ struct TilesArguments {
   StreamSource source;
   std::string folder, format = "quantized-mesh";
   uint32_t threads = hardwareThreads();
-  std::optional<bool> skirts;
-  bool force = false;
+  bool skirts = true, skirts_said = false, force = false;
 };
 
 /// A folder that is written beside its place and appears whole or not at all. One that is not empty
@@ -79,8 +77,8 @@ class TileFolder {
 Status makeTiles(const TilesArguments& arguments, bool quiet) {
   TileOptions options;
   if (arguments.format == "3dtiles") options.format = TileFormat::k3dTiles;
-  options.skirts = arguments.skirts.value_or(options.format == TileFormat::k3dTiles);
-  if (arguments.skirts && options.format != TileFormat::k3dTiles)
+  options.skirts = arguments.skirts && options.format == TileFormat::k3dTiles;
+  if (arguments.skirts_said && options.format != TileFormat::k3dTiles)
     return {TKS_USAGE, "--skirts are for --format 3dtiles: viewers make those of quantized-mesh"};
   Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
@@ -117,11 +115,13 @@ void addTiles(CLI::App& app, CommandLine& line) {
                   "Of the tiles: quantized-mesh (default) or 3dtiles")
       ->check(silent(CLI::IsMember({"quantized-mesh", "3dtiles"})))
       ->type_name("NAME");
-  verb.add_flag("--skirts,!--no-skirts", arguments->skirts,
-                "Hang walls below the edges of tiles (3dtiles; default)");
+  const CLI::Option* const skirts =
+      verb.add_flag("--skirts,!--no-skirts", arguments->skirts,
+                    "Hang walls below the edges of tiles (3dtiles; default)");
   addThreads(verb, arguments->threads);
   addForce(verb, arguments->force);
-  verb.callback([arguments, &line] {
+  verb.callback([arguments, skirts, &line] {
+    arguments->skirts_said = skirts->count() > 0;
     line.action = [arguments, &line] { return makeTiles(*arguments, line.quiet); };
   });
 }
