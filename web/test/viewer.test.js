@@ -597,12 +597,16 @@ test('tetrakis view serves the page by ranges', {skip: !existsSync(CLI)}, async 
     const status = async (path, headers) =>
       (await page.request.get(new URL(path, address).href, {headers})).status();
     assert.equal(await status('/%2e%2e/%2e%2e/etc/passwd'), 404);
-    assert.equal(await status('/whole.tks', {Host: 'elsewhere.example'}), 403);
+    const {port} = new URL(address);
+    for (const [name, expected] of [['elsewhere.example', 403], ['localhost.example', 403],
+      ['[::2]', 403], ['LocalHost', 200], ['127.0.0.1', 200], ['[::1]', 200]]) {
+      for (const Host of [name, `${name}:${port}`])
+        assert.equal(await status('/whole.tks', {Host}), expected, Host);
+    }
     assert.equal(await status('/whole.tks', {Range: 'bytes=900000-'}), 416);
     const last = await page.request.get(new URL('/whole.tks', address).href,
       {headers: {Range: 'bytes=5990-99999999'}});
     assert.deepEqual(await last.body(), bytes.subarray(5990));
-    const {port} = new URL(address);
     const {status: code, stderr} = spawnSync(
       CLI, ['view', '--no-browser', '--port', port, join(folder, 'whole.tks')], {timeout: 5000});
     assert.equal(code, 2);
