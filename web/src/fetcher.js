@@ -30,8 +30,8 @@ export class Fetcher {
 
   /** What a request costs among those for so many bytes. */
   #requestCost(bytes) {
-    return this.#requestBytes ?? Math.round(
-      Math.max(REQUEST_BYTES, SHARE_OF_HELD * this.#held.bytes, SHARE_OF_ASKED * bytes));
+    const here = this.#held.bytes, share = Math.min(SHARE_OF_ASKED * bytes, here);
+    return this.#requestBytes ?? Math.round(Math.max(REQUEST_BYTES, SHARE_OF_HELD * here, share));
   }
 
   /** How many bytes are here. */
