@@ -9,6 +9,7 @@
 #include "bitstream/stream/fields.hpp"
 #include "tests/support/texel_errors.hpp"
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
+#include "texture_wavelet/drawn/drawn_prefixes.hpp"
 #include "texture_wavelet/mask/overlay.hpp"
 #include "texture_wavelet/texture_choice.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
@@ -302,6 +303,32 @@ TEST(Drawn, LosesToWhatTheWaveletMakesAlone) {
           target.mean_square = error;
           expectTheWaveletsOwn(*source, Purpose::kLossy, target);
         }
+      }
+    }
+  }
+}
+
+/// What encoders find out about all prefixes at once is what a decoder shows of each.
+TEST(DrawnTexture, PrefixesOfEncodersAreWhatDecodersShow) {
+  for (const Size size : {Size{1, 1}, {1, 50}, {21, 17}, {32, 3}}) {
+    for (const uint32_t channels : {1u, 4u}) {
+      const Texels texels = drawing(size, channels, 8, 20);
+      const auto encoded = encodeDrawn(texels);
+      ASSERT_TRUE(encoded);
+      const std::span<const uint8_t> codeword = encoded->tracks.front().codeword;
+      const auto shown = prefixesOfDrawing(encoded->header, codeword);
+      for (uint64_t bytes = 0; bytes <= codeword.size(); ++bytes)
+        ASSERT_EQ(shown(bytes).samples,
+                  decodeDrawn(encoded->header, codeword.first(bytes), 0).samples)
+            << bytes;
+      std::vector<uint8_t> photograph(texels.extent().samples());
+      for (size_t i = 0; i < photograph.size(); ++i) photograph[i] = i % 5 == 1;
+      const std::vector<uint8_t> overlay = encodeOverlay(texels, photograph);
+      const auto over = prefixesOfOverlay(encoded->header, overlay);
+      for (uint64_t bytes = 0; bytes <= overlay.size(); ++bytes) {
+        const auto prefix = std::span<const uint8_t>(overlay).first(bytes);
+        const DrawnOverlay decoded = decodeOverlay(encoded->header, prefix);
+        ASSERT_EQ(over(bytes).indices, decoded.indices) << bytes;
       }
     }
   }
