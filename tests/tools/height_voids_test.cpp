@@ -85,7 +85,8 @@ TEST_F(HeightVoids, FloatsThatGdalTakesForNodataBecomeIt) {
     EXPECT_EQ(samples[2], *heights->nodata) << text;
     EXPECT_EQ(samples[3], -1e30F) << text;
     ASSERT_EQ(notes.size(), 1U);
-    EXPECT_NE(notes[0].text.find("at -1e+30: if void"), std::string::npos) << notes[0].text;
+    EXPECT_NE(notes[0].text.find("at -1e+30: if they are void"), std::string::npos)
+        << notes[0].text;
   }
   const auto given = read(tiff, -9999.0001);
   ASSERT_TRUE(given.ok());
@@ -149,7 +150,7 @@ TEST_F(HeightVoids, OtherNumbersStayHeights) {
 
 TEST_F(HeightVoids, NodataInWordsOfOldLibrariesIsNoNumber) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  TinyTiff tiff = tiffOf<float>({1, -1, nan, 2});
+  TinyTiff tiff = tiffOf<float>({0, -1, nan, 1});
   for (const char* text :
        {"nan", "-nan", "-1.#IND", "1.#QNAN", "1.#QNAN00", "-1.#IND00", "1.#SNAN"}) {
     tiff.ascii(TinyTiff::kGdalNodata, text);
@@ -408,7 +409,7 @@ TEST_F(HeightVoids, VoidsOfAnotherNumberThanDeclaredAreNoted) {
 }
 
 TEST_F(HeightVoids, NodataThatNoSampleCanHaveIsNoted) {
-  TinyTiff tiff = tiffOf<int16_t>({1, -9999, 15000});
+  TinyTiff tiff = tiffOf<int16_t>({0, -9999, 9999});
   for (const char* text : {"-9999.4", "70000", "nan", "-9999"}) {
     tiff.ascii(TinyTiff::kGdalNodata, text);
     ASSERT_TRUE(read(tiff).ok());
