@@ -56,7 +56,9 @@ std::vector<Called> meshCalls() {
            [](Desk& d) { return tks_decode_mesh(d.decoder, TKS_MESH_BUDGET, 50, &d.mesh); }},
           {"tks_decode_screen_mesh",
            [](Desk& d) {
-             const tks_screen_camera camera = alongRows(5, -10, 900);
+             tks_screen_camera camera = alongRows(5, -10, 900);
+             camera.width = 32;  // pictures take time
+             camera.height = 20;
              tks_screen screen = {};
              screen.size = sizeof screen;
              screen.cameras = &camera;
