@@ -283,7 +283,7 @@ TEST(ExhaustedMemory, IsTriedOfEveryFunction) {
     for (const Called& called : calls) tried.insert(called.name);
   std::ifstream file(TETRAKIS_HEADER);
   const std::string header{std::istreambuf_iterator<char>(file), {}};
-  const std::regex declared("\\n[a-z][A-Za-z0-9_ ]*[ *](tks_[a-z_]+)\\(");
+  const std::regex declared("\\n[a-z][A-Za-z0-9_ *]*[ *](tks_[a-z_]+)\\(");
   std::set<std::string> functions;
   for (std::sregex_iterator at(header.begin(), header.end(), declared), end; at != end; ++at)
     functions.insert((*at)[1]);
