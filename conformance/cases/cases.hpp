@@ -39,6 +39,7 @@ std::vector<VectorCase> damagedCases();
 std::vector<VectorCase> craftedCases();
 // crafted_wavelet_cases.cpp
 std::vector<VectorCase> weightCases();
+std::vector<VectorCase> priorityCases();
 std::vector<VectorCase> channelTableCases();
 std::vector<VectorCase> shearCases();
 std::vector<VectorCase> roundedCases();

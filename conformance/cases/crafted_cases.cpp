@@ -140,6 +140,8 @@ std::vector<VectorCase> flatCases() {
   StreamHeader wrong = heightsHeader(30, 30, TKS_I16, 12);
   wrong.layers.flat_bytes = 60;
   wrong.layers.flat_areas = 3;
+  StreamHeader more = wrong;
+  more.layers.flat_areas = 60000;
   StreamHeader deep = heightsHeader(40, 51, TKS_F32, 20);
   deep.geometry->wavelet.fraction_bits = 4;
   deep.geometry->wavelet.filters = {2, 2, 2};
@@ -151,7 +153,9 @@ std::vector<VectorCase> flatCases() {
           flatNoise("noise_flat_long_3x90", "noise beside flat areas; one side is split",
                     heightsHeader(3, 90, TKS_I16, 14), VoidShape::kChecker, 87),
           crafted("noise_flat_none_30x30", "noise: other flat areas than are announced",
-                  streamOf(wrong, noise(900, 90)))};
+                  streamOf(wrong, noise(900, 90))),
+          crafted("noise_flat_fewer_30x30", "noise: fewer flat areas than are announced",
+                  streamOf(more, noise(900, 95)))};
 }
 
 /// A late mask of noise between noise for coefficients: beside flat areas among lifted samples;
@@ -325,9 +329,9 @@ std::vector<VectorCase> nodataCases() {
 
 std::vector<VectorCase> craftedCases() {
   std::vector<VectorCase> all = weightCases();
-  for (const auto& cases : {wideCases(), craftedTableCases(), flatCases(), lateMaskCases(),
-                            repeatedCases(), correctionCases(), nodataCases(), shearCases(),
-                            channelTableCases(), drawnCases(), roundedCases()})
+  for (const auto& cases : {priorityCases(), wideCases(), craftedTableCases(), flatCases(),
+                            lateMaskCases(), repeatedCases(), correctionCases(), nodataCases(),
+                            shearCases(), channelTableCases(), drawnCases(), roundedCases()})
     all.insert(all.end(), cases.begin(), cases.end());
   return all;
 }

@@ -64,6 +64,10 @@ Bytes drawnHeightsStream(uint32_t width, uint32_t height, uint32_t fresh) {
 std::vector<VectorCase> drawnCases() {
   StreamHeader kind = textureHeader(21, 20, 2, TKS_U16, kDrawnPlanes);
   StreamHeader over = textureHeader(40, 30, 3, TKS_U8, 6);
+  StreamHeader holed = drawnHeightsHeader(33, 25, TKS_I16);
+  holed.layers.validity_bytes = 120;
+  holed.layers.has_nodata = 1;
+  holed.layers.nodata = 7;
   over.texture->overlay_bytes = 150;
   return {crafted("colours_4096_67x65", "drawn: more texels than the list of colours holds",
                   drawnStream(67, 65, 4200)),
@@ -73,6 +77,10 @@ std::vector<VectorCase> drawnCases() {
                   drawnHeightsStream(67, 65, 4200)),
           crafted("noise_drawn_heights_30x21", "drawn heights: noise",
                   streamOf(drawnHeightsHeader(30, 21, TKS_I16), noise(600, 33))),
+          crafted("noise_drawn_voids_33x25", "drawn heights: noise, beside voids of noise",
+                  streamOf(holed, noise(500, 34))),
+          crafted("zeros_drawn_200x150", "drawn: one way in all decisions, to the ends of weights",
+                  streamOf(textureHeader(200, 150, 1, TKS_U8, kDrawnPlanes), Bytes(900, 0))),
           crafted("noise_drawn_21x20", "drawn: noise", streamOf(kind, noise(500, 31))),
           crafted("noise_overlay_40x30", "noise: an overlay before coefficients",
                   streamOf(over, noise(700, 32)))};

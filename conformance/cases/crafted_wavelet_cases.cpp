@@ -70,6 +70,32 @@ std::vector<VectorCase> weightCases() {
   return {weightCase(3, 2), weightCase(4, 8)};
 }
 
+/// Maps of priorities of noise: one that ends early, and tiles smaller than what the coefficients of
+/// coarse levels reach. And sums of joint lifting that leave 32 bits or do not.
+std::vector<VectorCase> priorityCases() {
+  const auto mapped = [](uint32_t width, uint32_t height, size_t map_bytes) {
+    StreamHeader header = heightsHeader(width, height, TKS_I16, 14);
+    header.geometry->priorities.tile_log2 = 4;
+    for (const uint8_t byte : noise(map_bytes, width))
+      header.geometry->priorities.code += char(byte);
+    return header;
+  };
+  const auto summed = [](uint8_t bits) {
+    StreamHeader header = heightsHeader(70, 40, TKS_I32, 30);
+    header.geometry->wavelet.filters = {3, 3, 3};
+    header.geometry->wavelet.bits = bits;
+    return header;
+  };
+  return {crafted("noise_map_ends_200x150", "noise: a map of priorities that ends early",
+                  streamOf(mapped(200, 150, 9), noise(2500, 96))),
+          crafted("noise_map_260x200", "noise: priorities of coefficients that reach many tiles",
+                  streamOf(mapped(260, 200, 120), noise(6000, 97))),
+          crafted("noise_joint_15_bits_70x40", "noise: joint sums of 32 bits, which wrap",
+                  streamOf(summed(15), noise(2500, 98, 3))),
+          crafted("noise_joint_16_bits_70x40", "noise: joint sums of 64 bits",
+                  streamOf(summed(16), noise(2500, 98, 3)))};
+}
+
 std::vector<VectorCase> channelTableCases() {
   StreamHeader eighths = textureHeader(40, 33, 3, TKS_U8, 9),
                one = textureHeader(31, 9, 1, TKS_U8, 8);

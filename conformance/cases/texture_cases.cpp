@@ -59,8 +59,9 @@ std::vector<VectorCase> furtherColourCases() {
       opaque(leveled(textureCase("further_tables_rgb_53x38", "a fourth colour in tables of values",
                                  image(Pattern::kRidges, 4, TKS_U8), lossless()),
                      90, TKS_U8)),
-      opaque(textureCase("further_drawn_53x38", "a drawing of four colours",
-                         image(Pattern::kSteps, 4, TKS_U8), lossless())),
+      opaque(leveled(textureCase("further_drawn_53x38", "a drawing of four colours",
+                                 image(Pattern::kRidges, 4, TKS_U8), lossless()),
+                     3, TKS_U8)),
   };
 }
 
@@ -91,7 +92,7 @@ std::vector<VectorCase> whiteLevelCases() {
           3000),
       shownFrom(textureCase("white_stored_rgb16_31x27",
                             "stored samples, of which the unknown are half of the white level",
-                            image(Pattern::kExtreme, 3), lossless()),
+                            image(Pattern::kNoise, 3), lossless()),
                 1000),
   };
 }
@@ -106,8 +107,8 @@ std::vector<VectorCase> copiedTexelsCases() {
              2, 2),
       copied(leveled(textureCase("texel_copies_3x1_regions_97x26",
                                  "copies in tables of values, in regions",
-                                 image(Pattern::kRidges, 1, TKS_U8), inRegions(lossless(), 16)),
-                     90, TKS_U16),
+                                 image(Pattern::kRidges, 3, TKS_U8), inRegions(lossless(), 16)),
+                     150, TKS_U16),
              3, 1),
       asCutout(
           copied(textureCase("texel_copies_cutout_33x101", "copies beside a mask, by a byte budget",
@@ -156,7 +157,7 @@ std::vector<VectorCase> textureCases() {
       asCutout(textureCase("cutout_grey16_1x41", "cut-out of 16-bit grey, one column",
                            image(Pattern::kRidges, 1, 41, 2, TKS_U16), quality(40)),
                samples::VoidShape::kSpeckle),
-      textureCase("checker_rgb_16x16", "the highest frequency",
+      textureCase("checker_rgb_16x16", "drawn: the highest frequency",
                   image(Pattern::kChecker, 16, 16, 3, TKS_U8), lossless()),
       textureCase("ramp_129x96", "another filter from level 3 on",
                   image(Pattern::kRamp, 129, 96, 1, TKS_U8), quality(58)),

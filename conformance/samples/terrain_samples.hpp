@@ -19,7 +19,8 @@ enum class Pattern {
   kHills,    ///< smooth hills: cubics of 32 samples
   kSteps,    ///< terraces with vertical walls
   kChecker,  ///< the highest frequency, full range
-  kExtreme   ///< noise over the whole range, half of it at the type's two ends
+  kExtreme,  ///< noise over the whole range, half of it at the type's two ends
+  kNoise     ///< every value is as likely as any other
 };
 
 /// width * height * channels samples, row by row, interleaved, tightly packed, host byte order.
@@ -114,6 +115,8 @@ inline uint32_t patternValue(const Recipe& r, uint32_t x, uint32_t y, uint32_t c
       const uint32_t h = hash(x, y, r.seed + channel);
       return h & 1u ? (h >> 1 & 1u) * 65535 : h >> 16;
     }
+    case Pattern::kNoise:
+      return hash(x, y, r.seed + channel) >> 16;
   }
   return 0;
 }

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "bitstream/stream/header.hpp"
+#include "conformance/cases/stream_tools.hpp"
 #include "conformance/cases/vector_cases.hpp"
 #include "conformance/digest.hpp"
 #include "conformance/reference_decoder.hpp"
@@ -78,20 +79,32 @@ TEST_F(Vectors, ReferenceDecoderPasses) {
 }
 
 /// The encoder is free to choose another way, and then a vector no longer tests what it is for.
-TEST_F(Vectors, OfFacetsHaveThem) {
+TEST_F(Vectors, HaveTheToolsThatTheyState) {
   const auto vectors = readManifest(kVectors);
   ASSERT_TRUE(vectors.ok());
-  size_t seen = 0;
   for (const Vector& vector : *vectors) {
-    if (!vector.name.starts_with("facets_")) continue;
     const auto stream = readFile(std::string(kVectors) + "/" + vector.file);
     ASSERT_TRUE(stream.ok());
-    const auto header = readHeader(*stream);
-    ASSERT_TRUE(header.ok());
-    EXPECT_EQ(header->header.layers.corrections, CorrectionKind::kFacets) << vector.name;
-    ++seen;
+    const Status status = checkTools(vector.name, *stream);
+    EXPECT_TRUE(status.ok()) << status.message();
   }
-  EXPECT_EQ(seen, 4u);
+}
+
+/// Every tool has a vector, and no vector states one that there is not.
+TEST_F(Vectors, StateEveryTool) {
+  Tools stated;
+  for (const VectorCase& vector_case : vectorCases())
+    stated.merge(toolsStatedFor(vector_case.name));
+  EXPECT_EQ(stated, allTools());
+}
+
+TEST(CheckTools, NamesWhatAVectorLacksAndHas) {
+  const auto stream = readFile(std::string(TETRAKIS_VECTORS) + "/tiny_2x2.tks");
+  ASSERT_TRUE(stream.ok());
+  const Status status = checkTools("stored_i16_17x19", *stream);
+  EXPECT_EQ(status.code(), TKS_MISMATCH);
+  EXPECT_NE(status.message().find("lacks \"stored heights\";"), std::string::npos);
+  EXPECT_NE(status.message().find("has \"heights by wavelet\""), std::string::npos);
 }
 
 /// Every stream on disk is listed, in the manifest and in the README, and small.
@@ -116,8 +129,6 @@ TEST_F(Vectors, ManifestIsComplete) {
   }
   EXPECT_EQ(vectors->size(), vectorCases().size());
 }
-
-using Tools = std::set<std::string>;
 
 void addWavelet(const WaveletHeader& wavelet, Tools& tools) {
   for (const uint8_t filter : wavelet.filters) tools.insert("filter " + std::to_string(filter));
