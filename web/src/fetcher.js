@@ -28,9 +28,11 @@ export class Fetcher {
     this.#requestBytes = requestBytes;
   }
 
-  /** What a request costs among those for so many bytes. */
+  /** What a request costs among those for so many bytes: of a file that is cut short a plan asks for
+   * all. */
   #requestCost(bytes) {
-    const here = this.#held.bytes, share = Math.min(SHARE_OF_ASKED * bytes, here);
+    const here = this.#held.bytes;
+    const share = this.truncated ? 0 : Math.min(SHARE_OF_ASKED * bytes, here);
     return this.#requestBytes ?? Math.round(Math.max(REQUEST_BYTES, SHARE_OF_HELD * here, share));
   }
 
