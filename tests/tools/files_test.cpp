@@ -188,6 +188,27 @@ TEST_F(HeightFiles, HgtIsBigEndianAndKnowsItsPlace) {
   EXPECT_EQ(elsewhere->spacing_x, 0);
 }
 
+/// NASADEM's tiles of floats, and its names.
+TEST_F(HeightFiles, NasademIsReadAsItIsCalled) {
+  const std::vector<uint8_t> bytes{0x3F, 0x80, 0, 0, 0xC6, 0xFF, 0xFE, 0,
+                                   0x41, 0x20, 0, 0, 0,    0,    0,    0};
+  for (const char* name : {"n46w122.hgts", "NASADEM_SHHP_n46w122.hgts"}) {
+    Notes notes;
+    const auto read = readHeights(save(name, bytes), {}, &notes);
+    expectSameSamples(read, heightsFrom<float>({1, -32767, 10, 0}, 2, TKS_F32));
+    ASSERT_TRUE(read->geotransform) << name;
+    EXPECT_EQ((*read->geotransform)[0], -122.5);
+    EXPECT_TRUE(notes.empty());
+  }
+  const std::vector<uint8_t> square(8, 7);
+  Notes notes;
+  EXPECT_TRUE(readHeights(save("NASADEM_HGT_s01e002.hgt", square), {}, &notes)->geotransform);
+  EXPECT_TRUE(notes.empty());
+  ASSERT_TRUE(readHeights(save("tile.hgt", square), {}, &notes).ok());
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_NE(notes[0].text.find("N46W122.hgt"), std::string::npos);
+}
+
 /// As of one arc-second beyond 50 degrees.
 TEST_F(HeightFiles, HgtMayHaveHalfTheColumns) {
   const auto read = readHeights(save("N60E007.hgt", std::vector<uint8_t>(2 * 1801 * 3601)));

@@ -175,7 +175,7 @@ TEST_F(TiffPictures, SmallFloatsAreExact) {
 TEST_F(TiffPictures, FewBitsAreUnpacked) {
   std::mt19937 random(3);
   for (uint16_t bits = 1; bits <= 32; ++bits) {
-    if (bits == 8 || bits == 16 || bits == 24 || bits == 32) continue;  // words of the host
+    if (bits == 8 || bits == 16 || bits == 32) continue;  // words of the host
     constexpr size_t kCount = 13;
     std::vector<std::byte> packed((kCount * bits + 7) / 8);
     std::vector<uint32_t> values(kCount);

@@ -59,17 +59,18 @@ Result<tks_sample> heightSampleOf(const Raster& raster) {
   if (raster.stretched) {
     return Status(TKS_USAGE, raster.name +
                                  " has samples that reading would stretch to all of 8 or "
-                                 "16 bits: convert it to TIFF");
+                                 "16 bits: gdal_translate IN OUT.tif keeps those of binary files");
   }
   const int bits = static_cast<int>(8 * sizeOf(shape.sample));
   const int stored = raster.stored_bits ? raster.stored_bits : bits;
   const auto* type = std::find_if(kSampleTypes.begin(), kSampleTypes.end(),
                                   [&](const auto& known) { return known.stored == shape.sample; });
   if (type == kSampleTypes.end() || (stored != bits && !raster.as_stored)) {
+    const bool png = raster.reader == nullptr;
     return Status(TKS_USAGE, raster.name + " has samples of " + std::to_string(stored) +
-                                 " bits, heights have 8, 16 or 32: convert it (gdal_translate -co "
-                                 "NBITS=" +
-                                 (stored < 8 ? "8)" : "16)"));
+                                 " bits, which reading would stretch: " +
+                                 (png ? "gdal_translate -co NBITS=8 IN OUT.tif keeps them"
+                                      : "write 8 or 16 bits with the program that made it"));
   }
   return type->sample;
 }
@@ -154,7 +155,8 @@ Result<std::vector<uint8_t>> maskOf(const Raster& raster, const std::string& pat
   if (mask.ok() && mask->shown.empty() && raster.mask)
     mask = readMaskPage(raster.file.path(), width, height);
   if (!mask.ok()) return mask.status();
-  if (!raster.sparse) return std::move(mask->shown);
+  // Where all is missing, GDAL's reading is all that there is.
+  if (!raster.sparse || raster.empty) return std::move(mask->shown);
   auto there = maskOfMissing(raster.file.path(), width, height);
   if (!there.ok()) return there;
   for (size_t i = 0; i < mask->shown.size(); ++i)
@@ -197,7 +199,12 @@ Result<Reading> readRasterHeights(const std::string& path, const std::optional<d
     heights.data = std::move(*data);
   }
   if (raster->further_pages) notes.push_back({"only the first page is read", ""});
-  if (raster->sparse) notes.push_back({"strips or tiles that the file leaves out are void", ""});
+  if (raster->empty) {
+    notes.push_back(
+        {"the file leaves all its strips or tiles out: they are filled as GDAL does", ""});
+  } else if (raster->sparse) {
+    notes.push_back({"strips or tiles that the file leaves out are void", ""});
+  }
   return reading;
 }
 
@@ -222,8 +229,7 @@ std::optional<std::string> withoutHeader(const std::string& path) {
 Result<Reading> readAnyHeights(const std::string& path, const std::optional<double>& nodata,
                                Notes& notes) {
   if (const auto raw = parseRawName(path)) return readPlain(path, readRaw(*raw), nodata);
-  const std::string format = formatOf(path, "");
-  if (format == "hgt") return readPlain(path, readHgt(path), nodata);
+  if (isNamedHgt(path)) return readPlain(path, readHgt(path), nodata);
   const auto shapeless = withoutHeader(path);
   if (!shapeless) return readRasterHeights(path, nodata, notes);
   return Status(TKS_USAGE, quoted(path) + " needs its shape: give " + *shapeless +
@@ -283,6 +289,8 @@ Result<HeightFile> readHeights(const std::string& path, const std::optional<doub
   auto reading = readAnyHeights(path, nodata, told);
   if (!reading.ok()) return reading.status();
   if (Status place = findPlace(path, reading->heights); !place.ok()) return place;
+  if (isNamedHgt(path) && !reading->heights.geotransform)
+    told.push_back({"its name does not say where it lies, as N46W122.hgt does", ""});
   const Status settled = settleVoids(path, *reading, told);
   if (!settled.ok()) return settled;
   const bool none = nodata && std::isnan(*nodata);  // says that all samples are heights

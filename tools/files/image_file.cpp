@@ -35,14 +35,14 @@ Result<tks_sample> sampleOf(const Raster& raster) {
     case PictureSample::kFloat:
     case PictureSample::kDouble:
       return Status(TKS_USAGE, raster.name +
-                                   " holds floats: a texture has unsigned integers, which "
-                                   "gdal_translate -ot Byte -scale makes of them");
+                                   " holds floats: a texture has unsigned integers, to which "
+                                   "gdal_translate -ot UInt16 -scale rounds them");
     case PictureSample::kI8:
     case PictureSample::kI16:
     case PictureSample::kI32:
       return Status(TKS_USAGE, raster.name +
-                                   " holds signed samples: a texture has unsigned ones, which "
-                                   "gdal_translate -ot UInt16 makes of them");
+                                   " holds signed samples: a texture has unsigned ones, to which "
+                                   "gdal_translate -ot UInt16 -scale stretches them");
     case PictureSample::kOther:
       break;
   }
@@ -58,8 +58,8 @@ Result<std::vector<std::byte>> narrowed(const std::vector<std::byte>& wide,
     std::memcpy(&value, wide.data() + i * sizeof value, sizeof value);
     if (value > UINT16_MAX) {
       return Status(TKS_USAGE, name +
-                                   " holds values above 65535: a texture has 8 or 16 bits, which "
-                                   "gdal_translate -ot UInt16 -scale makes of them");
+                                   " holds values above 65535: a texture has 8 or 16 bits, to "
+                                   "which gdal_translate -ot UInt16 -scale rounds them");
     }
     const auto sample = static_cast<uint16_t>(value);
     std::memcpy(narrow.data() + i * sizeof sample, &sample, sizeof sample);
@@ -235,10 +235,25 @@ Result<Georeference> placeOf(const Raster& raster, const std::string& path, Note
   return place;
 }
 
+/// One to four colours, one place in a palette (and an alpha), or four inks.
+Status checkChannels(const Raster& raster) {
+  const int channels = raster.shape.channels, most = raster.palette && !raster.map.empty() ? 2 : 4;
+  const bool deep = raster.shape.sample == PictureSample::kU32;
+  if (deep && (raster.white_is_zero || raster.cmyk || raster.palette))
+    return {TKS_USAGE, raster.name +
+                           " has inks, a palette, or white as 0 in more than 16 bits: no texture "
+                           "is made of it but by the program that wrote it, with 8 or 16"};
+  if (channels <= most) return {};
+  const char* const picked = most == 2     ? "-b 1 picks"
+                             : raster.inks ? "-co PHOTOMETRIC=CMYK -b 1 -b 2 -b 3 -b 4 picks"
+                                           : "-b 1 -b 2 -b 3 picks";
+  return {TKS_USAGE, raster.name + " has " + std::to_string(channels) +
+                         " channels: a texture has 1 to 4, which gdal_translate " + picked};
+}
+
 /// What heights alone are kept in is told by its name.
 bool isNamedAsHeights(const std::string& path) {
-  const std::string format = formatOf(path, "");
-  return format == "hgt" || format == "raw" || parseRawName(path);
+  return isNamedHgt(path) || formatOf(path, "") == "raw" || parseRawName(path);
 }
 
 }  // namespace
@@ -249,11 +264,7 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
   auto raster = openRaster(path, kMostTexels);
   if (!raster.ok()) return raster.status();
   const PictureShape& shape = raster->shape;
-  if (shape.channels > 4) {
-    return Status(TKS_USAGE, raster->name + " has " + std::to_string(shape.channels) +
-                                 " channels: a texture has 1 to 4, which gdal_translate -b 1 -b 2 "
-                                 "-b 3 picks");
-  }
+  if (Status channels = checkChannels(*raster); !channels.ok()) return channels;
   const auto sample = sampleOf(*raster);
   if (!sample.ok()) return sample.status();
   auto data = textureSamples(*raster, *sample);
@@ -270,8 +281,8 @@ Result<ImageFile> readImage(const std::string& path, std::string* note) {
   if (Status shown = showColours(*raster, image); !shown.ok()) return shown;
   if (raster->alpha == Raster::Alpha::kMultiplied && !isOpaque(image)) {
     return Status(TKS_USAGE, raster->name +
-                                 " has an alpha that reading multiplies into the colours: convert "
-                                 "it to PNG");
+                                 " has an alpha that reading multiplies into the colours: "
+                                 "gdal_translate IN OUT.png makes one that is read");
   }
   if (raster->alpha == Raster::Alpha::kAssociated) divideByAlpha(image);
   const auto masked = applyMask(*raster, path, nodata, image);

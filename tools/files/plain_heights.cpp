@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Heights without a header. Raw: little-endian rows. SRTM (.hgt): a square of big-endian int16
 // metres over EGM96, north first, one degree from the first sample to the last, nodata -32768,
-// named after its south-western corner (USGS, SRTM Topography, 2015).
+// named after its south-western corner (USGS, SRTM Topography, 2015); .hgts: the same in big-endian
+// floats (NASADEM, User Guide, 2020).
 #include "tools/files/plain_heights.hpp"
 
 #include <algorithm>
@@ -37,9 +38,11 @@ struct Corner {
   int north, east;
 };
 
-/// South-western corner of a tile called like "N46W122.hgt"; nothing for other names.
+/// South-western corner of a tile called like "N46W122.hgt" or "NASADEM_HGT_n46w122.hgt"; nothing
+/// for other names.
 std::optional<Corner> hgtCorner(const std::string& path) {
-  static const std::regex pattern("([NS])([0-9]{2})([EW])([0-9]{3})([^0-9].*)?", std::regex::icase);
+  static const std::regex pattern("(?:.*_)?([NS])([0-9]{2})([EW])([0-9]{3})([^0-9].*)?",
+                                  std::regex::icase);
   std::smatch match;
   const std::string name = std::filesystem::path(path).filename().string();
   if (!std::regex_match(name, match, pattern)) return {};
@@ -119,20 +122,28 @@ Status writeRaw(const std::string& path, const HeightFile& heights) {
   return writeBytes(path, data);
 }
 
+bool isNamedHgt(const std::string& path) {
+  const std::string format = formatOf(path, "");
+  return format == "hgt" || format == "hgts";
+}
+
 Result<HeightFile> readHgt(const std::string& path) {
   auto bytes = readBytes(path);
   if (!bytes.ok()) return bytes.status();
-  const auto sides = tileSides(bytes->size() / sizeof(int16_t));
-  if (!sides || bytes->size() % sizeof(int16_t) != 0) {
+  const tks_sample sample = formatOf(path, "") == "hgts" ? TKS_F32 : TKS_I16;
+  const size_t sample_bytes = tks_sample_bytes(sample);
+  const auto sides = tileSides(bytes->size() / sample_bytes);
+  if (!sides || bytes->size() % sample_bytes != 0) {
     return Status(TKS_IO, quoted(path) + " holds " + std::to_string(bytes->size()) +
-                              " bytes, which is no square of 16-bit samples");
+                              " bytes, which is no square of " + std::to_string(8 * sample_bytes) +
+                              "-bit samples");
   }
   HeightFile heights;
   heights.width = (*sides)[0];
   heights.height = (*sides)[1];
-  heights.sample = TKS_I16;
+  heights.sample = sample;
   heights.data = std::move(*bytes);
-  reorderBytes(heights.data, sizeof(int16_t), std::endian::big);
+  reorderBytes(heights.data, sample_bytes, std::endian::big);
   heights.nodata = kHgtNodata;
   heights.unit = "m";
   heights.vertical_datum = "EGM96";

@@ -29,6 +29,8 @@ Status writeRaw(const std::string& path, const HeightFile& heights);
 /// What a tile that lies there is called ("N46W122.hgt"); "" if they are no tile of one degree.
 std::string hgtName(const HeightFile& heights);
 
+/// Whether a file of this name is a tile of SRTM or NASADEM (.hgt, .hgts).
+bool isNamedHgt(const std::string& path);
 Result<HeightFile> readHgt(const std::string& path);
 Status writeHgt(const std::string& path, const HeightFile& heights);
 

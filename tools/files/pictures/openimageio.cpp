@@ -103,11 +103,13 @@ Status writeTo(const std::string& path, OIIO::Filesystem::IOProxy* proxy, const 
 
 class Formats final : public PictureFormats {
  public:
-  Result<std::unique_ptr<PictureReader>> open(const std::string& path) const override {
-    OIIO::ImageSpec how;
+  Result<std::unique_ptr<PictureReader>> open(const std::string& path,
+                                              const std::string& format) const override {
+    OIIO::ImageSpec how, found;
     how["oiio:UnassociatedAlpha"] = 1;
-    auto input = OIIO::ImageInput::open(path, &how);
+    auto input = OIIO::ImageInput::create(format);
     if (!input) return failed(OIIO::geterror());
+    if (!input->open(path, found, how)) return failed(input->geterror());
     return std::unique_ptr<PictureReader>(std::make_unique<Reader>(std::move(input)));
   }
   bool hasSecond(const std::string& path) const override {

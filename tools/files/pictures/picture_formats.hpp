@@ -52,7 +52,9 @@ struct PictureToWrite {
 class PictureFormats {
  public:
   virtual ~PictureFormats() = default;
-  virtual Result<std::unique_ptr<PictureReader>> open(const std::string& path) const = 0;
+  /// By the reader of this format, whatever the file is called.
+  virtual Result<std::unique_ptr<PictureReader>> open(const std::string& path,
+                                                      const std::string& format) const = 0;
   /// Whether there is a page or frame behind the first.
   virtual bool hasSecond(const std::string& path) const = 0;
   /// The name of the format that files with this extension get; "": none is written.

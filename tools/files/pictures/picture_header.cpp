@@ -45,6 +45,7 @@ class Bytes {
 
 using Header = Result<PictureHeader>;
 
+constexpr const char* kByGdal = ": gdal_translate IN OUT.png makes one that is";
 constexpr const char* kByImageMagick = ": convert IN OUT.png (of ImageMagick) makes one that is";
 
 /// what: "holds ...".
@@ -79,9 +80,9 @@ Header jpegHeader(const Bytes& file) {
   return Status(TKS_IO, "ends early or is damaged");
 }
 
-/// In 32 bits reading takes the fourth byte for alpha, whatever the masks of the channels are.
+/// OpenImageIO 2.4 stops at the end of a line of runs, and rounds 16 bits. In 32 bits reading takes the fourth byte for alpha, whatever the masks of the channels are.
 Header bmpHeader(const Bytes& file) {
-  constexpr uint64_t kCoreHeader = 12, kRgb = 0, kRle8 = 1, kRle4 = 2, kFields = 3;
+  constexpr uint64_t kCoreHeader = 12, kRgb = 0, kRle8 = 1, kFields = 3;
   constexpr size_t kInfo = 14, kMasks = kInfo + 40, kAlphaMask = kMasks + 12;
   const uint64_t head = file.little(kInfo, 4);
   const bool core = head == kCoreHeader;
@@ -94,14 +95,13 @@ Header bmpHeader(const Bytes& file) {
   const bool fields = coding == kFields && file.little(kMasks, 4) == 0xFF0000 &&
                       file.little(kMasks + 4, 4) == 0xFF00 && file.little(kMasks + 8, 4) == 0xFF;
   const bool whole = bits == 24 || bits == 32;
-  const bool read = coding == kRgb      ? whole || bits == 1 || bits == 4 || bits == 8
-                    : coding == kRle8   ? bits == 8
-                    : coding == kRle4   ? bits == 4
-                    : coding == kFields ? bits == 32 && fields
-                                        : false;
+  const bool read =
+      coding == kRgb ? whole || bits == 1 || bits == 4 || bits == 8 : bits == 32 && fields;
   if (!read)
-    return notRead(header, "is a bitmap of " + std::to_string(bits) + " bits in coding " +
-                               std::to_string(coding));
+    return notRead(
+        header,
+        "is a bitmap of " + std::to_string(bits) + " bits in coding " + std::to_string(coding),
+        coding == kRle8 ? kByGdal : kByImageMagick);
   constexpr uint64_t kWithAlphaMask = 56;
   if (whole) header.channels = static_cast<int>(bits / 8);
   header.fourth_reserved =

@@ -83,13 +83,11 @@ Status openAsJpeg2000(Raster& raster, std::span<const std::byte> bytes, uint64_t
 Status openOther(Raster& raster, const PictureHeader& header) {
   const auto formats = pictureFormats();
   if (!formats.ok()) return formats.status();
-  auto reader = (*formats)->open(raster.file.path());
+  auto reader = (*formats)->open(raster.file.path(), header.format);
   if (!reader.ok()) return unreadable(raster.name, reader.status().message());
   raster.reader = std::move(*reader);
   raster.shape = raster.reader->shape();
   raster.fourth_reserved = header.fourth_reserved;
-  if (raster.reader->format() != header.format)
-    return unreadable(raster.name, "its reader takes it for " + raster.reader->format());
   return checkShape(raster.name, header, raster.shape);
 }
 

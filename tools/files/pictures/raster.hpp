@@ -30,6 +30,7 @@ struct Raster {
   bool palette = false;    ///< expanded to RGB by reading, unless `map` does it
   std::vector<std::array<uint8_t, 3>> map{};  ///< what colour each sample stands for
   bool cmyk = false;                          ///< four inks, or converted to RGB by reading
+  bool inks = false;                          ///< the channels of a TIFF begin with four of them
   bool white_is_zero = false;                 ///< samples are as stored all the same
   bool fourth_reserved = false;               ///< the fourth channel is none
   bool further_pages = false;                 ///< pages or frames that are not read

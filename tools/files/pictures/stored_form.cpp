@@ -31,7 +31,8 @@ Status noteTiff(Raster& raster) {
   if (form->associated_alpha) raster.alpha = Raster::Alpha::kAssociated;
   raster.palette = form->palette;
   raster.map = form->map;
-  raster.cmyk = form->cmyk;
+  raster.inks = form->inks;
+  raster.cmyk = form->inks && raster.shape.channels == 4;
   if (!raster.palette && !raster.cmyk) raster.colours = form->colours;
   return {};
 }

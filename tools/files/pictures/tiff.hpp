@@ -105,7 +105,7 @@ std::string tagText(TIFF* tiff, uint32_t tag);
 struct TiffForm {
   int bits = 0;  ///< of a sample
   bool white_is_zero = false, palette = false;
-  bool cmyk = false;    ///< four inks
+  bool inks = false;    ///< the first four samples are cyan, magenta, yellow and black
   bool whole = true;    ///< all strips or tiles lie inside the file, but for those that are missing
   bool sparse = false;  ///< some are missing
   bool empty = false;   ///< all are

@@ -87,9 +87,9 @@ void noteColours(TIFF* tiff, TiffForm& form) {
   form.bits = shortTag(tiff, TIFFTAG_BITSPERSAMPLE);
   form.white_is_zero = photometric == PHOTOMETRIC_MINISWHITE;
   form.palette = photometric == PHOTOMETRIC_PALETTE;
-  form.cmyk = photometric == PHOTOMETRIC_SEPARATED &&
+  form.inks = photometric == PHOTOMETRIC_SEPARATED &&
               shortTag(tiff, TIFFTAG_INKSET) == INKSET_CMYK &&
-              shortTag(tiff, TIFFTAG_SAMPLESPERPIXEL) == kInks;
+              shortTag(tiff, TIFFTAG_SAMPLESPERPIXEL) >= kInks;
   if (form.palette) form.map = colourMap(tiff, form.bits);
   form.colours = bandColours(tiff);
 }

@@ -205,6 +205,17 @@ Status checkSample(TiffSample stored, const std::string& name) {
                          "program that made it"};
 }
 
+/// Inks other than cyan, magenta, yellow and black in several channels.
+Status checkInks(TIFF* tiff, const std::string& name) {
+  const int channels = shortTag(tiff, TIFFTAG_SAMPLESPERPIXEL);
+  const bool known = channels >= 4 && shortTag(tiff, TIFFTAG_INKSET) == INKSET_CMYK;
+  if (photometricOf(tiff) != PHOTOMETRIC_SEPARATED || channels == 1 || known) return {};
+  return {TKS_USAGE, name +
+                         " stores inks other than cyan, magenta, yellow and black: gdal_translate "
+                         "-b N IN OUT.tif takes one of them as a grey, and the program that made "
+                         "the file mixes them"};
+}
+
 /// Colours that are neither greys, RGB, inks nor places in a palette.
 Status checkColours(uint16_t photometric, const std::string& name) {
   constexpr const char* kByGdal = ": gdal_translate -b 1 -b 2 -b 3 IN OUT.tif converts it to RGB";
@@ -228,7 +239,8 @@ Result<TiffLayout> layoutOf(TIFF* tiff, const std::string& name) {
   const auto [width, height] = sizeOfPage(tiff);
   const int channels = shortTag(tiff, TIFFTAG_SAMPLESPERPIXEL);
   TiffLayout layout;
-  layout.stored = {shortTag(tiff, TIFFTAG_SAMPLEFORMAT), shortTag(tiff, TIFFTAG_BITSPERSAMPLE)};
+  layout.stored = {shortTag(tiff, TIFFTAG_SAMPLEFORMAT), shortTag(tiff, TIFFTAG_BITSPERSAMPLE),
+                   TIFFIsByteSwapped(tiff) != 0};
   layout.apart = channels > 1 && shortTag(tiff, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_SEPARATE;
   layout.absent = tagNumber(tagText(tiff, kGdalNodataTag)).value_or(0);
   layout.shape = {static_cast<int>(width), static_cast<int>(height), channels,
@@ -237,6 +249,7 @@ Result<TiffLayout> layoutOf(TIFF* tiff, const std::string& name) {
   Status status = checkCompression(tiff, name);
   if (status.ok()) status = checkSample(layout.stored, name);
   if (status.ok()) status = checkColours(photometric, name);
+  if (status.ok()) status = checkInks(tiff, name);
   if (!status.ok()) return status;
   if (photometric != PHOTOMETRIC_YCBCR) return layout;
   if (channels != 3 || layout.stored.bits != 8)

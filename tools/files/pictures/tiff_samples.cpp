@@ -28,16 +28,19 @@ void unpackBits(const std::byte* packed, int bits, std::span<std::byte> samples)
   }
 }
 
-/// Three bytes in the order of the host, as libtiff hands numbers of 24 bits over.
+/// Three bytes of a float in the order of the host.
 uint32_t triple(const std::byte* packed) {
   const auto at = [packed](size_t i) { return std::to_integer<uint32_t>(packed[i]); };
   if constexpr (std::endian::native == std::endian::little) return at(0) | at(1) << 8 | at(2) << 16;
   return at(0) << 16 | at(1) << 8 | at(2);
 }
 
-void unpackTriples(const std::byte* packed, std::span<std::byte> samples) {
+/// Those whose bytes have been turned around.
+void unpackTurned(const std::byte* packed, std::span<std::byte> samples) {
   for (size_t at = 0; at < samples.size(); at += sizeof(uint32_t), packed += 3) {
-    const uint32_t value = triple(packed);
+    const uint32_t value = std::to_integer<uint32_t>(packed[0]) |
+                           std::to_integer<uint32_t>(packed[1]) << 8 |
+                           std::to_integer<uint32_t>(packed[2]) << 16;
     std::memcpy(&samples[at], &value, sizeof value);
   }
 }
@@ -127,8 +130,8 @@ void unpackRow(std::span<const std::byte> packed, TiffSample stored, std::span<s
     std::copy_n(packed.begin(), samples.size(), samples.begin());
   } else if (type == PictureSample::kFloat) {
     unpackFloats(packed, bits == 16 ? kHalf : kTriple, samples);
-  } else if (bits == 24) {
-    unpackTriples(packed.data(), samples);
+  } else if (bits == 24 && stored.swapped) {
+    unpackTurned(packed.data(), samples);
   } else if (type == PictureSample::kU8) {
     unpackBits<uint8_t>(packed.data(), stored.bits, samples);
   } else if (type == PictureSample::kU16) {
