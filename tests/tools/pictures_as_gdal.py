@@ -221,8 +221,9 @@ def check_palettes():
         if got is None:
             expect(False, kind, told)
             continue
-        entries = np.array([gdal.Open("f.tif").GetRasterBand(1).GetColorTable().GetColorEntry(i)
-                            for i in range(16)])
+        opened = gdal.Open("f.tif")  # which has to outlive its bands
+        found = opened.GetRasterBand(1).GetColorTable()
+        entries = np.array([found.GetColorEntry(i) for i in range(16)])
         wanted = entries[samples[0]].transpose(2, 0, 1)
         expect(np.array_equal(got[:3], wanted[:3]), kind, "other colours")
         expect(len(got) == (3 if nodata is None else 4), kind, f"{len(got)} channels")
@@ -257,7 +258,8 @@ def check_sparse():
         got, told = heights(kind, "f.tif")
         if got is not None and nodata is None and not all_out:
             # What is missing of heights without a nodata value is void, as CLI.md says.
-            void = gdal.Open("t.tif").GetRasterBand(1).GetNoDataValue()
+            opened = gdal.Open("t.tif")
+            void = opened.GetRasterBand(1).GetNoDataValue()
             stored = np.where(stored == 0, void, stored)
         expect(got is not None and np.array_equal(got, stored), kind, f"heights: {told}")
 
@@ -283,11 +285,10 @@ def check_jpeg2000():
             most = (1 << bits) - 1
             wanted[3] = (wanted[3] * 65535 + most // 2) // most
         expect(got is not None and np.array_equal(got, wanted), kind, told)
-    for dtype, low in ((np.int16, -3000), (np.int32, -300000)):
-        samples = (noise(1, 6000, np.float64) + low).astype(dtype)
-        write("f.jp2", samples, "JP2OpenJPEG", options)
-        got, told = heights(f"JPEG 2000 of {dtype}", "f.jp2")
-        expect(got is not None and np.array_equal(got, samples), f"JPEG 2000 of {dtype}", told)
+    samples = (noise(1, 6000, np.float64) - 3000).astype(np.int16)
+    write("f.jp2", samples, "JP2OpenJPEG", options)
+    got, told = heights("signed JPEG 2000", "f.jp2")
+    expect(got is not None and np.array_equal(got, samples), "signed JPEG 2000", told)
 
 
 def bitmap(bits, coding, palette, rows):
