@@ -112,8 +112,8 @@ tks_status keeping(tks_decoder* decoder, F&& f) {
   };
   const auto exhausted = [&](const char* sentence) {
     decoder->sentence = sentence;
-    decoder->heights_memory.clear();
-    decoder->texture_memory.clear();
+    decoder->heights_memory = {};
+    decoder->texture_memory = {};
   };
   return guarded(work, exhausted);
 }

@@ -30,7 +30,7 @@ template <class Value>
 class WatchedDecoding {
  public:
   explicit WatchedDecoding(std::span<const uint8_t> codeword)
-      : codeword_(codeword), decoder_(codeword.first(0)) {}
+      : codeword_(codeword), bytes_(leastBytes(codeword)), decoder_(codeword.first(bytes_)) {}
 
   DrawnIndex target(size_t vertex) {
     noteBytes();
@@ -59,6 +59,12 @@ class WatchedDecoding {
   }
 
  private:
+  /// How many bytes it takes until any decision counts: those of FF alone decide nothing.
+  static size_t leastBytes(std::span<const uint8_t> codeword) {
+    size_t bytes = 0;
+    while (bytes < codeword.size() && RangeDecoder(codeword.first(bytes)).exhausted()) ++bytes;
+    return bytes;
+  }
   void noteBytes() {
     if (!decided_.empty()) decided_.back().bytes = bytes_;
   }
@@ -70,8 +76,8 @@ class WatchedDecoding {
   }
 
   std::span<const uint8_t> codeword_;
+  size_t bytes_;  ///< that the decoder has
   RangeDecoder decoder_;
-  size_t bytes_ = 0;  ///< that the decoder has
   std::vector<DecidedVertex> decided_;
   Value unknown_{};
 };

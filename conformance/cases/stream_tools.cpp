@@ -82,6 +82,7 @@ Tools toolsOf(std::span<const uint8_t> stream) {
   if (!header.index.empty()) tools.insert("index");
   if (header.georeference.heights.has_transform || header.georeference.texture.has_transform)
     tools.insert("georeference");
+  if (!header.optional_parts.empty()) tools.insert("optional parts");
   return tools;
 }
 
@@ -107,6 +108,7 @@ Tools allTools() {
           "levels of several filters",
           "nodata",
           "opening of a late mask",
+          "optional parts",
           "overlay",
           "priorities of heights",
           "priorities of texels",

@@ -337,7 +337,9 @@ TEST_F(CliPlace, OddWorldFilesAreReadAsGdalDoes) {
                            "\n 10.5 m\n\n+0\n0\n-1.025e1\n400005.25\n5300034.875"}) {
     write("h.pgw", text);
     ASSERT_EQ(cli("-q encode h.png --lossless -f -o s.tks").code, 0) << text;
-    EXPECT_EQ(Json(placeOf("s.tks", "heights")), gdalinfo("h.png")["geoTransform"]) << text;
+    const auto place = placeOf("s.tks", "heights");
+    ASSERT_TRUE(place) << text;
+    EXPECT_EQ(Json(*place), gdalinfo("h.png")["geoTransform"]) << text;
   }
 }
 

@@ -313,7 +313,7 @@ TEST(DrawnTexture, PrefixesOfEncodersAreWhatDecodersShow) {
   for (const Size size : {Size{1, 1}, {1, 50}, {21, 17}, {32, 3}}) {
     for (const uint32_t channels : {1u, 4u}) {
       const Texels texels = drawing(size, channels, 8, 20);
-      const auto encoded = encodeDrawn(texels);
+      const auto encoded = encodeDrawn(texels, 1 << 20);
       ASSERT_TRUE(encoded);
       const std::span<const uint8_t> codeword = encoded->tracks.front().codeword;
       const auto shown = prefixesOfDrawing(encoded->header, codeword);

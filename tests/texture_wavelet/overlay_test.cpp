@@ -163,7 +163,7 @@ TEST(Overlay, PrefixesThatGrowInOneMemoryDecodeAsAlone) {
                 decodeTexture(encoded.header, cut).samples)
           << channels << " " << bytes;
     }
-    EXPECT_TRUE(memory.opening != nullptr);
+    EXPECT_TRUE(memory.opening.whole != nullptr);
   }
 }
 

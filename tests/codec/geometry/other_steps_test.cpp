@@ -13,13 +13,13 @@
 namespace tetrakis::test {
 namespace {
 
-constexpr uint32_t kSide = 160;
+constexpr uint32_t kSideOfSteps = 160;
 
 std::vector<float> floats(const std::function<double(uint32_t x, uint32_t y, double ground)>& of) {
   std::vector<float> heights;
   uint32_t noise = 1;
-  for (uint32_t y = 0; y < kSide; ++y) {
-    for (uint32_t x = 0; x < kSide; ++x) {
+  for (uint32_t y = 0; y < kSideOfSteps; ++y) {
+    for (uint32_t x = 0; x < kSideOfSteps; ++x) {
       noise = noise * 1664525 + 1013904223;
       const double ground = 900 + 70 * std::sin(x / 9. + y / 23.) + 50 * std::cos(y / 7.) +
                             (noise >> 8) * 0x1p-24 * 9;
@@ -32,7 +32,7 @@ std::vector<float> floats(const std::function<double(uint32_t x, uint32_t y, dou
 HeightSteps stepsOf(const std::vector<float>& heights, bool lossless = true) {
   tks_heights source = {};
   source.size = sizeof source;
-  source.width = source.height = kSide;
+  source.width = source.height = kSideOfSteps;
   source.sample = TKS_F32;
   source.data = heights.data();
   source.scale = 1;
@@ -76,8 +76,8 @@ TEST(OtherSteps, KeepFineStepsOfOthers) {
     return x % 16 == 0 ? wholeIn(1, height) : height;
   }));
   EXPECT_EQ(few.step, fine);
-  const HeightSteps flat = stepsOf(
-      floats([&](uint32_t x, uint32_t, double height) { return x < kSide / 2 ? 700 : height; }));
+  const HeightSteps flat = stepsOf(floats(
+      [&](uint32_t x, uint32_t, double height) { return x < kSideOfSteps / 2 ? 700 : height; }));
   EXPECT_EQ(flat.step, fine) << "flat ground has no step";
 }
 
