@@ -32,7 +32,8 @@ ScatteredPackets::ScatteredPackets(const ParsedHeader& parsed, const Demultiplex
     const auto [before, is_first] = last[component].try_emplace(head.track, number);
     if (!is_first) places_[std::exchange(before->second, number)].next = number;
     if (number >= complete)
-      frontiers_[component].try_emplace(head.track, number, number == complete ? seen : 0);
+      frontiers_[component].try_emplace(head.track,
+                                        Frontier{number, number == complete ? seen : 0});
   }
 }
 

@@ -219,10 +219,12 @@ tks_status fitPositions(tks_buffer& out) {
 }
 
 std::vector<Called> fittingCalls() {
-  return {{"tks_fit_positions", [](Desk& d) {
+  return {{"tks_fit_positions",
+           [](Desk& d) {
              tks_free_buffer(&d.buffer);
              return fitPositions(d.buffer);
-           }}};
+           },
+           [](Desk&) {}, [](Desk&) {}, false}};
 }
 
 /// Of streams with positions.

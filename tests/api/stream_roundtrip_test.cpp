@@ -142,7 +142,8 @@ TEST(StreamRoundTrip, IndexedStreamDecodesTheSame) {
   EXPECT_TRUE(stream.texture() == image.data);
 }
 
-TEST(StreamRoundTrip, VerifyHoldsTheIndexAgainstThePackets) {
+/// The index informs: a quality that is not its own is damage only where a checksum says so.
+TEST(StreamRoundTrip, VerifyDoesNotHoldTheIndexAgainstThePackets) {
   const Raster heights = make({Pattern::kRidges, 33, 29, 1, TKS_I16});
   tks_encode_options options = lossless();
   options.index = 1;
@@ -159,7 +160,7 @@ TEST(StreamRoundTrip, VerifyHoldsTheIndexAgainstThePackets) {
     while (bytes[quality] >= 0x80) ++quality;  // the head's varint
     bytes[quality + 1] ^= 1;
     Stream tampered(bytes);
-    EXPECT_EQ(tks_verify(tampered.get()), TKS_CORRUPT) << budget;
+    EXPECT_EQ(tks_verify(tampered.get()), budget == 0 ? TKS_CORRUPT : TKS_OK) << budget;
   }
 }
 

@@ -23,7 +23,7 @@ struct TilesArguments {
   StreamSource source;
   std::string folder, format = "quantized-mesh";
   uint32_t threads = hardwareThreads();
-  bool skirts = true, skirts_said = false, force = false;
+  bool no_skirts = false, force = false;
 };
 
 /// A folder that is written beside its place and appears whole or not at all. One that is not empty
@@ -77,9 +77,9 @@ class TileFolder {
 Status makeTiles(const TilesArguments& arguments, bool quiet) {
   TileOptions options;
   if (arguments.format == "3dtiles") options.format = TileFormat::k3dTiles;
-  options.skirts = arguments.skirts && options.format == TileFormat::k3dTiles;
-  if (arguments.skirts_said && options.format != TileFormat::k3dTiles)
-    return {TKS_USAGE, "--skirts are for --format 3dtiles: viewers make those of quantized-mesh"};
+  options.skirts = !arguments.no_skirts && options.format == TileFormat::k3dTiles;
+  if (arguments.no_skirts && options.format != TileFormat::k3dTiles)
+    return {TKS_USAGE, "--no-skirts is for --format 3dtiles: quantized-mesh has none"};
   Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
   stream->decoder.setThreads(arguments.threads);
@@ -115,13 +115,11 @@ void addTiles(CLI::App& app, CommandLine& line) {
                   "Of the tiles: quantized-mesh (default) or 3dtiles")
       ->check(silent(CLI::IsMember({"quantized-mesh", "3dtiles"})))
       ->type_name("NAME");
-  const CLI::Option* const skirts =
-      verb.add_flag("--skirts,!--no-skirts", arguments->skirts,
-                    "Hang walls below the edges of tiles (3dtiles; default)");
+  verb.add_flag("--no-skirts", arguments->no_skirts,
+                "Leave out the walls below the edges of tiles (3dtiles)");
   addThreads(verb, arguments->threads);
   addForce(verb, arguments->force);
-  verb.callback([arguments, skirts, &line] {
-    arguments->skirts_said = skirts->count() > 0;
+  verb.callback([arguments, &line] {
     line.action = [arguments, &line] { return makeTiles(*arguments, line.quiet); };
   });
 }

@@ -45,11 +45,16 @@ std::optional<double> freeValue(std::span<const T> samples, const std::vector<ui
   return std::is_signed_v<T> ? double{Limits::min()} + free : double{Limits::max()} - free;
 }
 
+/// How many samples a nodata value would name.
 uint64_t countOf(double value, const HeightFile& heights) {
   return visitSamples(heights, [value](auto samples) {
     return static_cast<uint64_t>(
-        std::count_if(samples.begin(), samples.end(),
-                      [value](auto sample) { return static_cast<double>(sample) == value; }));
+        std::count_if(samples.begin(), samples.end(), [value](auto sample) {
+          if constexpr (std::is_floating_point_v<decltype(sample)>)
+            return meetsNodata(sample, floatNodata(value));
+          else
+            return static_cast<double>(sample) == value;
+        }));
   });
 }
 
