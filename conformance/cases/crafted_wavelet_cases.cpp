@@ -70,8 +70,8 @@ std::vector<VectorCase> weightCases() {
   return {weightCase(3, 2), weightCase(4, 8)};
 }
 
-/// Maps of priorities of noise: one that ends early, and tiles smaller than what the coefficients of
-/// coarse levels reach. And sums of joint lifting that leave 32 bits or do not.
+/// Maps of priorities of noise: one that ends early, and tiles smaller than what the coefficients
+/// of coarse levels reach. And sums of joint lifting that leave 32 bits or do not.
 std::vector<VectorCase> priorityCases() {
   const auto mapped = [](uint32_t width, uint32_t height, size_t map_bytes) {
     StreamHeader header = heightsHeader(width, height, TKS_I16, 14);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Counts the bytes that a test executable has allocated, and lets an allocation fail: by operator new, and by malloc and calloc
-// in whatever is linked with allocation_count.cpp and wraps malloc, calloc and free
-// (tests/api/CMakeLists.txt).
+// Counts the bytes that a test executable has allocated, and lets an allocation fail: by operator
+// new, and by malloc and calloc in whatever is linked with allocation_count.cpp and wraps malloc,
+// calloc and free (tests/api/CMakeLists.txt).
 #pragma once
 
 #include <cstdint>

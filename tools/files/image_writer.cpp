@@ -21,8 +21,9 @@ constexpr unsigned kAll = kGrey | kGreyAlpha | kRgb | kRgba;
 
 /// A format by OpenImageIO's name, and what comes back of it. A table, because the library can be
 /// asked neither which depths nor which channels a format takes (it converts, and DPX even aborts).
-/// Left out: bitmaps with alpha, which OpenImageIO 2.4 does not call so, formats of floats alone (OpenEXR, HDR, Zfile), which no texture is read from, and
-/// FITS, of which OpenImageIO 2.4 makes files that others do not read.
+/// Left out: bitmaps with alpha, which OpenImageIO 2.4 does not call so, formats of floats alone
+/// (OpenEXR, HDR, Zfile), which no texture is read from, and FITS, of which OpenImageIO 2.4 makes
+/// files that others do not read.
 struct Format {
   const char* name;
   unsigned channels8, channels16;

@@ -28,8 +28,8 @@ export class Fetcher {
     this.#requestBytes = requestBytes;
   }
 
-  /** What a request costs among those for so many bytes: of a file that is cut short a plan asks for
-   * all. */
+  /** What a request costs among those for so many bytes: of a file that is cut short a plan asks
+   * for all. */
   #requestCost(bytes) {
     const here = this.#held.bytes;
     const share = this.truncated ? 0 : Math.min(SHARE_OF_ASKED * bytes, here);

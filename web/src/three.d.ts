@@ -15,8 +15,8 @@ export interface TerrainOptions {
   /** Milliseconds in which the surface moves from one frame to the next, where update() is called
    * for each picture. Default 300; 0: it jumps. */
   glideTime?: number;
-  /** Default: one that needs no lights, as a photograph holds its own. Give a MeshLambertMaterial or
-   * MeshStandardMaterial for lights of yours. A TksTerrain draws its texture with it and disposes
+  /** Default: one that needs no lights, as a photograph holds its own. Give a MeshLambertMaterial
+   * or MeshStandardMaterial for lights of yours. A TksTerrain draws its texture with it and disposes
    * it, so that it serves no other one; a TksLoader gives each terrain a copy. */
   material?: Material;
 }

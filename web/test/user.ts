@@ -59,7 +59,9 @@ export async function deck(): Promise<void> {
 }
 
 export async function cesium(scene: Globe): Promise<void> {
-  const alps = await TksTerrainProvider.fromUrl('a.tks', {heightOffset: 52, bounds: [8, 46, 9, 47]});
+  const alps = await TksTerrainProvider.fromUrl('a.tks', {
+    heightOffset: 52, bounds: [8, 46, 9, 47],
+  });
   scene.terrainProvider = alps;
   if (alps.imagery) scene.imageryLayers.addImageryProvider(alps.imagery);
   await alps.refine(scene, {bytes: 2e6});

@@ -499,13 +499,14 @@ test('sliders say their values, and the sun moves', async () => {
   });
 });
 
-/** Of a part of a picture: the share of texels whose red is the most there is, and how many reds. */
+/** Of a part of a picture: the share of texels whose red is the largest, and how many reds. */
 const tonesOf = (page, picture) => page.evaluate(async (base64) => {
   const answer = await fetch('data:image/png;base64,' + base64);
   const image = await createImageBitmap(await answer.blob());
   const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
   context.drawImage(image, 0, 0);
-  const {data} = context.getImageData(250, 250, 200, 100), reds = data.filter((_, i) => i % 4 === 0);
+  const {data} = context.getImageData(250, 250, 200, 100);
+  const reds = data.filter((_, i) => i % 4 === 0);
   const burnt = reds.filter((red) => red === 255).length / reds.length;
   return {burnt, tones: new Set(reds).size};
 }, picture.toString('base64'));

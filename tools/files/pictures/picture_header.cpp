@@ -80,7 +80,8 @@ Header jpegHeader(const Bytes& file) {
   return Status(TKS_IO, "ends early or is damaged");
 }
 
-/// OpenImageIO 2.4 stops at the end of a line of runs, and rounds 16 bits. In 32 bits reading takes the fourth byte for alpha, whatever the masks of the channels are.
+/// OpenImageIO 2.4 stops at the end of a line of runs, and rounds 16 bits. In 32 bits reading takes
+/// the fourth byte for alpha, whatever the masks of the channels are.
 Header bmpHeader(const Bytes& file) {
   constexpr uint64_t kCoreHeader = 12, kRgb = 0, kRle8 = 1, kFields = 3;
   constexpr size_t kInfo = 14, kMasks = kInfo + 40, kAlphaMask = kMasks + 12;

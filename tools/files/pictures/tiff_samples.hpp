@@ -19,9 +19,9 @@ struct TiffSample {
 /// The smallest type that holds all values; kOther: there is none.
 PictureSample typeOf(TiffSample stored);
 
-/// Fills `samples`, of type typeOf(stored), from a row as libtiff hands it over: words of 16, 32 and
-/// 64 bits in the order of the host. Integers of 24 bits begin with the highest byte in any file, as
-/// GDAL has it.
+/// Fills `samples`, of type typeOf(stored), from a row as libtiff hands it over: words of 16, 32
+/// and 64 bits in the order of the host. Integers of 24 bits begin with the highest byte in any
+/// file, as GDAL has it.
 void unpackRow(std::span<const std::byte> packed, TiffSample stored, std::span<std::byte> samples);
 
 /// The value in all `samples` of the type, the nearest one where the type does not hold it, and 0

@@ -14,7 +14,8 @@ namespace tetrakis::tools {
 bool knownToBrowsers(const std::string& crs);
 
 /// Gives heights, texture or both their positions where browsers need them and `most_bytes` hold
-/// them; either may be null. What cannot be fitted is told by the sentence that comes back, "" else.
+/// them; either may be null. What cannot be fitted is told by the sentence that comes back, ""
+/// else.
 std::string addPositions(HeightFile* heights, ImageFile* image, uint64_t most_bytes);
 
 }  // namespace tetrakis::tools
