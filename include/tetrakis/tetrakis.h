@@ -296,8 +296,8 @@ typedef struct tks_outliers {
                      declares it as nodata saves bytes, and most of the error of small streams */
 } tks_outliers;
 
-/* Looks for outliers among heights that are not the declared nodata value. tks_encode does not: a
- * value that is not declared is a height to it. TKS_USAGE: heights that tks_encode refuses as well. */
+/* Looks for outliers among heights that are not the declared nodata value. tks_encode does not:
+ * an undeclared value is a height to it. TKS_USAGE: heights that tks_encode refuses as well. */
 tks_status tks_find_outliers(const tks_heights* heights, tks_outliers* out);
 
 /* What a decoder may take. It refuses more with TKS_LIMIT, before it allocates anything. A field of

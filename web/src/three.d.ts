@@ -16,7 +16,7 @@ export interface TerrainOptions {
    * for each picture. Default 300; 0: it jumps. */
   glideTime?: number;
   /** Default: one that needs no lights, as a photograph holds its own. Give a MeshLambertMaterial
-   * or MeshStandardMaterial for lights of yours. A TksTerrain draws its texture with it and disposes
+   * or MeshStandardMaterial for your lights. A TksTerrain draws its texture with it and disposes
    * it, so that it serves no other one; a TksLoader gives each terrain a copy. */
   material?: Material;
 }
