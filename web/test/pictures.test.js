@@ -22,7 +22,7 @@ const [WIDTH, HEIGHT, FIELD] = [1000, 600, 45];
 const ASIDE = 150;
 const LEAST = 35;  // dB
 /** The panels are hidden, and behind the ground lies the sky of the native renderer. */
-const STYLE = `aside, header, #message { display: none }
+const STYLE = `aside, header, #message, #bearings { display: none }
   #picture { background: linear-gradient(rgb(172 199 226), rgb(240 243 245)) }`;
 /** Of a terrain of 3840 m: down on it, and across it to the sky. */
 const PLACES = [
