@@ -26,9 +26,8 @@ test('what users write in TypeScript is accepted, with any kind of resolution', 
 
 /** What README's examples, by their headings, take as given. */
 const GIVEN = {
-  'three.js': `import {AmbientLight, type Camera, type Light, type Scene, type WebGLRenderer}
-    from 'three';
-    declare const scene: Scene, sun: Light, camera: Camera, renderer: WebGLRenderer;`,
+  'three.js': `import type {PerspectiveCamera, Scene, WebGLRenderer} from 'three';
+    declare const scene: Scene, camera: PerspectiveCamera, renderer: WebGLRenderer;`,
   'MapLibre GL JS': `import * as maplibregl from 'maplibre-gl'; declare const map: maplibregl.Map;`,
   'Cesium': `import type {Scene} from '@cesium/engine'; declare const scene: Scene;`,
   'Any renderer': 'declare const signal: AbortSignal;',
@@ -36,6 +35,12 @@ const GIVEN = {
     declare const geotransform: number[], imageData: ImageData, bar: HTMLProgressElement;
     declare const signal: AbortSignal;`,
 };
+
+/** What an example that goes on from the one before it takes as given besides. */
+const PROJ4 = `import type {TksProtocol} from 'tetrakis/maplibre';
+  type Place = [number, number];
+  declare const protocol: TksProtocol;
+  declare const proj4: (from: string, to: string) => {forward(place: Place): Place};`;
 
 test('the examples of README are accepted', async () => {
   const readme = await readFile(web + 'README.md', 'utf8'), folder = web + 'dist/types-test/';
@@ -47,10 +52,11 @@ test('the examples of README are accepted', async () => {
       if (!(heading in GIVEN)) continue;
       for (const [, example] of section.matchAll(/```js\n(.*?)```/gs)) {
         files.push(`dist/types-test/${files.length}.mts`);
-        await writeFile(web + files.at(-1), `${GIVEN[heading]}\n${example}`);
+        const besides = example.includes('proj4(') ? PROJ4 : '';
+        await writeFile(web + files.at(-1), `${GIVEN[heading]}\n${besides}\n${example}`);
       }
     }
-    assert.equal(files.length, 6);
+    assert.equal(files.length, 7);
     assert.deepEqual(complaints(files, RESOLUTIONS[0]), []);
   } finally {
     await rm(folder, {recursive: true});
