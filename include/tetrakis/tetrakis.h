@@ -336,7 +336,8 @@ tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes);
  * the coefficients, about 16 bytes a sample, for all levels together; where limits.max_memory does
  * not allow for them, it decodes from the beginning. tks_get_info tells what is known now.
  * TKS_CORRUPT: these bytes belong to no stream. TKS_LIMIT: as of tks_open. In both cases the
- * decoder goes on with what it had, and takes no more bytes. */
+ * decoder goes on with what it had, and takes no more bytes. TKS_NO_MEMORY, of tks_put as well: the
+ * decoder is lost, and every later call on it says so; close it. */
 tks_status tks_append(tks_decoder* decoder, const uint8_t* data, size_t size);
 
 /* Gives the decoder bytes from anywhere in a stream that has a front index

@@ -96,8 +96,8 @@ struct MeshFile {
 };
 
 /// Reads one-channel TIFF (integer or float, with GeoTIFF and GDAL tags), PNG 8/16, EXR, .hgt,
-/// headerless .raw given as "file.raw:WIDTHxHEIGHT:u8|i8|u16|i16|u32|i32|f32" (little endian), and
-/// what else OpenImageIO reads as stored. "-" reads standard input. Samples come as stored, never
+/// headerless .raw given as "file.raw:WIDTHxHEIGHT:u8|i8|u16|i16|u32|i32|f32" (little endian), JPEG
+/// 2000, and the other pictures of docs/CLI.md. "-" reads standard input. Samples come as stored, never
 /// rescaled; half floats become floats, and doubles the nearest floats. What a sparse TIFF leaves
 /// out is void. What GDAL takes for void is: floats that nearly meet the nodata value become that
 /// value, so do samples that a mask (a page, or "path.msk") leaves out. `nodata` replaces the value
@@ -117,7 +117,7 @@ Result<HeightFile> readHeights(const std::string& path, const std::optional<doub
 Status writeHeights(const std::string& path, const HeightFile& heights,
                     const std::string& format = "");
 
-/// Reads what OpenImageIO reads; "-" reads standard input. Integers of other depths are scaled to 8
+/// Reads the pictures of docs/CLI.md; "-" reads standard input. Integers of other depths become 8
 /// or 16 bits, palette and CMYK files are converted to RGB, an orientation tag is applied, and
 /// `note` then says so ("" otherwise). Float or signed images and more than 4 channels are refused
 /// with TKS_USAGE. A fourth channel, or a second one, that a TIFF does not call alpha is a further
