@@ -98,8 +98,8 @@ struct MeshFile {
 /// Reads one-channel TIFF (integer or float, with GeoTIFF and GDAL tags), PNG 8/16, EXR, .hgt,
 /// headerless .raw given as "file.raw:WIDTHxHEIGHT:u8|i8|u16|i16|u32|i32|f32" (little endian), JPEG
 /// 2000, and the other pictures of docs/CLI.md. "-" reads standard input. Samples come as stored,
-/// never rescaled; half floats become floats, and doubles the nearest floats. What a sparse TIFF leaves
-/// out is void. What GDAL takes for void is: floats that nearly meet the nodata value become that
+/// never rescaled; half floats become floats, and doubles the nearest floats. Blocks that a sparse
+/// TIFF leaves out are void. What GDAL takes for void is: floats that nearly meet the nodata value become that
 /// value, so do samples that a mask (a page, or "path.msk") leaves out. `nodata` replaces the value
 /// that the file declares. The place is that of the TIFF's tags, of the tile that an .hgt is called
 /// after, or of a world file beside (world_file.hpp). Spacing in degrees is turned into metres at
