@@ -99,12 +99,12 @@ struct MeshFile {
 /// headerless .raw given as "file.raw:WIDTHxHEIGHT:u8|i8|u16|i16|u32|i32|f32" (little endian), JPEG
 /// 2000, and the other pictures of docs/CLI.md. "-" reads standard input. Samples come as stored,
 /// never rescaled; half floats become floats, and doubles the nearest floats. Blocks that a sparse
-/// TIFF leaves out are void. What GDAL takes for void is: floats that nearly meet the nodata value become that
-/// value, so do samples that a mask (a page, or "path.msk") leaves out. `nodata` replaces the value
-/// that the file declares. The place is that of the TIFF's tags, of the tile that an .hgt is called
-/// after, or of a world file beside (world_file.hpp). Spacing in degrees is turned into metres at
-/// the raster's centre. Fails with TKS_IO if the file cannot be read, TKS_USAGE if it does not hold
-/// heights (channels, sample type, size).
+/// TIFF leaves out are void. What GDAL takes for void is: floats that nearly meet the nodata value
+/// become that value, so do samples that a mask (a page, or "path.msk") leaves out. `nodata`
+/// replaces the value that the file declares. The place is that of the TIFF's tags, of the tile
+/// that an .hgt is called after, or of a world file beside (world_file.hpp). Spacing in degrees is
+/// turned into metres at the raster's centre. Fails with TKS_IO if the file cannot be read,
+/// TKS_USAGE if it does not hold heights (channels, sample type, size).
 Result<HeightFile> readHeights(const std::string& path, const std::optional<double>& nodata = {},
                                Notes* notes = nullptr);
 
