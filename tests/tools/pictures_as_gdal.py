@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Pictures of every kind that GDAL writes come back from a stream as GDAL reads them.
+"""Pictures of every kind that GDAL writes are read as GDAL reads them.
 
-pictures_as_gdal.py TETRAKIS: the program. Interleavings, tilings, compressions, colour spaces,
-numbers of bits; what is refused has a sentence, an exit code of 1 or 2, and leaves no output.
+pictures_as_gdal.py TETRAKIS READ_PICTURES: the programs. Interleavings, tilings, compressions,
+colour spaces, numbers of bits; `tetrakis encode` refuses a file with a sentence and an exit code of
+1 or 2, and leaves no output.
 """
 import itertools
 import os
@@ -21,7 +22,7 @@ except ImportError:
 gdal.UseExceptions()
 gdal.PushErrorHandler("CPLQuietErrorHandler")
 WIDTH, HEIGHT = 37, 21
-TETRAKIS = os.path.abspath(sys.argv[1])
+TETRAKIS, READER = map(os.path.abspath, sys.argv[1:])
 failures = []
 counted = 0
 
@@ -43,35 +44,45 @@ def refuses(kind, outcome):
     expect(not left, kind, f"leaves {left}")
 
 
+class Reader:
+    """READ_PICTURES, which is started again if a file kills it."""
+
+    def __init__(self):
+        self.program = None
+
+    def __call__(self, part, kind, name):
+        """The bands of t.tif and a note; or nothing and a sentence."""
+        global counted
+        counted += 1
+        if os.path.exists("t.tif"):
+            os.remove("t.tif")
+        if self.program is None:
+            self.program = subprocess.Popen([READER], stdin=subprocess.PIPE,
+                                            stdout=subprocess.PIPE, text=True)
+        self.program.stdin.write(f"{part} {name}\n")
+        self.program.stdin.flush()
+        answer = self.program.stdout.readline()
+        if not answer:
+            self.program = None
+            expect(False, kind, "the reader dies")
+            return None, ""
+        status, told = answer.rstrip("\n").split(" ", 1)
+        if status == "0":
+            return bands("t.tif"), told
+        given = ("--texture", name) if part == "texture" else (name,)
+        refuses(kind, run("encode", *given, "--lossless", "-o", "t.tks"))
+        return None, told
+
+
+reader = Reader()
+
+
 def texture(kind, name):
-    """What comes back, as bands of a TIFF; nothing if it is refused."""
-    global counted
-    counted += 1
-    for old in ("t.tks", "t.tif"):
-        if os.path.exists(old):
-            os.remove(old)
-    made = run("encode", "--texture", name, "--lossless", "--threads", "1", "-o", "t.tks")
-    if made.returncode != 0:
-        refuses(kind, made)
-        return None, made.stderr
-    back = run("decode", "t.tks", "--texture", "t.tif")
-    expect(back.returncode == 0, kind, back.stderr)
-    return bands("t.tif"), made.stderr
+    return reader("texture", kind, name)
 
 
 def heights(kind, name):
-    global counted
-    counted += 1
-    for old in ("t.tks", "t.tif"):
-        if os.path.exists(old):
-            os.remove(old)
-    made = run("encode", name, "--lossless", "--threads", "1", "-o", "t.tks")
-    if made.returncode != 0:
-        refuses(kind, made)
-        return None, made.stderr
-    back = run("decode", "t.tks", "--height", "t.tif")
-    expect(back.returncode == 0, kind, back.stderr)
-    return bands("t.tif"), made.stderr
+    return reader("heights", kind, name)
 
 
 def bands(name):
@@ -80,7 +91,7 @@ def bands(name):
 
 
 def noise(channels, most, dtype, seed=1):
-    """Few values: streams are made quickly."""
+    """Few values."""
     random = np.random.default_rng(seed)
     values = np.linspace(0, most, 5).astype(np.float64)
     steps = np.add.outer(np.arange(HEIGHT) // 4, np.arange(WIDTH) // 5)

@@ -174,3 +174,11 @@ def placed(tmp_path_factory, texture):
     )
     copy(source, name, "TEXTURE=" + texture)
     return name
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Tests of a file share what it makes, so one worker takes them; the corpus shares nothing."""
+    for item in items:
+        if item.path.name != "test_corpus.py":
+            item.add_marker(pytest.mark.xdist_group(item.path.name))
