@@ -28,7 +28,7 @@ void forEachPacket(const tks_decoder& decoder, Component component, const Take& 
   const uint64_t end = decoder.parsed.bytes + header.payload_bytes;
   for (const IndexedPacket& packet : IndexedPackets(header, decoder.parsed.bytes)) {
     const PacketHead& head = packet.entry.packet;
-    if (head.component() == component)
+    if (head.component == component)
       take(head.track, std::min(packet.end, end) - std::min(packet.payload, end));
   }
 }

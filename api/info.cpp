@@ -95,15 +95,14 @@ struct PositionBytes {
 };
 
 /// As they stand in the stream, if they are of the form that is known.
-PositionBytes positionsIn(const tks_decoder& decoder, OptionalKind kind) {
-  const std::string* bytes = findPart(decoder.parsed.header.optional_parts, kind);
-  if (bytes == nullptr || !groundPositionsIn(*bytes)) return {};
-  return {reinterpret_cast<const uint8_t*>(bytes->data()), bytes->size()};
+PositionBytes positionsIn(const std::string& bytes) {
+  if (!groundPositionsIn(bytes)) return {};
+  return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 
 void fillPositions(const tks_decoder& decoder, tks_info& info) {
-  const PositionBytes heights = positionsIn(decoder, OptionalKind::kHeightPositions);
-  const PositionBytes texture = positionsIn(decoder, OptionalKind::kTexturePositions);
+  const PositionBytes heights = positionsIn(decoder.parsed.header.height_positions);
+  const PositionBytes texture = positionsIn(decoder.parsed.header.texture_positions);
   info.positions = heights.data;
   info.positions_size = heights.size;
   info.texture_positions = texture.data;

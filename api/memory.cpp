@@ -13,7 +13,7 @@ namespace tetrakis::inline api {
 uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks) {
   constexpr uint64_t kNode = 160;  // of a track that is known by a byte
   uint64_t known = 0;
-  for (const TrackCount& track : tracks) known += std::min(track.tracks, count.packets);
+  for (size_t c = 0; c < kComponents; ++c) known += std::min(tracks[c].tracks, count.packets);
   // A vector that grows has up to twice its size beside the one before.
   return count.packets * sizeof(PacketHead) + 3 * count.bytes + known * kNode;
 }

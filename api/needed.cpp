@@ -31,8 +31,7 @@ std::vector<tks_range> rangesOfTracks(const tks_decoder& decoder, Component comp
   std::optional<uint32_t> last;
   for (const IndexedPacket& packet : IndexedPackets(header, decoder.parsed.bytes)) {
     const PacketHead& head = packet.entry.packet;
-    if (head.component() != component || head.track >= needed.size() || !needed[head.track])
-      continue;
+    if (head.component != component || head.track >= needed.size() || !needed[head.track]) continue;
     const uint64_t size = std::min(packet.end, end) - packet.begin;
     const bool goes_on = !regions_apart || last == head.track;
     last = head.track;

@@ -25,9 +25,9 @@ Pixel onHeights(const Pixel& pixel, const GeoTransform& texture, const GeoTransf
   return {(heights[5] * x - heights[2] * y) / area, (heights[1] * y - heights[4] * x) / area};
 }
 
-Result<LongitudeLatitude> placeOf(const std::string* bytes, const Pixel& pixel,
+Result<LongitudeLatitude> placeOf(const std::string& bytes, const Pixel& pixel,
                                   const Extent& extent) {
-  const auto positions = bytes != nullptr ? groundPositionsIn(*bytes) : std::nullopt;
+  const auto positions = groundPositionsIn(bytes);
   if (!positions) return Status(TKS_UNSUPPORTED, "The stream holds no positions for this part.");
   const TangentPlane plane(
       {static_cast<double>(positions->longitude), static_cast<double>(positions->latitude)});
@@ -45,15 +45,13 @@ Result<LongitudeLatitude> locate(const tks_decoder& decoder, const tks_pixel& as
     return Status(TKS_USAGE, "The stream does not hold this part.");
   const int level = is_texture ? decoder.texture_level : decoder.heights_level;
   const Pixel pixel = atFinest({asked.column, asked.row}, level);
-  const std::string* own =
-      findPart(header.optional_parts,
-               is_texture ? OptionalKind::kTexturePositions : OptionalKind::kHeightPositions);
-  if (own != nullptr || !is_texture)
+  const std::string& own = is_texture ? header.texture_positions : header.height_positions;
+  if (!own.empty() || !is_texture)
     return placeOf(own, pixel, is_texture ? header.texture->shown() : header.geometry->shown());
   const bool shares = header.geometry && place.heights.has_transform &&
                       place.texture.has_transform && !place.hasTextureCrs();
-  if (!shares) return placeOf(nullptr, pixel, header.texture->shown());
-  return placeOf(findPart(header.optional_parts, OptionalKind::kHeightPositions),
+  if (!shares) return placeOf({}, pixel, header.texture->shown());
+  return placeOf(header.height_positions,
                  onHeights(pixel, place.texture.transform, place.heights.transform),
                  header.geometry->shown());
 }

@@ -71,7 +71,7 @@ class ErrorLeft {
   explicit ErrorLeft(const std::vector<IndexEntry>& entries) : is_there_(entries.size()) {
     for (const auto& [packet, slope] : entries) {
       qualities_.push_back(packet.quality);
-      gains_.push_back(slopeOf(slope) * static_cast<double>(packet.length()));
+      gains_.push_back(slopeOf(slope) * static_cast<double>(packet.length));
     }
     for (size_t i = entries.size(); i-- > 0;) {
       const double taken = squares(i) - squares(entries.size() - 1);
@@ -106,28 +106,29 @@ class ErrorLeft {
 /// The index in that order, with what is left of the errors after each packet.
 std::vector<IndexEntry> reorderedIndex(const std::vector<IndexEntry>& index,
                                        const std::vector<size_t>& order) {
-  std::array<std::vector<IndexEntry>, kComponents> entries;
+  std::array<std::vector<IndexEntry>, kRoles> entries;
   std::vector<size_t> places;  // among those of the component
   for (const IndexEntry& entry : index) {
-    std::vector<IndexEntry>& of = entries[static_cast<size_t>(entry.packet.component())];
+    std::vector<IndexEntry>& of = entries[static_cast<size_t>(entry.packet.component)];
     places.push_back(of.size());
     of.push_back(entry);
   }
-  std::array<ErrorLeft, kComponents> left = {ErrorLeft(entries[0]), ErrorLeft(entries[1])};
+  std::array<ErrorLeft, kRoles> left = {ErrorLeft(entries[0]), ErrorLeft(entries[1]),
+                                        ErrorLeft(entries[2])};
   std::vector<IndexEntry> reordered;
   for (const size_t i : order) {
     reordered.push_back(index[i]);
     PacketHead& packet = reordered.back().packet;
-    packet.quality = left[static_cast<size_t>(packet.component())].take(places[i]);
+    packet.quality = left[static_cast<size_t>(packet.component)].take(places[i]);
   }
   return reordered;
 }
 
 /// Appends a packet with another head, of which the quality alone differs, up to where it is cut.
-void appendPacket(std::span<const uint8_t> packet, const PacketHead& head, bool named,
-                  std::vector<uint8_t>& stream) {
-  std::vector<uint8_t> bytes = headBytes(head, named);
-  assert(packet.size() <= bytes.size() + head.length());
+void appendPacket(std::span<const uint8_t> packet, const PacketHead& head,
+                  const TrackCounts& counts, std::vector<uint8_t>& stream) {
+  std::vector<uint8_t> bytes = headBytes(head, counts);
+  assert(packet.size() <= bytes.size() + head.length);
   bytes.resize(std::min(bytes.size(), packet.size()));
   stream.insert(stream.end(), bytes.begin(), bytes.end());
   const std::span<const uint8_t> rest = packet.subspan(bytes.size());
@@ -158,8 +159,7 @@ Status reorder(tks_decoder& decoder, const std::vector<WeightedSighting>& sighti
   const TrackCounts counts = trackCounts(header);
   for (size_t i = 0; i < order->size(); ++i) {
     const PacketHead& head = reordered.index[i].packet;
-    const bool named = counts[static_cast<size_t>(head.component())].named;
-    appendPacket(packets[(*order)[i]].bytes, head, named, payload);
+    appendPacket(packets[(*order)[i]].bytes, head, counts, payload);
   }
   if (reordered.payload_crc) reordered.payload_crc = crc32(payload);
   std::vector<uint8_t> stream = writeHeader(reordered);

@@ -23,25 +23,25 @@ class WorthInOrder {
 
   /// worth: of the packet without what came before.
   PacketWorth take(const PacketHead& head, const PacketWorth& worth) {
-    const auto component = static_cast<size_t>(head.component());
-    if (head.track == 0 && opened_[component] < openingBytes(header_, head.component())) {
-      opened_[component] += head.length();
+    const auto component = static_cast<size_t>(head.component);
+    if (head.track == 0 && opened_[component] < openingBytes(header_, head.component)) {
+      opened_[component] += head.length;
       return {kOpening, kOpening, kOpening};
     }
-    const auto [last, is_new] = last_.try_emplace({head.component(), head.track}, worth);
+    const auto [last, is_new] = last_.try_emplace({head.component, head.track}, worth);
     last->second = last->second.least(worth);
     return last->second;
   }
 
  private:
   const StreamHeader& header_;
-  std::array<uint64_t, kComponents> opened_{};
+  std::array<uint64_t, kRoles> opened_{};
   std::map<std::pair<Component, uint32_t>, PacketWorth> last_;
 };
 
 /// Whether a packet holds corrections in tracks of their own.
 bool isCorrection(const StreamHeader& header, const PacketHead& head) {
-  if (head.component() != Component::kGeometry || !header.geometry) return false;
+  if (head.component != Component::kGeometry || !header.geometry) return false;
   return head.track >= coefficientTracks(*header.geometry);
 }
 
@@ -87,6 +87,7 @@ Result<std::vector<PlacedPacket>> placedPackets(const StreamHeader& header, uint
     const double slope = is_correction ? 1 : slopeOf(packet.entry.slope);
     PacketWorth worth{0, 0, slope};
     for (size_t i = 0; i < costs.size(); ++i) {
+      if (head.component == Component::kOther) break;  // worth nothing to whoever does not know it
       if (!costs[i].holds(head))
         return Status(TKS_CORRUPT, "Corrupt stream: its index names a track that there is not.");
       const double here = slope * sightings[i].weight * costs[i].at(head);

@@ -22,10 +22,10 @@ class TrackCosts {
 
  private:
   const std::vector<double>& of(const PacketHead& packet) const {
-    return costs_[static_cast<size_t>(packet.component())];
+    return costs_[static_cast<size_t>(packet.component)];
   }
 
-  std::array<std::vector<double>, kComponents> costs_;
+  std::array<std::vector<double>, kRoles> costs_;
 };
 
 }  // namespace tetrakis::inline receiver

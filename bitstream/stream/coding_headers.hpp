@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the headers of heights and of textures share: the wavelet, spatial regions, priorities over
-// the ground (docs/FORMAT.md, section 2).
+// What the headers of heights and of textures share: the way in which they are coded, and parts for
+// the wavelet, spatial regions, priorities over the ground (docs/FORMAT.md, section 2).
 #pragma once
 
 #include <array>
@@ -12,6 +12,20 @@
 namespace tetrakis::inline stream {
 
 inline constexpr int kMaxFractionBits = 8;
+inline constexpr int kMostPlanes = 30;  ///< bit-planes
+
+/// How a component is coded.
+enum class Coding : uint8_t { kStored = 0, kDrawn = 1, kWavelet = 2 };
+
+/// Kinds of the parts of a component. Those of heights and of textures have numbers of their own
+/// where they are not the same.
+struct PartKind {
+  static constexpr uint64_t kWavelet = 0, kRepeatedLines = 1, kPriorities = 2, kValidity = 3,
+                            kBridges = 4, kLateMask = 5, kNodata = 6, kValueTable = 7,
+                            kFlatAreas = 8, kCorrections = 9, kCutOut = 16, kOverlay = 17,
+                            kColours = 18, kFurtherColour = 19, kChannelTables = 20,
+                            kWhiteLevel = 21, kBandWeights = 22, kBound = 64;
+};
 
 /// Which wavelet: wavelet/wavelet_spec.hpp.
 struct WaveletHeader {
@@ -25,8 +39,10 @@ struct WaveletHeader {
   /// together have so many bytes of coefficients.
   uint64_t rounded_bytes = 0;
 
+  /// planes: bit-planes of the coefficients.
   template <class V>
-  void visit(V& v) {
+  void visit(V& v, uint8_t& planes) {
+    v.u8("planes", planes, 0, kMostPlanes);
     for (uint8_t& filter : filters) v.u8("filter", filter, 0, 5);
     v.u8("fraction_bits", fraction_bits, 0, kMaxFractionBits);
     v.u8("sample_bits", bits, 0, 32);
@@ -40,14 +56,6 @@ struct WaveletHeader {
 /// Spatial regions of a component: bitstream/track/regions.hpp.
 struct RegionHeader {
   uint8_t side_log2 = 0;  ///< of the regions of the finest levels; 0: one region
-
-  bool isDefault() const { return *this == RegionHeader{}; }
-  bool operator==(const RegionHeader&) const = default;
-
-  template <class V>
-  void visit(V& v) {
-    v.u8("region_log2", side_log2, 0, kMostRegionLog2);
-  }
 };
 
 /// Tiles of the samples of a component that come earlier than others: wavelet/priority_map.hpp.
@@ -60,7 +68,7 @@ struct PriorityHeader {
   template <class V>
   void visit(V& v) {
     v.u8("tile_log2", tile_log2, kLeastTileLog2, kMostRegionLog2);
-    v.text("priority_map", code);
+    v.rest(code);
   }
   static constexpr uint8_t kLeastTileLog2 = 4;
   static constexpr uint64_t kMostTiles = 65536;

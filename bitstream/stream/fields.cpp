@@ -27,6 +27,42 @@ uint8_t FieldReader::next() {
   return bytes_[at_++];
 }
 
+void FieldReader::expectEnd() {
+  if (at_ < bytes_.size()) fail("part", "has bytes behind its fields");
+}
+
+uint64_t FieldReader::nextKind() {
+  const size_t before = at_;
+  const uint64_t kind = take();
+  at_ = before;
+  return kind;
+}
+
+FieldReader FieldReader::openPart() {
+  const uint64_t kind = take();
+  if (ok() && last_kind_ && kind < *last_kind_) fail("part", "stands behind one of a higher kind");
+  last_kind_ = kind;
+  const uint64_t size = take();
+  if (ok() && size > bytes_.size() - at_) fail("part", "reaches past the end of its structure");
+  if (!ok()) return FieldReader({});
+  FieldReader body(bytes_.subspan(at_, size), origin_ + at_);
+  at_ += size;
+  return body;
+}
+
+void FieldReader::skipPartsBefore(uint64_t kind) {
+  while (ok() && at_ < bytes_.size() && nextKind() < kind) {
+    const std::optional<uint64_t> before = last_kind_;
+    openPart();
+    if (last_kind_ == before) fail("part", "stands twice");
+    if (ok() && *last_kind_ < kMaySkip) {
+      status_ =
+          Status(TKS_UNSUPPORTED, "The stream has a part of kind " + std::to_string(*last_kind_) +
+                                      " that this decoder does not know.");
+    }
+  }
+}
+
 uint64_t FieldReader::take() {
   uint64_t value = 0;
   for (int shift = 0; shift < 64; shift += 7) {

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each structure of the stream lists its fields once, in visit(); writing, reading and dumping are
 // visitors. Numbers are little endian; a varint is LEB128 (7 bits a byte, low bits first), and a
-// double goes without its low zero bytes, which round numbers have many of: u8 n, n high bytes.
+// double goes without its low zero bytes, which round numbers have many of: u8 n, n high bytes. A
+// structure may end with parts: kind, length, and as many bytes. Kinds rise, so that visit() asks
+// for each in its turn; a part that is not asked for is skipped, or refused if its kind is below
+// kMaySkip.
 #pragma once
 
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,9 +18,14 @@
 
 namespace tetrakis::inline stream {
 
+/// Parts of this kind and above inform: a decoder that does not know one decodes the same.
+inline constexpr uint64_t kMaySkip = 64;
+
 /// Appends fields to a byte string.
 class FieldWriter {
  public:
+  static constexpr bool kReads = false;
+
   template <class T>
   void u8(const char*, T& value, uint64_t, uint64_t) {
     bytes.push_back(static_cast<uint8_t>(value));
@@ -41,6 +50,23 @@ class FieldWriter {
     put(value.size());
     bytes.insert(bytes.end(), value.begin(), value.end());
   }
+  /// All bytes that are left in a part.
+  void rest(std::string& value) { bytes.insert(bytes.end(), value.begin(), value.end()); }
+  /// A part, if there is one. visitBody: visits its fields. Returns whether there is one.
+  template <class Body>
+  bool part(uint64_t kind, bool is_there, Body&& visitBody) {
+    if (!is_there) return false;
+    FieldWriter body;
+    visitBody(body);
+    put(kind);
+    put(body.bytes.size());
+    bytes.insert(bytes.end(), body.bytes.begin(), body.bytes.end());
+    return true;
+  }
+  /// Behind the last part that visit() asks for.
+  void endParts() {}
+  /// Fails if a part is missing, or there is one too many.
+  void require(const char*, bool) {}
   bool ok() const { return true; }
   void put(uint64_t value) {
     for (; value >= 0x80; value >>= 7) bytes.push_back(static_cast<uint8_t>(value | 0x80));
@@ -54,6 +80,8 @@ class FieldWriter {
 /// range that visit() states, so a structure read without failure is valid field by field.
 class FieldReader {
  public:
+  static constexpr bool kReads = true;
+
   explicit FieldReader(std::span<const uint8_t> bytes, size_t origin = 0)
       : bytes_(bytes), origin_(origin) {}
 
@@ -96,6 +124,25 @@ class FieldReader {
                  bytes_.begin() + static_cast<ptrdiff_t>(at_ + size));
     at_ += size;
   }
+  void rest(std::string& value) {
+    if (ok()) value.assign(bytes_.begin() + static_cast<ptrdiff_t>(at_), bytes_.end());
+    if (ok()) at_ = bytes_.size();
+  }
+  template <class Body>
+  bool part(uint64_t kind, bool, Body&& visitBody) {
+    skipPartsBefore(kind);
+    if (!ok() || at_ == bytes_.size() || nextKind() != kind) return false;
+    FieldReader body = openPart();
+    if (!ok()) return false;
+    visitBody(body);
+    body.expectEnd();
+    if (!body.ok()) status_ = body.status_;
+    return true;
+  }
+  void endParts() { skipPartsBefore(UINT64_MAX); }
+  void require(const char* part, bool holds) {
+    if (!holds) fail(part, "is missing, or should be");
+  }
   /// A varint that fails where fewer bytes would do.
   template <class T>
   void shortestVarint(const char* name, T& value, uint64_t low, uint64_t high) {
@@ -115,6 +162,12 @@ class FieldReader {
 
  private:
   uint8_t next();
+  void expectEnd();
+  /// Of the next part, which is not taken.
+  uint64_t nextKind();
+  /// Takes the next part: kinds shall not fall.
+  FieldReader openPart();
+  void skipPartsBefore(uint64_t kind);
   template <class T>
   void accept(const char* name, uint64_t raw, uint64_t low, uint64_t high, T& value) {
     if (isWithin(name, raw, low, high)) value = static_cast<T>(raw);
@@ -125,6 +178,7 @@ class FieldReader {
   std::span<const uint8_t> bytes_;
   size_t origin_;
   size_t at_ = 0;
+  std::optional<uint64_t> last_kind_;  ///< of the parts that were taken
   bool starved_ = false;
   Status status_;
 };

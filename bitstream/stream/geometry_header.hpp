@@ -37,42 +37,46 @@ struct GeometryHeader {
   double max_error = -1;  ///< guaranteed for the complete stream, in the unit; < 0: not stated
   WaveletHeader wavelet;
   PriorityHeader priorities;
-  RegionHeader regions;  ///< a part of the header of its own
+  RegionHeader regions;
 
+  /// domain: the lines that are shown.
   template <class V>
-  void visit(V& v) {
-    LineFields lines(repeats, extent());
-    v.varint("geometry_width", lines.whole.width, 1, kMaxSide);
-    v.varint("geometry_height", lines.whole.height, 1, kMaxSide);
-    auto kind = static_cast<uint8_t>(sample + (lines.repeated() ? kWithRepeats : 0));
-    v.u8("geometry_sample", kind, 0, kWithRepeats + TKS_F32);
-    sample = kind % kWithRepeats;
-    const Extent coded = lines.visitMap(v, kind >= kWithRepeats);
-    width = coded.width;
-    height = coded.height;
-    auto coding =
-        static_cast<uint8_t>(planes + (drawn || !priorities.none() ? kWithPriorities : 0));
-    v.u8("geometry_planes", coding, 0, kWithPriorities + kDirectPlanes);
-    planes = coding % kWithPriorities;
-    drawn = coding == kWithPriorities + kDirectPlanes;
-    if (coding >= kWithPriorities && !drawn) priorities.visit(v);
-    v.u8("exact", exact, 0, 1);
+  void visit(V& v, Extent domain) {
+    v.u8("sample", sample, 0, TKS_F32);
+    Coding coding = this->coding();
+    v.u8("coding", coding, 0, static_cast<uint64_t>(Coding::kWavelet));
     v.f64("base", base);
     v.f64("step", step);
-    v.f64("max_error", max_error);
-    if (!direct()) wavelet.visit(v);
+    if (coding != Coding::kWavelet) planes = kDirectPlanes;
+    drawn = coding == Coding::kDrawn;
+    const bool lifted =
+        v.part(PartKind::kWavelet, !direct(), [&](auto& part) { wavelet.visit(part, planes); });
+    v.require("wavelet", lifted == (coding == Coding::kWavelet));
+    const Extent coded = visitLines(v, PartKind::kRepeatedLines, domain, repeats);
+    width = coded.width;
+    height = coded.height;
+    v.part(PartKind::kPriorities, !priorities.none(), [&](auto& part) { priorities.visit(part); });
+  }
+  /// What informs: behind the layers.
+  template <class V>
+  void visitBound(V& v) {
+    v.part(PartKind::kBound, exact > 0 || max_error >= 0, [&](auto& part) {
+      part.u8("exact", exact, 0, 1);
+      part.f64("max_error", max_error);
+    });
   }
   Extent extent() const { return {width, height}; }
   Extent shown() const { return repeats.none() ? extent() : repeats.shown; }
   /// The heights were coded without a transform: drawn or stored.
   bool direct() const { return planes == kDirectPlanes; }
   bool stored() const { return direct() && !drawn; }
+  Coding coding() const {
+    return !direct() ? Coding::kWavelet : drawn ? Coding::kDrawn : Coding::kStored;
+  }
 
-  /// This stands in the place of a number of bit-planes where steps are drawn
-  /// (codec/geometry/drawn_heights/) or samples are stored (bitstream/coder/byte_planes.hpp).
+  /// In the place of a number of bit-planes where steps are drawn (codec/geometry/drawn_heights/)
+  /// or samples are stored (bitstream/coder/byte_planes.hpp).
   static constexpr uint8_t kDirectPlanes = 31;
-  static constexpr uint8_t kWithPriorities = 32;  ///< bit beside the number of bit-planes
-  static constexpr uint8_t kWithRepeats = 8;      ///< bit beside the type of the samples
 };
 
 /// A point of the polyline that stands for a table of values while that is missing.
@@ -117,55 +121,28 @@ struct GeometryLayers {
   RelativeSteps relative = {};     ///< kRelative only
   uint8_t facet_unit = 0;          ///< kFacets only: of FacetUnit (codec/geometry/facets/)
 
-  bool isDefault() const { return *this == GeometryLayers{}; }
   bool operator==(const GeometryLayers&) const = default;
 
   template <class V>
   void visit(V& v) {
-    v.varint("validity_bytes", validity_bytes, 0, UINT64_MAX >> 1);
-    v.u8("has_nodata", has_nodata, 0, 1);
-    if (has_nodata) v.f64("nodata", nodata);
-    bool facets = corrections == CorrectionKind::kFacets;
-    auto kinds = static_cast<uint8_t>(
-        (facets ? kOfFacets : static_cast<uint8_t>(corrections)) |
-        (table_bytes > 0 ? kWithTable : 0) | (flat_bytes > 0 ? kWithFlatAreas : 0) |
-        (bridge > 0 ? kWithBridges : 0) | (late_mask ? kWithLateMask : 0));
-    v.u8("layer_kinds", kinds, 0, kWithLateMask + kWithFlatAreas + kOfFacets);
-    facets = kinds % kWithFlatAreas == kOfFacets;
-    corrections =
-        facets ? CorrectionKind::kFacets : static_cast<CorrectionKind>(kinds % kWithTable);
-    if (kinds & kWithTable && !facets) {
-      v.varint("table_bytes", table_bytes, 1, UINT64_MAX >> 1);
-      v.varint("table_values", table_values, 2, kMostValues);
-      v.varint("table_after", table_after, 0, UINT64_MAX >> 1);
-      visitKnots(v);
-    }
-    if (kinds & kWithFlatAreas) {
-      v.varint("flat_bytes", flat_bytes, 1, UINT64_MAX >> 1);
-      v.varint("flat_areas", flat_areas, 1, kMostFlatAreas);
-    }
-    if (kinds & kWithBridges) v.u8("bridge", bridge, 1, 255);
-    late_mask = (kinds & kWithLateMask) != 0;
-    if (late_mask) {
-      v.varint("lifted_bytes", lifted_bytes, 0, UINT64_MAX >> 1);
-      v.varint("validity_after", validity_after, 0, UINT64_MAX >> 1);
-    }
-    if (corrections == CorrectionKind::kNone) return;
-    v.varint("coefficient_bytes", coefficient_bytes, std::max(table_after, validity_after),
-             UINT64_MAX >> 1);
-    if (corrections == CorrectionKind::kSteps) {
-      v.varint("correction_step", correction_step, 1, kMaxCorrectionStep);
-    }
-    if (corrections == CorrectionKind::kRelative) {
-      v.f64("relative_step", relative.step);
-      v.u8("relative_quarters", relative.quarters, 1, 4);
-    }
-    if (corrections == CorrectionKind::kFacets) v.u8("facet_unit", facet_unit, 1, 254);
+    v.part(PartKind::kValidity, validity_bytes > 0,
+           [&](auto& part) { part.varint("validity_bytes", validity_bytes, 1, UINT64_MAX >> 1); });
+    v.part(PartKind::kBridges, bridge > 0, [&](auto& part) { part.u8("bridge", bridge, 1, 255); });
+    late_mask = v.part(PartKind::kLateMask, late_mask, [&](auto& part) {
+      part.varint("lifted_bytes", lifted_bytes, 0, UINT64_MAX >> 1);
+      part.varint("validity_after", validity_after, 0, UINT64_MAX >> 1);
+    });
+    has_nodata =
+        v.part(PartKind::kNodata, has_nodata > 0, [&](auto& part) { part.f64("nodata", nodata); });
+    v.part(PartKind::kValueTable, table_bytes > 0, [&](auto& part) { visitTable(part); });
+    v.part(PartKind::kFlatAreas, flat_bytes > 0, [&](auto& part) {
+      part.varint("flat_bytes", flat_bytes, 1, UINT64_MAX >> 1);
+      part.varint("flat_areas", flat_areas, 1, kMostFlatAreas);
+    });
+    v.part(PartKind::kCorrections, corrections != CorrectionKind::kNone,
+           [&](auto& part) { visitCorrections(part); });
   }
   static constexpr uint64_t kMaxCorrectionStep = uint64_t{1} << 26;
-  static constexpr uint8_t kWithTable = 4, kWithFlatAreas = 8, kWithBridges = 16,
-                           kWithLateMask = 32;  ///< bits beside the corrections
-  static constexpr uint8_t kOfFacets = 7;       ///< in the place of corrections and table
   static constexpr uint64_t kMostFlatAreas = 65535;
   static constexpr uint64_t kMostFlatSamples = uint64_t{1} << 31;  ///< of a plane with flat areas
   static constexpr uint32_t kMostValues = 1u << 20;
@@ -190,6 +167,26 @@ struct GeometryLayers {
   }
 
  private:
+  template <class V>
+  void visitTable(V& v) {
+    v.varint("table_bytes", table_bytes, 1, UINT64_MAX >> 1);
+    v.varint("table_values", table_values, 2, kMostValues);
+    v.varint("table_after", table_after, 0, UINT64_MAX >> 1);
+    visitKnots(v);
+  }
+  template <class V>
+  void visitCorrections(V& v) {
+    v.u8("corrections", corrections, 1, static_cast<uint64_t>(CorrectionKind::kFacets));
+    v.varint("coefficient_bytes", coefficient_bytes, std::max(table_after, validity_after),
+             UINT64_MAX >> 1);
+    if (corrections == CorrectionKind::kSteps)
+      v.varint("correction_step", correction_step, 1, kMaxCorrectionStep);
+    if (corrections == CorrectionKind::kRelative) {
+      v.f64("relative_step", relative.step);
+      v.u8("relative_quarters", relative.quarters, 1, 4);
+    }
+    if (corrections == CorrectionKind::kFacets) v.u8("facet_unit", facet_unit, 1, 254);
+  }
   /// Each as what it differs by from the one before it.
   template <class V>
   void visitKnots(V& v) {

@@ -99,8 +99,11 @@ struct Georeference {
   Placement texture;
   std::string texture_crs;  ///< "" beside no geo_keys: that of the heights
 
-  bool isDefault() const { return *this == Georeference{}; }
-  bool operator==(const Georeference&) const = default;
+  /// Whether anything is known of the heights' place, and of the texture's.
+  bool hasHeights() const {
+    return heights != Placement{} || !description.empty() || nan_nodata > 0;
+  }
+  bool hasTexture() const { return texture != Placement{} || !texture_crs.empty(); }
 
   /// Whether the texture has a reference system of its own, be it none.
   bool hasTextureCrs() const { return !texture_crs.empty() || !texture.geo_keys.empty(); }

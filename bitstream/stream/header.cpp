@@ -2,8 +2,10 @@
 #include "bitstream/stream/header.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
+#include <utility>
 
 #include "bitstream/stream/checksum.hpp"
 #include "bitstream/stream/correction_tracks.hpp"
@@ -14,100 +16,192 @@ namespace tetrakis::inline stream {
 
 namespace {
 
-enum Parts : uint8_t {
-  kGeometry = 1,
-  kTexture = 2,
-  kMetadata = 4,
-  kIndex = 8,
-  kLayers = 16,
-  kRegions = 32,
-  kWeights = 64,
-  kGeoreference = 128,
-  kAllParts = 255
+/// Kinds of the parts of a body. Those from kMaySkip on inform.
+enum BodyPart : uint64_t {
+  kDomain = 0,
+  kComponent = 1,
+  kLossless = 64,
+  kPayloadCrc = 65,
+  kTriangles = 66,
+  kMetadata = 67,
+  kPlaceOfHeights = 68,
+  kPlaceOfTexture = 69,
+  kIndex = 70,
+  kHeightPositions = 71,
+  kTexturePositions = 72
 };
 
 constexpr size_t kFixedBytes = kMagic.size() + 3;  // magic, version, profile, level
 constexpr size_t kChecksumBytes = 4;
-constexpr uint8_t kWithChecksum = 2;  ///< beside whether the stream is lossless
+constexpr size_t kMostListed = 16;  ///< domains, and components
 
-bool hasRegions(const StreamHeader& header) {
-  return (header.geometry && !header.geometry->regions.isDefault()) ||
-         (header.texture && !header.texture->regions.isDefault());
+/// Of a component that is known, as its header says it.
+ListedComponent listed(const StreamHeader& header, Component component) {
+  const bool heights = component == Component::kGeometry;
+  const auto fill = [&](const auto& of, uint8_t kind) {
+    return ListedComponent{
+        component, kind, {Domain::kGrid, of.shown(), ""}, of.regions.side_log2, ""};
+  };
+  return heights ? fill(*header.geometry, ListedComponent::kHeights)
+                 : fill(*header.texture, ListedComponent::kColours);
 }
 
-bool namesRegions(const StreamHeader& header, Component component) {
-  if (component == Component::kGeometry)
-    return header.geometry && header.geometry->regions.side_log2 > 0;
-  return header.texture && header.texture->regions.side_log2 > 0;
+/// All components in the stream's order.
+std::vector<ListedComponent> listOf(const StreamHeader& header) {
+  std::array<bool, kComponents> left = {header.geometry.has_value(), header.texture.has_value()};
+  std::vector<ListedComponent> list;
+  const auto add = [&](Component component) {
+    if (std::exchange(left[static_cast<size_t>(component)], false))
+      list.push_back(listed(header, component));
+  };
+  for (const ListedComponent& known : header.components) {
+    if (known.component == Component::kOther)
+      list.push_back(known);
+    else
+      add(known.component);
+  }
+  add(Component::kGeometry);
+  add(Component::kTexture);
+  return list;
+}
+
+/// The component that a decoder takes one of the list for, given those before it.
+Component roleOf(const ListedComponent& one, const StreamHeader& before) {
+  if (one.domain.kind != Domain::kGrid) return Component::kOther;
+  if (one.kind == ListedComponent::kHeights && !before.geometry) return Component::kGeometry;
+  if (one.kind == ListedComponent::kColours && !before.texture) return Component::kTexture;
+  return Component::kOther;
+}
+
+template <class V>
+void visitDomain(V& v, Domain& domain) {
+  v.u8("domain_kind", domain.kind, 0, UINT8_MAX);
+  if (domain.kind != Domain::kGrid) return v.rest(domain.rest);
+  v.varint("width", domain.grid.width, 1, kMaxSide);
+  v.varint("height", domain.grid.height, 1, kMaxSide);
+}
+
+template <class V>
+void visitKnown(V& v, StreamHeader& header, const ListedComponent& one) {
+  if (one.component == Component::kGeometry) {
+    if (!header.geometry) header.geometry.emplace();
+    header.geometry->regions.side_log2 = one.region_log2;
+    header.geometry->visit(v, one.domain.grid);
+    header.layers.visit(v);
+    header.geometry->visitBound(v);
+  } else {
+    if (!header.texture) header.texture.emplace();
+    header.texture->regions.side_log2 = one.region_log2;
+    header.texture->visit(v, one.domain.grid);
+  }
+  v.endParts();
+}
+
+template <class V>
+void visitComponent(V& v, StreamHeader& header, const std::vector<Domain>& domains,
+                    ListedComponent& one) {
+  v.u8("component_kind", one.kind, 0, UINT8_MAX);
+  auto domain = static_cast<uint64_t>(std::find(domains.begin(), domains.end(), one.domain) -
+                                      domains.begin());
+  v.varint("domain", domain, 0, kMostListed - 1);
+  v.require("the domain of a component", domain < domains.size());
+  v.u8("region_log2", one.region_log2, 0, kMostRegionLog2);
+  if (!v.ok()) return;
+  if constexpr (V::kReads) {
+    one.domain = domains[domain];
+    one.component = roleOf(one, header);
+  }
+  if (one.component == Component::kOther) return v.rest(one.rest);
+  visitKnown(v, header, one);
+}
+
+/// Parts of one kind, as many as there are. visitOne(part, item).
+template <class V, class Item, class VisitOne>
+void visitList(V& v, uint64_t kind, std::vector<Item>& list, VisitOne visitOne) {
+  for (size_t i = 0; i < kMostListed; ++i) {
+    const bool is_there = i < list.size();
+    Item item = is_there ? list[i] : Item();
+    if (!v.part(kind, is_there, [&](auto& part) { visitOne(part, item); })) return;
+    if constexpr (V::kReads) list.push_back(std::move(item));
+  }
+}
+
+template <class V>
+void visitComponents(V& v, StreamHeader& header) {
+  std::vector<ListedComponent> components;
+  std::vector<Domain> domains;
+  if constexpr (!V::kReads) {
+    components = listOf(header);
+    for (const ListedComponent& one : components) {
+      if (std::find(domains.begin(), domains.end(), one.domain) == domains.end())
+        domains.push_back(one.domain);
+    }
+  }
+  visitList(v, kDomain, domains, [](auto& part, Domain& one) { visitDomain(part, one); });
+  visitList(v, kComponent, components,
+            [&](auto& part, ListedComponent& one) { visitComponent(part, header, domains, one); });
+  if constexpr (V::kReads) header.components = std::move(components);
 }
 
 template <class V>
 void visitIndex(V& v, StreamHeader& header) {
+  const TrackCounts counts = trackCounts(header);
   uint64_t count = header.index.size();
   v.varint("packets", count, 1, kMaxHeaderBytes / 2);
   for (uint64_t i = 0; v.ok() && i < count; ++i) {
     if (i == header.index.size()) header.index.emplace_back();  // no sooner than its bytes are seen
     auto& [packet, slope] = header.index[i];
-    v.varint("index_head", packet.head, 0, UINT64_MAX);
-    if (namesRegions(header, packet.component()))
-      v.varint("index_region", packet.track, 0, UINT32_MAX);
+    uint64_t head = fieldOf(packet, counts);
+    v.varint("index_head", head, 0, UINT64_MAX);
+    if constexpr (V::kReads) packet = headOf(head, counts);
+    if (counts.of(packet).named) v.varint("index_region", packet.track, 0, UINT32_MAX);
     v.u8("index_quality", packet.quality, 0, 255);
     v.u8("index_slope", slope, 0, 255);
   }
 }
 
 template <class V>
-void visitGeoreference(V& v, StreamHeader& header) {
+void visitPlaces(V& v, StreamHeader& header) {
   Georeference& place = header.georeference;
   TransformBasis basis;
   basis.spacing = northUp(header.metadata.spacing_x, header.metadata.spacing_y);
-  if (header.geometry) place.visitHeights(v, basis);
-  if (!header.texture) return;
-  if (header.geometry && place.heights.has_transform) {
+  v.part(kPlaceOfHeights, header.geometry && place.hasHeights(),
+         [&](auto& part) { place.visitHeights(part, basis); });
+  if (header.geometry && header.texture && place.heights.has_transform) {
     const double columns = header.texture->shown().width, rows = header.texture->shown().height;
     basis.heights = stretched(place.heights.transform, header.geometry->shown().width / columns,
                               header.geometry->shown().height / rows);
     basis.has_heights = true;
   }
-  place.visitTexture(v, basis);
+  v.part(kPlaceOfTexture, header.texture && place.hasTexture(),
+         [&](auto& part) { place.visitTexture(part, basis); });
 }
 
-/// The body: which parts there are, then the parts.
+template <class V>
+void visitPromises(V& v, StreamHeader& header) {
+  header.lossless = v.part(kLossless, header.lossless > 0, [](auto&) {});
+  uint32_t crc = header.payload_crc.value_or(0);
+  if (v.part(kPayloadCrc, header.payload_crc.has_value(),
+             [&](auto& part) { part.u32("payload_crc", crc); }))
+    header.payload_crc = crc;
+  v.part(kTriangles, header.triangles > 0,
+         [&](auto& part) { part.varint("triangles", header.triangles, 1, UINT32_MAX); });
+}
+
 template <class V>
 void visitBody(V& v, StreamHeader& header) {
-  uint8_t parts = static_cast<uint8_t>(
-      (header.geometry ? kGeometry : 0) | (header.texture ? kTexture : 0) |
-      (header.metadata.isDefault() ? 0 : kMetadata) | (header.index.empty() ? 0 : kIndex) |
-      (header.layers.isDefault() ? 0 : kLayers) | (hasRegions(header) ? kRegions : 0) |
-      (header.texture && header.texture->weights.levels > 0 ? kWeights : 0) |
-      (header.georeference.isDefault() ? 0 : kGeoreference));
-  v.u8("parts", parts, 1, kAllParts);
   v.varint("payload_bytes", header.payload_bytes, 0, UINT64_MAX >> 1);
-  auto promises = static_cast<uint8_t>(header.lossless + (header.payload_crc ? kWithChecksum : 0));
-  v.u8("lossless", promises, 0, kWithChecksum + 1);
-  header.lossless = promises % kWithChecksum;
-  if (promises >= kWithChecksum && !header.payload_crc) header.payload_crc = 0;
-  if (header.payload_crc) v.u32("payload_crc", *header.payload_crc);
-  v.varint("triangles", header.triangles, 0, UINT32_MAX);
-  if (!v.ok()) return;
-  if (parts & kGeometry) {
-    if (!header.geometry) header.geometry.emplace();
-    header.geometry->visit(v);
-  }
-  if (parts & kTexture) {
-    if (!header.texture) header.texture.emplace();
-    header.texture->visit(v);
-  }
-  if (parts & kMetadata) header.metadata.visit(v);
-  if (parts & kLayers) header.layers.visit(v);
-  if (parts & kRegions) {
-    if (header.geometry) header.geometry->regions.visit(v);
-    if (header.texture) header.texture->regions.visit(v);
-  }
-  if ((parts & kWeights) && header.texture)
-    header.texture->weights.visit(v, header.texture->colourPlanes());
-  if (parts & kGeoreference) visitGeoreference(v, header);
-  if (parts & kIndex) visitIndex(v, header);
+  visitComponents(v, header);
+  visitPromises(v, header);
+  v.part(kMetadata, !header.metadata.isDefault(), [&](auto& part) { header.metadata.visit(part); });
+  visitPlaces(v, header);
+  v.part(kIndex, !header.index.empty(), [&](auto& part) { visitIndex(part, header); });
+  const auto positions = [&](uint64_t kind, std::string& bytes) {
+    v.part(kind, !bytes.empty(), [&](auto& part) { part.rest(bytes); });
+  };
+  positions(kHeightPositions, header.height_positions);
+  positions(kTexturePositions, header.texture_positions);
+  v.endParts();
 }
 
 Status needMore(size_t bytes) {
@@ -115,17 +209,11 @@ Status needMore(size_t bytes) {
                              " bytes are needed."};
 }
 
-/// Smallest n such that neither component has more than 4^(n + 8) samples.
+/// Smallest n such that no component has more than 4^(n + 8) samples.
 uint8_t levelFor(const StreamHeader& header) {
   uint64_t samples = 0;
-  if (header.geometry) {
-    const Extent shown = header.geometry->shown();
-    samples = uint64_t{shown.width} * shown.height;
-  }
-  if (header.texture) {
-    const Extent shown = header.texture->shown();
-    samples = std::max(samples, uint64_t{shown.width} * shown.height);
-  }
+  for (const ListedComponent& one : listOf(header))
+    samples = std::max(samples, uint64_t{one.domain.grid.width} * one.domain.grid.height);
   const int bits = samples <= 1 ? 0 : static_cast<int>(std::bit_width(samples - 1));
   return static_cast<uint8_t>(std::max(0, (bits + 1) / 2 - 8));
 }
@@ -138,13 +226,16 @@ bool Metadata::isDefault() const {
 }
 
 TrackCounts trackCounts(const StreamHeader& header) {
-  const auto countOf = [](const auto& component) -> TrackCount {
-    if (!component) return {};
-    const int side_log2 = component->regions.side_log2;
-    return {regionCount(component->width, component->height, side_log2), side_log2 > 0};
-  };
-  TrackCounts counts = {countOf(header.geometry), countOf(header.texture)};
-  if (header.geometry) counts[0].tracks += correctionTracks(*header.geometry, header.layers);
+  TrackCounts counts;
+  for (const ListedComponent& one : listOf(header)) {
+    TrackCount count{0, one.region_log2 > 0};
+    if (one.component == Component::kGeometry)
+      count.tracks =
+          coefficientTracks(*header.geometry) + correctionTracks(*header.geometry, header.layers);
+    if (one.component == Component::kTexture)
+      count.tracks = regionCount(header.texture->width, header.texture->height, one.region_log2);
+    counts.add(one.component, count);
+  }
   return counts;
 }
 
@@ -154,7 +245,6 @@ std::vector<uint8_t> writeHeader(const StreamHeader& header) {
   copy.level = levelFor(header);
   FieldWriter body;
   visitBody(body, copy);
-  writeOptionalParts(header.optional_parts, body);
   FieldWriter out;
   out.bytes.assign(kMagic.begin(), kMagic.end());
   out.bytes.insert(out.bytes.end(), {copy.version, copy.profile, copy.level});
@@ -206,11 +296,9 @@ Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes) {
   FieldReader size_reader(bytes.subspan(kFixedBytes), kFixedBytes);
   size_reader.take();
   const size_t body_start = kFixedBytes + size_reader.position();
-  const std::span<const uint8_t> body_bytes = bytes.subspan(body_start, crc_start - body_start);
-  FieldReader body(body_bytes, body_start);
+  FieldReader body(bytes.subspan(body_start, crc_start - body_start), body_start);
   visitBody(body, header);
   if (!body.ok()) return body.status();
-  header.optional_parts = readOptionalParts(body_bytes.subspan(body.position()));
   if (Status meaning = checkMeaning(header); !meaning.ok()) return meaning;
   if (header.level != levelFor(header)) {
     return Status(TKS_CORRUPT, "Corrupt stream: the level does not fit the sizes.");

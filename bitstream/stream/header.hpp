@@ -13,7 +13,6 @@
 #include "base/status.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/georeference.hpp"
-#include "bitstream/stream/optional_parts.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/stream/texture_header.hpp"
 
@@ -44,6 +43,27 @@ struct Metadata {
   }
 };
 
+/// Ground that components are sampled on. Streams share one between components of the same samples.
+struct Domain {
+  static constexpr uint8_t kGrid = 0;
+
+  uint8_t kind = kGrid;  ///< others are not known: components on them are passed over
+  Extent grid = {0, 0};  ///< of a grid: columns and rows
+  std::string rest;      ///< of others: all that the header says
+  bool operator==(const Domain&) const = default;
+};
+
+/// What every component of the header's list begins with, whoever knows its kind.
+struct ListedComponent {
+  Component component = Component::kOther;
+  uint8_t kind = 0;  ///< as the stream has it: kHeights, kColours, or not known
+  Domain domain;
+  uint8_t region_log2 = 0;  ///< RegionHeader::side_log2
+  std::string rest;         ///< of kOther: all behind
+
+  static constexpr uint8_t kHeights = 0, kColours = 1;
+};
+
 struct StreamHeader {
   uint8_t version = kFormatVersion;
   uint8_t profile = kMainProfile;
@@ -60,10 +80,14 @@ struct StreamHeader {
   Metadata metadata;
   Georeference georeference;
   std::vector<IndexEntry> index;  ///< of all packets, ahead of time
-  std::vector<OptionalPart> optional_parts;
+  /// GroundPositions as bytes; empty: none. No status depends on them.
+  std::string height_positions, texture_positions;
+  /// In the stream's order: of a header that was read. Of one that is made heights come before the
+  /// texture, unless their order is stated here.
+  std::vector<ListedComponent> components;
 };
 
-/// Tracks of each component; see demultiplex().
+/// Components and their tracks; see demultiplex().
 TrackCounts trackCounts(const StreamHeader& header);
 
 /// Magic, version, profile, level, size of the body, body, CRC-32 of everything before it. A long

@@ -39,6 +39,8 @@ Status checkCorrections(const GeometryLayers& layers, uint8_t sample) {
 Status checkVoids(const GeometryLayers& layers, uint8_t sample) {
   if ((layers.bridge > 0 || layers.late_mask) && layers.validity_bytes == 0)
     return {TKS_CORRUPT, "Corrupt stream: its heights have bridges but no voids."};
+  if (layers.bridge > 0 && layers.late_mask)
+    return {TKS_CORRUPT, "Corrupt stream: its heights have bridges and a late mask."};
   const bool integer = sample != TKS_F32;
   if (integer && layers.validity_bytes > 0 &&
       !(layers.has_nodata && holds(sample, layers.nodata))) {
@@ -51,10 +53,7 @@ Status checkVoids(const GeometryLayers& layers, uint8_t sample) {
 
 Status checkLayers(const StreamHeader& header) {
   const GeometryLayers& layers = header.layers;
-  if (layers.isDefault()) return {};
-  if (!header.geometry) {
-    return {TKS_CORRUPT, "Corrupt stream: its header has layers of heights but no heights."};
-  }
+  if (!header.geometry) return {};
   const GeometryHeader& heights = *header.geometry;
   if (Status status = checkCorrections(layers, heights.sample); !status.ok()) return status;
   if (layers.flat_bytes > 0 && heights.extent().samples() > GeometryLayers::kMostFlatSamples) {
@@ -78,8 +77,9 @@ Status checkRegions(const StreamHeader& header) {
 Status checkDirect(const StreamHeader& header) {
   if (!header.geometry || !header.geometry->direct()) return {};
   const GeometryLayers& layers = header.layers;
-  if (header.geometry->regions.side_log2 > 0 || layers.flat_bytes > 0 || layers.bridge > 0 ||
-      layers.late_mask || layers.corrections == CorrectionKind::kSteps ||
+  if (header.geometry->regions.side_log2 > 0 || !header.geometry->priorities.none() ||
+      layers.flat_bytes > 0 || layers.bridge > 0 || layers.late_mask ||
+      layers.corrections == CorrectionKind::kSteps ||
       layers.corrections == CorrectionKind::kRelative ||
       layers.corrections == CorrectionKind::kFacets) {
     return {TKS_CORRUPT,
@@ -121,16 +121,22 @@ Status checkGeoreference(const StreamHeader& header) {
 Status checkTexture(const StreamHeader& header) {
   if (!header.texture) return {};
   const TextureHeader& t = *header.texture;
+  const Extent shown = t.shown();
+  if (shown.width > kMaxTextureSide || shown.height > kMaxTextureSide)
+    return {TKS_CORRUPT, "Corrupt stream: its texture has more than 32768 columns or rows."};
   if (t.sample != TKS_U8 && t.sample != TKS_U16) {
     return {TKS_CORRUPT, "Corrupt stream: the texture's sample type is neither u8 nor u16."};
   }
+  if ((t.opaque || t.alpha_bytes > 0) && (t.channels % 2 == 1 || (t.opaque && t.alpha_bytes > 0)))
+    return {TKS_CORRUPT,
+            "Corrupt stream: the texture has no channel that is what it is said to be."};
   if (t.white_level > 0 && t.sample != TKS_U16)
     return {TKS_CORRUPT, "Corrupt stream: a texture of 8 bits has a white level."};
   if (t.direct() && (t.regions.side_log2 > 0 || t.weights.levels > 0 || !t.priorities.none() ||
-                     t.tables.present)) {
+                     t.tables.present || t.alpha_bytes > 0 || t.overlay_bytes > 0)) {
     return {TKS_CORRUPT,
-            "Corrupt stream: a drawn or stored texture has regions, weights, priorities or "
-            "tables."};
+            "Corrupt stream: a drawn or stored texture has regions, weights, priorities, tables, "
+            "a mask or an overlay."};
   }
   if (t.bridge > 0 && !t.hidden && t.overlay_bytes == 0)
     return {TKS_CORRUPT, "Corrupt stream: its texture has bridges but nothing that they go over."};
@@ -148,18 +154,20 @@ Status checkPriorities(const StreamHeader& header) {
   return {TKS_CORRUPT, "Corrupt stream: its map of priorities has more than 65536 tiles."};
 }
 
-Status checkSampleType(const StreamHeader& header) {
-  if (!header.geometry || header.geometry->sample <= TKS_F32) return {};
-  return {TKS_CORRUPT, "Corrupt stream: the type of its heights is none."};
+/// A decoder may lack what it takes for the components of a later version.
+Status checkComponents(const StreamHeader& header) {
+  if (header.geometry || header.texture) return {};
+  if (header.components.empty())
+    return {TKS_CORRUPT, "Corrupt stream: its header announces neither heights nor texture."};
+  return {TKS_UNSUPPORTED,
+          "The stream holds nothing that this decoder knows: neither heights nor "
+          "a texture on a grid."};
 }
 
 }  // namespace
 
 Status checkMeaning(const StreamHeader& header) {
-  if (!header.geometry && !header.texture) {
-    return {TKS_CORRUPT, "Corrupt stream: its header announces neither heights nor texture."};
-  }
-  if (Status type = checkSampleType(header); !type.ok()) return type;
+  if (Status components = checkComponents(header); !components.ok()) return components;
   if (Status numbers = checkNumbers(header); !numbers.ok()) return numbers;
   if (Status place = checkGeoreference(header); !place.ok()) return place;
   if (Status layers = checkLayers(header); !layers.ok()) return layers;

@@ -14,10 +14,9 @@ void IndexedPackets::Iterator::place(uint64_t begin) {
   if (*this == std::default_sentinel) return;
   packet_.entry = packets_.header_.index[packet_.number];
   const PacketHead& head = packet_.entry.packet;
-  const bool named = packets_.counts_[static_cast<size_t>(head.component())].named;
   // A packet begins within 2^63 bytes and has fewer than 2^62, so that 64 bits hold its end.
-  packet_.payload = begin + headBytes(head, named).size();
-  packet_.end = packet_.payload + head.length();
+  packet_.payload = begin + headBytes(head, packets_.counts_).size();
+  packet_.end = packet_.payload + head.length;
 }
 
 }  // namespace tetrakis::inline stream

@@ -68,28 +68,13 @@ struct LineMaps {
 /// The map that a header describes. Safe on any code.
 LineMaps lineMapsOf(const LineRepeats& repeats);
 
-/// Fields of headers: the lines of the plane that is shown, and which of them repeat others.
-class LineFields {
- public:
-  /// coded: lines of the plane as far as they are known.
-  LineFields(LineRepeats& repeats, Extent coded) : repeats_(repeats), repeated_(!repeats.none()) {
-    whole = repeated_ ? repeats.shown : coded;
-  }
-  bool repeated() const { return repeated_; }
-  /// Reads or writes the map. repeated: there is one. Returns the coded lines.
-  template <class V>
-  Extent visitMap(V& v, bool repeated) {
-    if (repeated) v.text("repeated_lines", repeats_.code);
-    if (!v.ok() || !repeated) return whole;
-    repeats_.shown = whole;
-    return lineMapsOf(repeats_).coded();
-  }
-
-  Extent whole;  ///< that is shown
-
- private:
-  LineRepeats& repeats_;
-  bool repeated_;
-};
+/// The part of a header that says which lines of the plane that is shown are coded. Returns how many
+/// are.
+template <class V>
+Extent visitLines(V& v, uint64_t kind, Extent shown, LineRepeats& repeats) {
+  if (!v.part(kind, !repeats.none(), [&](auto& part) { part.rest(repeats.code); })) return shown;
+  repeats.shown = shown;
+  return lineMapsOf(repeats).coded();
+}
 
 }  // namespace tetrakis::inline stream

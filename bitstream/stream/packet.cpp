@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -13,15 +14,10 @@ namespace tetrakis::inline stream {
 
 namespace {
 
-void putHead(const PacketHead& head, bool named, FieldWriter& writer) {
-  writer.put(head.head);
-  if (named) writer.put(head.track);
+void putHead(const PacketHead& head, const TrackCounts& counts, FieldWriter& writer) {
+  writer.put(fieldOf(head, counts));
+  if (counts.of(head).named) writer.put(head.track);
   writer.bytes.push_back(head.quality);
-}
-
-void putHead(const Packet& packet, FieldWriter& writer) {
-  putHead({packet.head(), packet.track.value_or(0), packet.quality}, packet.track.has_value(),
-          writer);
 }
 
 /// 2^(eighths / 8). The tables of std::exp2() are one part in 80 of a WebAssembly module.
@@ -67,24 +63,67 @@ double slopeOf(uint8_t slope) {
   return slope == 0 ? 0.0 : powerOfTwo(2 * (slope - 255));
 }
 
-size_t overheadOf(const Packet& packet) {
-  FieldWriter writer;
-  putHead(packet, writer);
-  return writer.bytes.size();
+void TrackCounts::add(Component component, TrackCount count) {
+  const bool known = component != Component::kOther;
+  if (known) counts_[static_cast<size_t>(component)] = count;
+  listed_.push_back({component, known ? count : TrackCount{uint64_t{1} << 32, count.named}});
 }
 
-std::vector<uint8_t> headBytes(const PacketHead& head, bool named) {
+TrackCount TrackCounts::of(const PacketHead& head) const {
+  return head.number < listed_.size() ? listed_[head.number].count : TrackCount{};
+}
+
+Component TrackCounts::componentOf(size_t number) const {
+  return number < listed_.size() ? listed_[number].component : Component::kOther;
+}
+
+int TrackCounts::numberBits() const {
+  return listed_.size() <= 2 ? 1 : static_cast<int>(std::bit_width(listed_.size() - 1));
+}
+
+uint64_t TrackCounts::all() const {
+  return counts_[0].tracks + counts_[1].tracks;
+}
+
+PacketHead headOf(const Packet& packet, const TrackCounts& counts) {
+  uint8_t number = 0;
+  while (counts.componentOf(number) != packet.component) ++number;
+  return {packet.length(), packet.track.value_or(0), packet.quality, packet.whole,
+          number,          packet.component};
+}
+
+uint64_t fieldOf(const PacketHead& head, const TrackCounts& counts) {
+  return (head.length << 1 | uint64_t{head.whole}) << counts.numberBits() | head.number;
+}
+
+PacketHead headOf(uint64_t field, const TrackCounts& counts) {
+  const int bits = counts.numberBits();
+  PacketHead head;
+  head.length = field >> (bits + 1);
+  head.whole = (field >> bits & 1) != 0;
+  head.number = static_cast<uint8_t>(field & ((uint64_t{1} << bits) - 1));
+  head.component = counts.componentOf(head.number);
+  return head;
+}
+
+size_t overheadOf(const Packet& packet) {
+  TrackCounts alone;
+  alone.add(packet.component, {1, packet.track.has_value()});
+  return headBytes(headOf(packet, alone), alone).size();
+}
+
+std::vector<uint8_t> headBytes(const PacketHead& head, const TrackCounts& counts) {
   FieldWriter writer;
-  putHead(head, named, writer);
+  putHead(head, counts, writer);
   return std::move(writer.bytes);
 }
 
-std::vector<uint8_t> multiplex(std::span<const Packet> packets,
+std::vector<uint8_t> multiplex(std::span<const Packet> packets, const TrackCounts& counts,
                                const std::array<Codewords, kComponents>& codewords,
                                uint64_t limit) {
   FieldWriter writer;
   for (const Packet& packet : packets) {
-    putHead(packet, writer);
+    putHead(headOf(packet, counts), counts, writer);
     const auto& codeword =
         codewords[static_cast<size_t>(packet.component)][packet.track.value_or(0)];
     assert(packet.begin < packet.end && packet.end <= codeword.size());
@@ -107,6 +146,7 @@ Codewords Demultiplexed::codewordsOf(Component component) const {
 }
 
 void Demultiplexed::add(Component component, uint32_t track, std::span<const uint8_t> more) {
+  if (component == Component::kOther) return;
   const auto c = static_cast<size_t>(component);
   std::vector<uint8_t>& codeword = codewords[c][track];
   codeword.insert(codeword.end(), more.begin(), more.end());
@@ -127,14 +167,15 @@ struct PacketPart {
 Status readHead(std::span<const uint8_t> bytes, size_t origin, const TrackCounts& counts,
                 PacketHead& head, size_t& size) {
   FieldReader reader(bytes, origin);
-  reader.shortestVarint("head", head.head, 0, UINT64_MAX);
-  const TrackCount& count = counts[static_cast<size_t>(head.component())];
-  if (count.named) reader.shortestVarint("region", head.track, 0, UINT32_MAX);
+  uint64_t field = 0;
+  reader.shortestVarint("head", field, 0, UINT64_MAX);
+  head = headOf(field, counts);
+  if (counts.of(head).named) reader.shortestVarint("region", head.track, 0, UINT32_MAX);
   reader.u8("quality", head.quality, 0, 255);
   size = 0;
   if (reader.starved()) return {};
   if (!reader.ok()) return reader.status();
-  if (head.length() == 0 || head.track >= count.tracks) {
+  if (head.length == 0 || head.track >= counts.of(head).tracks) {
     return {TKS_CORRUPT, "Corrupt stream: the packet at byte " + std::to_string(origin) +
                              " is empty or of a track that the header does not announce."};
   }
@@ -156,7 +197,7 @@ Status forEachPacket(std::span<const uint8_t> payload, size_t origin, const Trac
       if (!status.ok() || size == 0) return status;
       place = {place.at + size, head, 0};
     }
-    const uint64_t length = place.open->length();
+    const uint64_t length = place.open->length;
     const bool complete = length <= payload.size() - place.at;
     const size_t available = complete ? static_cast<size_t>(length) : payload.size() - place.at;
     visit(PacketPart{*place.open, payload.subspan(place.at, available), place.seen, begins,
@@ -173,7 +214,7 @@ Status forEachPacket(std::span<const uint8_t> payload, size_t origin, const Trac
 /// What of a packet belongs to its track now and did not before: of one that counts only when it is
 /// complete, nothing or all.
 std::span<const uint8_t> newBytes(const PacketPart& part) {
-  if (!part.head.whole()) return part.bytes.subspan(part.seen);
+  if (!part.head.whole) return part.bytes.subspan(part.seen);
   return part.complete ? part.bytes : std::span<const uint8_t>();
 }
 
@@ -193,8 +234,8 @@ Result<PayloadCount> countPackets(std::span<const uint8_t> payload, size_t origi
 namespace {
 
 void takeHead(const PacketPart& part, Demultiplexed& out) {
-  const auto component = static_cast<size_t>(part.head.component());
-  assert(part.head.track < out.counts[component].tracks);
+  const auto component = static_cast<size_t>(part.head.component);
+  assert(part.head.track < out.counts.of(part.head).tracks);
   if (part.begins) out.heads.push_back(part.head);
   if (part.complete) out.quality[component] = part.head.quality;
 }
@@ -204,8 +245,8 @@ void takeHead(const PacketPart& part, Demultiplexed& out) {
 Status demultiplexMore(std::span<const uint8_t> payload, size_t origin, Demultiplexed& out) {
   return forEachPacket(payload, origin, out.counts, out.end, [&](const PacketPart& part) {
     takeHead(part, out);
-    if (part.complete || !part.head.whole())
-      out.add(part.head.component(), part.head.track, newBytes(part));
+    if (part.complete || !part.head.whole)
+      out.add(part.head.component, part.head.track, newBytes(part));
   });
 }
 

@@ -11,7 +11,9 @@ namespace tetrakis::inline stream {
 
 uint64_t openingBytes(const StreamHeader& header, Component component) {
   if (component == Component::kGeometry) return header.layers.openingBytes();
-  return header.texture ? header.texture->alpha_bytes + header.texture->overlay_bytes : 0;
+  return component == Component::kTexture && header.texture
+             ? header.texture->alpha_bytes + header.texture->overlay_bytes
+             : 0;
 }
 
 ScatteredPackets::ScatteredPackets(const ParsedHeader& parsed, const Demultiplexed& taken)
@@ -21,13 +23,13 @@ ScatteredPackets::ScatteredPackets(const ParsedHeader& parsed, const Demultiplex
       end_(parsed.bytes + parsed.header.payload_bytes) {
   const std::optional<PacketHead>& open = taken.end.open;
   const size_t complete = taken.heads.size() - (open ? 1 : 0);
-  const uint64_t seen = open && !open->whole() ? taken.end.seen : 0;
-  std::array<std::map<uint32_t, uint32_t>, kComponents> last;
+  const uint64_t seen = open && !open->whole ? taken.end.seen : 0;
+  std::array<std::map<uint32_t, uint32_t>, kRoles> last;
   places_.reserve(header_.index.size());
   for (const IndexedPacket& packet : IndexedPackets(header_, parsed.bytes)) {
     const PacketHead& head = packet.entry.packet;
     const auto number = static_cast<uint32_t>(packet.number);
-    const auto component = static_cast<size_t>(head.component());
+    const auto component = static_cast<size_t>(head.component);
     places_.push_back({packet.begin, kNone});
     const auto [before, is_first] = last[component].try_emplace(head.track, number);
     if (!is_first) places_[std::exchange(before->second, number)].next = number;
@@ -35,10 +37,6 @@ ScatteredPackets::ScatteredPackets(const ParsedHeader& parsed, const Demultiplex
       frontiers_[component].try_emplace(head.track,
                                         Frontier{number, number == complete ? seen : 0});
   }
-}
-
-bool ScatteredPackets::isNamed(const PacketHead& head) const {
-  return counts_[static_cast<size_t>(head.component())].named;
 }
 
 /// The packet that a byte behind the header belongs to.
@@ -51,12 +49,12 @@ uint32_t ScatteredPackets::packetAt(uint64_t place) const {
 Status ScatteredPackets::checkHead(const Pieces& pieces, uint32_t packet) const {
   const PacketHead& told = head(packet);
   const uint64_t begin = places_[packet].begin;
-  if (told.track >= counts_[static_cast<size_t>(told.component())].tracks)
+  if (told.track >= counts_.of(told).tracks)
     return {TKS_CORRUPT, "Corrupt stream: its index names a track that there is not."};
-  const std::vector<uint8_t> bytes = headBytes(told, isNamed(told));
+  const std::vector<uint8_t> bytes = headBytes(told, counts_);
   const std::span<const uint8_t> there = pieces.from(begin);
   const size_t known = std::min<uint64_t>({bytes.size(), there.size(), end_ - begin});
-  if (told.length() > 0 &&
+  if (told.length > 0 &&
       std::equal(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(known), there.begin()))
     return {};
   return {TKS_CORRUPT, "Corrupt stream: its index does not describe the packet at byte " +
@@ -68,8 +66,7 @@ Status ScatteredPackets::check(const Pieces& pieces, ByteRange range) const {
   for (uint32_t i = packetAt(range.begin); i < places_.size() && places_[i].begin < end; ++i)
     if (Status status = checkHead(pieces, i); !status.ok()) return status;
   const PacketHead& last = head(static_cast<uint32_t>(places_.size() - 1));
-  const uint64_t told =
-      places_.back().begin + headBytes(last, isNamed(last)).size() + last.length();
+  const uint64_t told = places_.back().begin + headBytes(last, counts_).size() + last.length;
   if (std::max(range.begin, begin_) >= end || told >= end) return {};
   return {TKS_CORRUPT, "Corrupt stream: its index does not describe the packet at byte " +
                            std::to_string(told) + "."};
@@ -78,7 +75,7 @@ Status ScatteredPackets::check(const Pieces& pieces, ByteRange range) const {
 void ScatteredPackets::take(const Pieces& pieces, ByteRange range, Demultiplexed& out) {
   const uint64_t end = std::min(range.end, end_);
   for (uint32_t i = packetAt(range.begin); i < places_.size() && places_[i].begin < end; ++i) {
-    auto& frontiers = frontiers_[static_cast<size_t>(head(i).component())];
+    auto& frontiers = frontiers_[static_cast<size_t>(head(i).component)];
     const auto frontier = frontiers.find(head(i).track);
     if (frontier != frontiers.end() && frontier->second.packet == i)
       advance(pieces, frontier->second, out);
@@ -89,13 +86,13 @@ void ScatteredPackets::advance(const Pieces& pieces, Frontier& frontier, Demulti
   while (frontier.packet != kNone) {
     const PacketHead& packet = head(frontier.packet);
     const Place& place = places_[frontier.packet];
-    const uint64_t payload = place.begin + headBytes(packet, isNamed(packet)).size();
+    const uint64_t payload = place.begin + headBytes(packet, counts_).size();
     const uint64_t from = std::min(payload + frontier.taken, end_);
     std::span<const uint8_t> bytes = pieces.from(from);
     bytes = bytes.first(
-        std::min<uint64_t>({bytes.size(), end_ - from, packet.length() - frontier.taken}));
-    const bool complete = frontier.taken + bytes.size() == packet.length();
-    if (!complete && packet.whole()) return;
+        std::min<uint64_t>({bytes.size(), end_ - from, packet.length - frontier.taken}));
+    const bool complete = frontier.taken + bytes.size() == packet.length;
+    if (!complete && packet.whole) return;
     if (!bytes.empty()) add(packet, bytes, out);
     frontier.taken += bytes.size();
     if (!complete) return;
@@ -105,8 +102,8 @@ void ScatteredPackets::advance(const Pieces& pieces, Frontier& frontier, Demulti
 
 void ScatteredPackets::add(const PacketHead& head, std::span<const uint8_t> bytes,
                            Demultiplexed& out) {
-  Waiting& waiting = waiting_[static_cast<size_t>(head.component())];
-  if (!waiting.any || head.track == 0) return out.add(head.component(), head.track, bytes);
+  Waiting& waiting = waiting_[static_cast<size_t>(head.component)];
+  if (!waiting.any || head.track == 0) return out.add(head.component, head.track, bytes);
   std::vector<uint8_t>& codeword = waiting.codewords[head.track];
   codeword.insert(codeword.end(), bytes.begin(), bytes.end());
   waiting.bytes += bytes.size();

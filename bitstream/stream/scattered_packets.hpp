@@ -60,7 +60,6 @@ class ScatteredPackets {
   };
 
   const PacketHead& head(uint32_t packet) const { return header_.index[packet].packet; }
-  bool isNamed(const PacketHead& head) const;
   uint32_t packetAt(uint64_t place) const;
   Status checkHead(const Pieces& pieces, uint32_t packet) const;
   void advance(const Pieces& pieces, Frontier& frontier, Demultiplexed& out);
@@ -71,8 +70,8 @@ class ScatteredPackets {
   TrackCounts counts_;
   uint64_t begin_, end_;  ///< of the payload
   std::vector<Place> places_;
-  std::array<std::map<uint32_t, Frontier>, kComponents> frontiers_;
-  std::array<Waiting, kComponents> waiting_;
+  std::array<std::map<uint32_t, Frontier>, kRoles> frontiers_;
+  std::array<Waiting, kRoles> waiting_;
 };
 
 }  // namespace tetrakis::inline stream

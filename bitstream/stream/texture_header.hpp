@@ -20,10 +20,10 @@ inline constexpr uint32_t kMaxTextureSide = 1u << 15;  ///< texels in a row or c
 /// These stand in the place of a number of bit-planes: the texture is drawn
 /// (codec/drawing/drawing_pass.hpp), or its samples are stored
 /// (bitstream/coder/byte_planes.hpp).
-inline constexpr uint8_t kDrawnPlanes = 31, kStoredTexture = 63;
+inline constexpr uint8_t kDrawnPlanes = 31;
 
 /// What is added to the priority of a colour plane at its finest levels, in 1/16 of a binary order
-/// of magnitude: how visible errors of a band are. A part of the header of its own.
+/// of magnitude: how visible errors of a band are.
 struct BandWeights {
   static constexpr uint64_t kMostLevels = 8;
   static constexpr int64_t kMaxPriority = 128;
@@ -60,7 +60,7 @@ struct ChannelTablesHeader {
   template <class V>
   void visit(V& v, uint32_t planes) {
     for (uint32_t c = 0; c < planes; ++c) v.varint("table_values", values[c], 0, kMostValues);
-    v.text("value_tables", code);
+    v.rest(code);
   }
 };
 
@@ -81,7 +81,7 @@ struct TextureHeader {
   WaveletHeader wavelet;
   ChannelTablesHeader tables;
   PriorityHeader priorities;
-  RegionHeader regions;  ///< a part of the header of its own
+  RegionHeader regions;
   BandWeights weights;
   /// Cut-out: alpha is 0 or the largest value, and no colour plane. A mask of so many bytes
   /// says which, ahead of the coefficients. 0: alpha, if there is one, is the last colour plane.
@@ -105,89 +105,77 @@ struct TextureHeader {
   /// Whether a colour plane is alpha.
   bool isAlpha(uint32_t plane) const { return hasAlpha() && plane + 1 == channels; }
 
+  /// domain: the lines that are shown.
   template <class V>
-  void visit(V& v) {
-    LineFields lines(repeats, extent());
-    v.varint("texture_width", lines.whole.width, 1, kMaxTextureSide);
-    v.varint("texture_height", lines.whole.height, 1, kMaxTextureSide);
-    const Alpha alpha = visitChannels(v);
-    auto type = static_cast<uint8_t>(
-        sample + (tables.present ? kWithTables : 0) + (lines.repeated() ? kWithRepeats : 0) +
-        (bridge > 0 ? kWithBridges : 0) + (white_level > 0 ? kWithWhite : 0));
-    v.u8("texture_sample", type, 0,
-         kWithWhite + kWithBridges + kWithRepeats + kWithTables + TKS_U16);
-    sample = type % kWithTables;
-    tables.present = (type & kWithTables) != 0;
-    const bool bridges = (type & kWithBridges) != 0;
-    if (bridges && bridge == 0) bridge = 1;  // until it is read, which direct textures do not
-    const Extent coded = lines.visitMap(v, (type & kWithRepeats) != 0);
+  void visit(V& v, Extent domain) {
+    v.u8("channels", channels, 1, 4);
+    v.u8("sample", sample, 0, TKS_U16);
+    Coding coding = this->coding();
+    v.u8("coding", coding, 0, static_cast<uint64_t>(Coding::kWavelet));
+    if (coding != Coding::kWavelet) planes = kDrawnPlanes;
+    stored = coding == Coding::kStored;
+    const bool lifted =
+        v.part(PartKind::kWavelet, !direct(), [&](auto& part) { wavelet.visit(part, planes); });
+    v.require("wavelet", lifted == (coding == Coding::kWavelet));
+    const Extent coded = visitLines(v, PartKind::kRepeatedLines, domain, repeats);
     width = coded.width;
     height = coded.height;
-    if (type & kWithWhite) v.varint("white_level", white_level, 1, kMostWhite);
-    const uint8_t overlaid = kDrawnPlanes + 1;
-    auto coding = static_cast<uint8_t>(
-        (stored ? kStoredTexture : planes + (overlay_bytes > 0 ? overlaid : 0)) +
-        (priorities.none() ? 0 : kWithPriorities));
-    v.u8("texture_planes", coding, 0, kWithPriorities + kStoredTexture - 1);
-    const bool ordered = coding >= kWithPriorities;
-    coding %= kWithPriorities;
-    planes = coding % overlaid;
-    stored = coding == kStoredTexture;
-    if (ordered) priorities.visit(v);
-    if (direct()) return;
-    wavelet.visit(v);
-    if (alpha == kCutOut) {
-      v.varint("alpha_bytes", alpha_bytes, 1, UINT64_MAX >> 1);
-      v.u8("hidden", hidden, 0, 1);
-    }
-    if (coding >= overlaid) v.varint("overlay_bytes", overlay_bytes, 1, UINT64_MAX >> 1);
-    if (bridges) v.u8("bridge", bridge, 1, 255);
-    for (size_t c = 0; c < colourPlanes() && v.ok(); ++c) {
-      v.varint("centre", centre[c], 0, 0xffff);
-      v.zigzag("priority", priority[c], kMaxPriority);
-    }
-    if (colourPlanes() >= 3) visitShears(v);
-    for (size_t c = 0; alpha == kOpaque && c + 1 < colourPlanes() && v.ok(); ++c)
-      v.zigzag("further_shear", further_shears[c], INT16_MAX);
-    if (tables.present) tables.visit(v, colourPlanes());
+    v.part(PartKind::kPriorities, !priorities.none(), [&](auto& part) { priorities.visit(part); });
+    v.part(PartKind::kBridges, bridge > 0, [&](auto& part) { part.u8("bridge", bridge, 1, 255); });
+    v.part(PartKind::kCutOut, alpha_bytes > 0, [&](auto& part) {
+      part.varint("alpha_bytes", alpha_bytes, 1, UINT64_MAX >> 1);
+      part.u8("hidden", hidden, 0, 1);
+    });
+    v.part(PartKind::kOverlay, overlay_bytes > 0,
+           [&](auto& part) { part.varint("overlay_bytes", overlay_bytes, 1, UINT64_MAX >> 1); });
+    const bool coloured =
+        v.part(PartKind::kColours, !direct(), [&](auto& part) { visitColours(part); });
+    v.require("colours", coloured == (coding == Coding::kWavelet));
+    visitOthers(v);
+    v.endParts();
   }
   bool drawn() const { return direct() && !stored; }
   /// The texture was coded without a transform: drawn or stored.
   bool direct() const { return planes == kDrawnPlanes; }
+  Coding coding() const {
+    return !direct() ? Coding::kWavelet : stored ? Coding::kStored : Coding::kDrawn;
+  }
 
-  static constexpr uint8_t kWithTables = 4;    ///< bit beside the type of the samples
-  static constexpr uint8_t kWithRepeats = 8;   ///< another one
-  static constexpr uint8_t kWithBridges = 16;  ///< a third one
-  static constexpr uint8_t kWithWhite = 32;    ///< a fourth one
   static constexpr uint64_t kMostWhite = 0xfffe;
-  static constexpr uint8_t kWithPriorities = 64;  ///< bit beside the number of bit-planes
   static constexpr int64_t kMaxPriority = 128;
   static constexpr uint8_t kOrders = 6;      ///< of channels
   static constexpr uint8_t kMostShears = 8;  ///< sets of shears
 
  private:
-  enum Alpha : uint8_t { kPlain = 0, kCutOut = 4, kOpaque = 6 };  ///< before half of the channels
-
   template <class V>
-  Alpha visitChannels(V& v) {
-    const Alpha alpha = alpha_bytes > 0 ? kCutOut : opaque && channels % 2 == 0 ? kOpaque : kPlain;
-    auto kind = static_cast<uint8_t>(alpha == kPlain ? channels : alpha + channels / 2);
-    v.u8("channels", kind, 1, kOpaque + 2);
-    const Alpha read = kind <= kCutOut ? kPlain : kind <= kOpaque ? kCutOut : kOpaque;
-    channels = static_cast<uint8_t>(read == kPlain ? kind : 2 * (kind - read));
-    opaque = read == kOpaque;
-    return read;
-  }
-
-  template <class V>
-  void visitShears(V& v) {
-    auto colour = static_cast<uint8_t>(colour_order + kOrders * (colour_shears.size() - 1));
-    v.u8("colour", colour, 0, kOrders * kMostShears - 1);
-    colour_order = colour % kOrders;
-    colour_shears.resize(colour / kOrders + size_t{1});
+  void visitColours(V& v) {
+    for (size_t c = 0; c < colourPlanes() && v.ok(); ++c) {
+      v.varint("centre", centre[c], 0, 0xffff);
+      v.zigzag("priority", priority[c], kMaxPriority);
+    }
+    if (colourPlanes() < 3) return;
+    v.u8("colour_order", colour_order, 0, kOrders - 1);
+    auto sets = static_cast<uint8_t>(colour_shears.size());
+    v.u8("shear_sets", sets, 1, kMostShears);
+    if (!v.ok()) return;
+    colour_shears.resize(sets);
     for (auto& shears : colour_shears) {
       for (int64_t& shear : shears) v.zigzag("colour_shear", shear, INT16_MAX);
     }
+  }
+
+  template <class V>
+  void visitOthers(V& v) {
+    opaque = v.part(PartKind::kFurtherColour, opaque && channels % 2 == 0, [&](auto& part) {
+      for (size_t c = 0; !direct() && c + 1 < channels; ++c)
+        part.zigzag("further_shear", further_shears[c], INT16_MAX);
+    });
+    tables.present = v.part(PartKind::kChannelTables, tables.present,
+                            [&](auto& part) { tables.visit(part, colourPlanes()); });
+    v.part(PartKind::kWhiteLevel, white_level > 0,
+           [&](auto& part) { part.varint("white_level", white_level, 1, kMostWhite); });
+    v.part(PartKind::kBandWeights, weights.levels > 0,
+           [&](auto& part) { weights.visit(part, colourPlanes()); });
   }
 };
 

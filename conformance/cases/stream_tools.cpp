@@ -82,7 +82,8 @@ Tools toolsOf(std::span<const uint8_t> stream) {
   if (!header.index.empty()) tools.insert("index");
   if (header.georeference.heights.has_transform || header.georeference.texture.has_transform)
     tools.insert("georeference");
-  if (!header.optional_parts.empty()) tools.insert("optional parts");
+  if (!header.height_positions.empty() || !header.texture_positions.empty())
+    tools.insert("positions");
   return tools;
 }
 

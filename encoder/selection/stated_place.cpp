@@ -45,16 +45,4 @@ Georeference georeferenceOf(const tks_heights* heights, const tks_image* image) 
   return out;
 }
 
-std::vector<OptionalPart> positionsOf(const tks_heights* heights, const tks_image* image) {
-  std::vector<OptionalPart> parts;
-  const auto add = [&](OptionalKind kind, const auto* raster) {
-    if (raster == nullptr || raster->positions == nullptr) return;
-    const auto* const first = reinterpret_cast<const char*>(raster->positions);
-    parts.push_back({kind, {first, raster->positions_size}});
-  };
-  add(OptionalKind::kHeightPositions, heights);
-  add(OptionalKind::kTexturePositions, image);
-  return parts;
-}
-
 }  // namespace tetrakis::inline selection

@@ -2,10 +2,9 @@
 // This file says what the header tells of where the inputs lie.
 #pragma once
 
-#include <vector>
+#include <string>
 
 #include "bitstream/stream/georeference.hpp"
-#include "bitstream/stream/optional_parts.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::inline selection {
@@ -13,7 +12,11 @@ namespace tetrakis::inline selection {
 /// Either may be null. A texture in the reference system of the heights has none of its own.
 Georeference georeferenceOf(const tks_heights* heights, const tks_image* image);
 
-/// Their positions, as far as they have any. Either may be null.
-std::vector<OptionalPart> positionsOf(const tks_heights* heights, const tks_image* image);
+/// The positions of heights or of an image, which may be null; "" if it has none.
+template <class Raster>
+std::string positionsOf(const Raster* raster) {
+  if (raster == nullptr || raster->positions == nullptr) return {};
+  return {reinterpret_cast<const char*>(raster->positions), raster->positions_size};
+}
 
 }  // namespace tetrakis::inline selection

@@ -29,13 +29,12 @@ Metadata metadataOf(const tks_heights& heights) {
           text(heights.crs)};
 }
 
-std::vector<IndexEntry> indexOf(const std::vector<Packet>& packets) {
+std::vector<IndexEntry> indexOf(const std::vector<Packet>& packets, const TrackCounts& counts) {
   double steepest = 0;
   for (const Packet& packet : packets) steepest = std::max(steepest, packet.slope);
   std::vector<IndexEntry> index;
   for (const Packet& packet : packets)
-    index.push_back({{packet.head(), packet.track.value_or(0), packet.quality},
-                     slopeByte(packet.slope, steepest)});
+    index.push_back({headOf(packet, counts), slopeByte(packet.slope, steepest)});
   return index;
 }
 
@@ -59,8 +58,9 @@ StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
     if (inputs.texel_lines != nullptr) header.texture->repeats = inputs.texel_lines->repeats;
   }
   header.georeference = georeferenceOf(inputs.allHeights(), inputs.allTexels());
-  header.optional_parts = positionsOf(inputs.allHeights(), inputs.allTexels());
-  if (options.index != 0) header.index = indexOf(selection.packets);
+  header.height_positions = positionsOf(inputs.allHeights());
+  header.texture_positions = positionsOf(inputs.allTexels());
+  if (options.index != 0) header.index = indexOf(selection.packets, trackCounts(header));
   return header;
 }
 
@@ -111,9 +111,10 @@ Result<std::vector<uint8_t>> writeStream(const EncodeInputs& inputs, const Selec
   std::array<Codewords, kComponents> codewords;
   if (selection.heights) codewords[0] = codewordsOf(selection.heights->tracks);
   if (selection.texture) codewords[1] = codewordsOf(selection.texture->tracks);
-  const std::vector<uint8_t> payload = multiplex(selection.packets, codewords, payload_bytes);
-  assert(payload.size() == payload_bytes);
   StreamHeader header = makeHeader(inputs, selection, payload_bytes, lossless);
+  const std::vector<uint8_t> payload =
+      multiplex(selection.packets, trackCounts(header), codewords, payload_bytes);
+  assert(payload.size() == payload_bytes);
   if (header.payload_crc) header.payload_crc = crc32(payload);
   std::vector<uint8_t> stream = writeHeader(header);
   if (stream.size() > kMaxHeaderBytes) {

@@ -41,8 +41,8 @@ Split SplitStream::most() const {
 Split SplitStream::shipped(uint64_t payload) const {
   Split split;
   for (const PacketHead& head : payload_.heads) {
-    const uint64_t taken = std::min(head.length(), payload - split.total());
-    (head.component() == Component::kGeometry ? split.heights : split.texture) += taken;
+    const uint64_t taken = std::min(head.length, payload - split.total());
+    (head.component == Component::kGeometry ? split.heights : split.texture) += taken;
   }
   const Split all = most();
   return {std::min(split.heights, all.heights), std::min(split.texture, all.texture)};
@@ -58,7 +58,8 @@ std::vector<uint8_t> SplitStream::cut(const Split& split) const {
     const uint64_t bytes = std::min<uint64_t>(wanted[c], codewords[c].front().size());
     if (bytes > 0) packets.push_back({static_cast<Component>(c), false, kUnstated, 0, bytes, {}});
   }
-  const std::vector<uint8_t> payload = multiplex(packets, codewords, UINT64_MAX >> 1);
+  const std::vector<uint8_t> payload =
+      multiplex(packets, payload_.counts, codewords, UINT64_MAX >> 1);
   StreamHeader header = header_;
   header.payload_bytes = payload.size();
   header.payload_crc.reset();
