@@ -321,11 +321,10 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"joint_17_bits_40x37", "doubled low bands, heights by wavelet, regions of heights"},
     {"joint_not_40x37", "doubled low bands, heights by wavelet, regions of heights, wide sums"},
     {"behind_end_9x9", "heights by wavelet, levels of several filters"},
-    {"body_longer_9x9", "heights by wavelet, levels of several filters"},
+    {"part_skipped_9x9", "heights by wavelet, levels of several filters"},
     {"varint_longer_9x9", "heights by wavelet, levels of several filters"},
     {"text_9x9", "heights by wavelet, levels of several filters"},
-    {"positions_33x17",
-     "georeference, heights by wavelet, levels of several filters, optional parts"},
+    {"positions_33x17", "georeference, heights by wavelet, levels of several filters, positions"},
     {"ones_9x9", "heights by wavelet, levels of several filters"},
     {"ones_layers_20x17",
      "corrections of samples, flat areas, heights by wavelet, levels of several filters, table of "

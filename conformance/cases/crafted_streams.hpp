@@ -37,10 +37,10 @@ inline Bytes varint(uint64_t value) {
 /// The header, and one packet that holds all of a component's first codeword.
 /// codewords: of the first tracks of the only component, each of which is one packet.
 inline Bytes streamOf(StreamHeader header, const std::vector<Bytes>& codewords) {
-  const uint64_t component = header.geometry ? 0 : 1;
+  const size_t component = header.geometry ? 0 : 1;
   Bytes payload;
   for (size_t track = 0; track < codewords.size(); ++track) {
-    append(payload, varint(uint64_t{codewords[track].size()} << 2 | component));
+    append(payload, varint(uint64_t{codewords[track].size()} << 2));
     if (trackCounts(header)[component].named) append(payload, varint(track));
     payload.push_back(0);
     append(payload, codewords[track]);

@@ -109,7 +109,7 @@ Tools allTools() {
           "levels of several filters",
           "nodata",
           "opening of a late mask",
-          "optional parts",
+          "positions",
           "overlay",
           "priorities of heights",
           "priorities of texels",

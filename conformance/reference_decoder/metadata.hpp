@@ -11,11 +11,22 @@ namespace tetrakis::reference {
 
 using Transform = std::array<double, 6>;
 
-/// FORMAT 2, Metadata: it decodes nothing, but its syntax counts. Returns the spacing as a
-/// geotransform.
-Transform skipMetadata(Reader& in);
+/// FORMAT 2, Metadata and places: they decode nothing, but their syntax counts.
+class Places {
+ public:
+  explicit Places(const Stream& stream) : stream_(stream) {}
 
-/// FORMAT 2, Georeference, likewise. spacing: 0 without metadata.
-void skipGeoreference(Reader& in, const Stream& stream, const Transform& spacing);
+  void skipMetadata(Reader& in);
+  void skipHeights(Reader& in);
+  void skipTexture(Reader& in);
+
+ private:
+  Transform readTransform(Reader& in, int form) const;
+
+  const Stream& stream_;
+  Transform spacing_{0, 0, 0, 0, 0, -0.0};
+  Transform heights_{};  ///< stretched over the texture
+  bool has_heights_ = false;
+};
 
 }  // namespace tetrakis::reference

@@ -23,9 +23,66 @@ uint32_t crc32(std::span<const uint8_t> bytes) {
   return ~crc;
 }
 
+/// FORMAT 2, Parts, in the order of their kinds: a decoder asks for those that it knows.
+class Parts {
+ public:
+  explicit Parts(Reader& in) : in_(in) { readNext(); }
+
+  /// Reads the next part, if it is of that kind: read(Reader&), which takes all of it.
+  template <class Read>
+  bool take(uint64_t kind, Read read) {
+    skipBefore(kind);
+    if (!next_ || next_->kind != kind) return false;
+    Reader body(next_->body);
+    read(body);
+    if (!body.rest().empty()) body.fail(Outcome::kCorrupt);
+    if (body.outcome() == Outcome::kTruncated) in_.fail(Outcome::kCorrupt);
+    in_.fail(body.outcome());
+    last_ = kind;
+    readNext();
+    return true;
+  }
+  void end() { skipBefore(UINT64_MAX); }
+
+ private:
+  struct Part {
+    uint64_t kind;
+    std::span<const uint8_t> body;
+  };
+
+  void readNext() {
+    next_.reset();
+    if (in_.outcome() != Outcome::kDone || in_.rest().empty()) return;
+    const uint64_t kind = in_.varint(0, UINT64_MAX);
+    const auto body = in_.take(in_.varint(0, UINT64_MAX));
+    if (last_ && kind < *last_) in_.fail(Outcome::kCorrupt);
+    if (in_.outcome() == Outcome::kDone) next_ = {kind, body};
+  }
+  /// A kind stands once, unless it is asked for again; one below 64 that is not asked for is not
+  /// known.
+  void skipBefore(uint64_t kind) {
+    while (next_ && next_->kind < kind) {
+      if (last_ == next_->kind) in_.fail(Outcome::kCorrupt);
+      if (next_->kind < 64) in_.fail(Outcome::kUnsupported);
+      last_ = next_->kind;
+      readNext();
+    }
+  }
+
+  Reader& in_;
+  std::optional<Part> next_;
+  std::optional<uint64_t> last_;
+};
+
+std::vector<uint8_t> restOf(Reader& in) {
+  const auto rest = in.take(in.rest().size());
+  return {rest.begin(), rest.end()};
+}
+
 /// FORMAT 2, table Wavelet.
-WaveletHeader readWavelet(Reader& in) {
+WaveletHeader readWavelet(Reader& in, int& planes) {
   WaveletHeader w;
+  planes = in.u8(0, 30);
   for (int& filter : w.filters) filter = in.u8(0, 5);
   w.fractionBits = in.u8(0, 8);
   w.sampleBits = in.u8(0, 32);
@@ -39,8 +96,8 @@ WaveletHeader readWavelet(Reader& in) {
 PriorityHeader readPriorities(Reader& in, int width, int height) {
   PriorityHeader priorities;
   priorities.tileLog2 = in.u8(4, 20);
-  const auto code = in.take(in.varint(0, UINT64_MAX));
-  priorities.code.assign(code.begin(), code.end());
+  priorities.code = restOf(in);
+  if (in.outcome() != Outcome::kDone) return priorities;
   const int64_t columns = ((width - 1) >> priorities.tileLog2) + 1;
   const int64_t rows = ((height - 1) >> priorities.tileLog2) + 1;
   if (columns * rows > 65536) in.fail(Outcome::kCorrupt);
@@ -50,34 +107,22 @@ PriorityHeader readPriorities(Reader& in, int width, int height) {
 /// FORMAT 8.3: the size becomes that of the coded lines.
 template <class Header>
 void readLines(Reader& in, Header& g) {
-  const auto code = in.take(in.varint(0, UINT64_MAX));
-  if (in.outcome() != Outcome::kDone) return;
+  const std::vector<uint8_t> code = restOf(in);
   g.lines = LineMap(code, g.width, g.height);
   g.width = g.lines.columns.back() + 1;
   g.height = g.lines.rows.back() + 1;
 }
 
-/// FORMAT 2, table Geometry.
-GeometryHeader readGeometry(Reader& in) {
-  GeometryHeader g;
-  g.width = static_cast<int>(in.varint(1, 1 << 20));
-  g.height = static_cast<int>(in.varint(1, 1 << 20));
-  const int kind = in.u8(0, 14);
-  g.sample = kind % 8;
-  if (g.sample > kF32) in.fail(Outcome::kCorrupt);
-  if (kind >= 8) readLines(in, g);
-  const int coding = in.u8(0, 63);
-  g.planes = coding % 32;
-  g.drawn = coding == 63;
-  if (coding >= 32 && !g.drawn) g.priorities = readPriorities(in, g.width, g.height);
-  in.u8(0, 1);  // exact
-  g.base = in.f64();
-  g.step = in.f64();
-  const double maxError = in.f64();
-  if (g.planes != kStoredPlanes) g.wavelet = readWavelet(in);
-  const bool finite = std::isfinite(g.base) && std::isfinite(g.step) && std::isfinite(maxError);
-  if (!finite || g.step <= 0) in.fail(Outcome::kCorrupt);
-  return g;
+/// FORMAT 2: what heights and textures have in common, behind `coding`. Returns `coding`.
+template <class Header>
+int readCoding(Reader& in, Parts& parts, int coding, Header& c) {
+  const bool lifted = parts.take(0, [&](Reader& p) { c.wavelet = readWavelet(p, c.planes); });
+  if (lifted != (coding == 2)) in.fail(Outcome::kCorrupt);
+  if (coding != 2) c.planes = kDrawnPlanes;
+  parts.take(1, [&](Reader& p) { readLines(p, c); });
+  parts.take(2, [&](Reader& p) { c.priorities = readPriorities(p, c.width, c.height); });
+  if (coding != 2 && c.priorities.tileLog2 > 0) in.fail(Outcome::kCorrupt);
+  return coding;
 }
 
 /// Whether a value is an integer of the type.
@@ -87,9 +132,11 @@ bool holds(int sample, double value) {
   return value >= kLeast[sample] && value <= kLargest[sample] && value == std::floor(value);
 }
 
-/// FORMAT 2, the fields of a table but the first two.
-void readKnots(Reader& in, Layers& layers) {
+/// FORMAT 2, Value table.
+void readTable(Reader& in, Layers& layers) {
   constexpr int64_t kMostRise = 1 << 28;
+  layers.tableBytes = in.varint(1, INT64_MAX);
+  layers.tableValues = static_cast<uint32_t>(in.varint(2, 1 << 20));
   layers.tableAfter = in.varint(0, INT64_MAX);
   const int count = in.u8(0, 64);
   TableKnot knot;
@@ -103,14 +150,12 @@ void readKnots(Reader& in, Layers& layers) {
   }
 }
 
-/// FORMAT 2, the fields of table Layers from coefficient_bytes on.
+/// FORMAT 2, Corrections.
 void readCorrections(Reader& in, Layers& layers) {
-  if (layers.corrections == 0) return;
+  layers.corrections = in.u8(1, 4);
   const uint64_t least = std::max(layers.tableAfter, layers.validityAfter);
   layers.coefficientBytes = in.varint(least, INT64_MAX);
-  if (layers.corrections == 1) {
-    layers.correctionStep = static_cast<uint32_t>(in.varint(1, 1 << 26));
-  }
+  if (layers.corrections == 1) layers.correctionStep = static_cast<uint32_t>(in.varint(1, 1 << 26));
   if (layers.corrections == 3) {
     layers.relativeStep = in.f64();
     layers.relativeQuarters = in.u8(1, 4);
@@ -119,116 +164,92 @@ void readCorrections(Reader& in, Layers& layers) {
   if (layers.corrections == 4) layers.facetUnit = in.u8(1, 254);
 }
 
-/// Whether such heights may have the layers. kinds: which there are.
-bool suit(const GeometryHeader& geometry, const Layers& layers, int kinds) {
+/// Whether such heights may have the layers.
+bool suit(const GeometryHeader& geometry, const Layers& layers) {
   const bool integer = geometry.sample != kF32, direct = geometry.planes == kStoredPlanes;
+  const bool table = layers.tableBytes > 0, ground = layers.bridge > 0 || layers.lateMask;
   if (layers.corrections == 4 && integer) return false;
+  if (table && layers.corrections % 2 == 1) return false;
+  if (table && layers.corrections == 4) return false;
+  if (layers.bridge > 0 && layers.lateMask) return false;
+  if (ground && layers.validityBytes == 0) return false;
   if (layers.flatBytes > 0 && uint64_t(geometry.width) * uint64_t(geometry.height) > 1u << 31)
     return false;
-  if (direct && !geometry.drawn && kinds > 0) return false;
-  if (direct && (kinds >= 7 || layers.corrections % 2 == 1)) return false;
-  if (integer && std::isinf(layers.nodata)) return false;
+  const bool others = layers.flatBytes > 0 || ground || geometry.regions.log2 > 0;
+  if (direct && (others || (layers.corrections != 0 && layers.corrections != 2))) return false;
+  if (direct && !geometry.drawn && (table || layers.corrections > 0)) return false;
+  if (std::isnan(layers.nodata) || (integer && std::isinf(layers.nodata))) return false;
   return !integer || layers.validityBytes == 0 ||
          (layers.hasNodata && holds(geometry.sample, layers.nodata));
 }
 
-/// FORMAT 2, table Layers.
-Layers readLayers(Reader& in, const std::optional<GeometryHeader>& geometry) {
+/// FORMAT 2, parts 3 to 9 of heights.
+Layers readLayers(Parts& parts) {
   Layers layers;
-  layers.validityBytes = in.varint(0, INT64_MAX);
-  layers.hasNodata = in.u8(0, 1);
-  if (layers.hasNodata) layers.nodata = in.f64();
-  const int kinds = in.u8(0, 47);
-  const bool facets = kinds % 8 == 7;
-  layers.corrections = facets ? 4 : kinds % 4;
-  if (kinds % 8 == 5) in.fail(Outcome::kCorrupt);
-  if (kinds & 4 && !facets) {
-    layers.tableBytes = in.varint(1, INT64_MAX);
-    layers.tableValues = static_cast<uint32_t>(in.varint(2, 1 << 20));
-    readKnots(in, layers);
-  }
-  if (kinds & 8) {
-    layers.flatBytes = in.varint(1, INT64_MAX);
-    layers.flatAreas = static_cast<uint32_t>(in.varint(1, 65535));
-  }
-  if (kinds & 16) layers.bridge = in.u8(1, 255);
-  if (kinds & 32) {
-    layers.lateMask = true;
-    layers.liftedBytes = in.varint(0, INT64_MAX);
-    layers.validityAfter = in.varint(0, INT64_MAX);
-  }
-  if (kinds & (16 | 32) && layers.validityBytes == 0) in.fail(Outcome::kCorrupt);
-  readCorrections(in, layers);
-  const bool meant = layers.validityBytes > 0 || layers.hasNodata || kinds > 0;
-  const bool suits = geometry ? suit(*geometry, layers, kinds) : !meant;
-  if (!suits || std::isnan(layers.nodata)) in.fail(Outcome::kCorrupt);
+  parts.take(3, [&](Reader& p) { layers.validityBytes = p.varint(1, INT64_MAX); });
+  parts.take(4, [&](Reader& p) { layers.bridge = p.u8(1, 255); });
+  layers.lateMask = parts.take(5, [&](Reader& p) {
+    layers.liftedBytes = p.varint(0, INT64_MAX);
+    layers.validityAfter = p.varint(0, INT64_MAX);
+  });
+  layers.hasNodata = parts.take(6, [&](Reader& p) { layers.nodata = p.f64(); });
+  parts.take(7, [&](Reader& p) { readTable(p, layers); });
+  parts.take(8, [&](Reader& p) {
+    layers.flatBytes = p.varint(1, INT64_MAX);
+    layers.flatAreas = static_cast<uint32_t>(p.varint(1, 65535));
+  });
+  parts.take(9, [&](Reader& p) { readCorrections(p, layers); });
   return layers;
 }
 
-/// FORMAT 2, table Texture.
-TextureHeader readTexture(Reader& in) {
-  TextureHeader t;
-  t.width = static_cast<int>(in.varint(1, 1 << 15));
-  t.height = static_cast<int>(in.varint(1, 1 << 15));
-  const int kind = in.u8(1, 8);
-  const bool cutout = kind == 5 || kind == 6;
-  t.opaque = kind > 6;
-  t.channels = t.opaque ? 2 * (kind - 6) : cutout ? 2 * (kind - 4) : kind;
-  t.colourPlanes = t.channels - cutout;
-  const int type = in.u8(0, 62);
-  const bool tables = type & 4, bridges = type & 16;
-  t.sample = type % 4;
-  if (t.sample != kU8 && t.sample != kU16) in.fail(Outcome::kCorrupt);
-  if (type & 8) readLines(in, t);
-  t.white = t.sample == kU8 ? 255 : 65535;
-  if (type & 32) t.white = static_cast<int>(in.varint(1, 65534));
-  if (type & 32 && t.sample != kU16) in.fail(Outcome::kCorrupt);
-  const int all = in.u8(0, 126), coding = all % 64;
-  t.planes = coding % 32;
-  t.stored = coding == 63;
-  if (all >= 64) t.priorities = readPriorities(in, t.width, t.height);
-  if (all >= 64 && t.planes == kDrawnPlanes) in.fail(Outcome::kCorrupt);
-  if (t.planes == kDrawnPlanes && (tables || bridges)) in.fail(Outcome::kCorrupt);
-  if (t.planes == kDrawnPlanes) return t;
-  t.wavelet = readWavelet(in);
-  if (cutout) {
-    t.alphaBytes = in.varint(1, INT64_MAX);
-    t.hidden = in.u8(0, 1);
-  }
-  if (coding >= 32) t.overlayBytes = in.varint(1, INT64_MAX);
-  if (bridges) t.bridge = in.u8(1, 255);
-  if (bridges && !t.hidden && t.overlayBytes == 0) in.fail(Outcome::kCorrupt);
+/// FORMAT 2, Heights.
+void readHeights(Reader& in, const Domain& domain, RegionHeader regions, Stream& stream) {
+  GeometryHeader& g = stream.geometry.emplace();
+  g.width = domain.width;
+  g.height = domain.height;
+  g.regions = regions;
+  g.sample = in.u8(0, 6);
+  const int coding = in.u8(0, 2);
+  g.base = in.f64();
+  g.step = in.f64();
+  if (!std::isfinite(g.base) || !std::isfinite(g.step) || g.step <= 0) in.fail(Outcome::kCorrupt);
+  g.drawn = coding == 1;
+  Parts parts(in);
+  readCoding(in, parts, coding, g);
+  stream.layers = readLayers(parts);
+  parts.take(64, [](Reader& p) {
+    p.u8(0, 1);  // exact
+    if (!std::isfinite(p.f64())) p.fail(Outcome::kCorrupt);
+  });
+  parts.end();
+  if (!suit(g, stream.layers)) in.fail(Outcome::kCorrupt);
+}
+
+/// FORMAT 2, Colours.
+void readColours(Reader& in, TextureHeader& t) {
   for (int i = 0; i < t.colourPlanes; ++i) {
     t.centre[i] = static_cast<int>(in.varint(0, 65535));
     t.priority[i] = in.zigzag(128);
   }
-  if (t.colourPlanes >= 3) {
-    const int colour = in.u8(0, 47);
-    t.colourOrder = colour % 6;
-    t.shears.resize(colour / 6 + 1);
-    for (auto& shears : t.shears) {
-      for (int& h : shears) h = in.zigzag(32767);
-    }
+  if (t.colourPlanes < 3) return;
+  t.colourOrder = in.u8(0, 5);
+  t.shears.resize(in.u8(1, 8));
+  for (auto& shears : t.shears) {
+    for (int& h : shears) h = in.zigzag(32767);
   }
-  for (int i = 0; t.opaque && i + 1 < t.channels; ++i) t.furtherShears[i] = in.zigzag(32767);
-  if (!tables) return t;
+}
+
+/// FORMAT 2, Tables of channels.
+void readChannelTables(Reader& in, TextureHeader& t) {
   std::vector<uint32_t> values;
   for (int i = 0; i < t.colourPlanes; ++i)
     values.push_back(static_cast<uint32_t>(in.varint(0, 65536)));
-  const auto code = in.take(in.varint(0, UINT64_MAX));
-  t.tables = decodeTables(code, values, t.sample == kU8 ? 8 : 16);
-  return t;
+  const std::vector<uint8_t> code = restOf(in);
+  if (in.outcome() == Outcome::kDone)
+    t.tables = decodeTables(code, values, t.sample == kU8 ? 8 : 16);
 }
 
-/// FORMAT 2, table Regions, of one component.
-RegionHeader readRegions(Reader& in) {
-  RegionHeader regions;
-  regions.log2 = in.u8(0, 20);
-  if (regions.log2 > 0 && regions.log2 < 4) in.fail(Outcome::kCorrupt);
-  return regions;
-}
-
-/// FORMAT 2, table Weights.
+/// FORMAT 2, Weights.
 void readWeights(Reader& in, TextureHeader& texture) {
   const int levels = in.u8(1, 8);
   for (int c = 0; c < texture.colourPlanes; ++c) {
@@ -239,23 +260,73 @@ void readWeights(Reader& in, TextureHeader& texture) {
   }
 }
 
+/// FORMAT 2, Texture.
+void readTexture(Reader& in, const Domain& domain, RegionHeader regions, Stream& stream) {
+  TextureHeader& t = stream.texture.emplace();
+  t.width = domain.width;
+  t.height = domain.height;
+  if (t.width > 1 << 15 || t.height > 1 << 15) in.fail(Outcome::kCorrupt);
+  t.regions = regions;
+  t.channels = t.colourPlanes = in.u8(1, 4);
+  t.sample = in.u8(0, 2);
+  if (t.sample == kI8) in.fail(Outcome::kCorrupt);
+  const int coding = in.u8(0, 2);
+  const bool lifted = coding == 2;
+  t.stored = coding == 0;
+  t.white = t.sample == kU8 ? 255 : 65535;
+  Parts parts(in);
+  readCoding(in, parts, coding, t);
+  parts.take(4, [&](Reader& p) { t.bridge = p.u8(1, 255); });
+  const bool cutout = parts.take(16, [&](Reader& p) {
+    t.alphaBytes = p.varint(1, INT64_MAX);
+    t.hidden = p.u8(0, 1);
+  });
+  if (cutout) --t.colourPlanes;
+  parts.take(17, [&](Reader& p) { t.overlayBytes = p.varint(1, INT64_MAX); });
+  if (parts.take(18, [&](Reader& p) { readColours(p, t); }) != lifted) in.fail(Outcome::kCorrupt);
+  t.opaque = parts.take(19, [&](Reader& p) {
+    for (int i = 0; lifted && i + 1 < t.channels; ++i) t.furtherShears[i] = p.zigzag(32767);
+  });
+  const bool tables = parts.take(20, [&](Reader& p) { readChannelTables(p, t); });
+  const bool white = parts.take(21, [&](Reader& p) { t.white = int(p.varint(1, 65534)); });
+  const bool weights = parts.take(22, [&](Reader& p) { readWeights(p, t); });
+  parts.end();
+  const bool odd = t.channels % 2 == 1;
+  if ((cutout || t.opaque) && (odd || (cutout && t.opaque))) in.fail(Outcome::kCorrupt);
+  if (white && t.sample == kU8) in.fail(Outcome::kCorrupt);
+  if (t.bridge > 0 && !t.hidden && t.overlayBytes == 0) in.fail(Outcome::kCorrupt);
+  if (!lifted && (cutout || t.overlayBytes > 0 || tables || weights || regions.log2 > 0))
+    in.fail(Outcome::kCorrupt);
+}
+
+/// FORMAT 3: what the field `head` of a packet says.
+struct Head {
+  uint64_t length = 0, number = 0;
+  bool whole = false;
+};
+
+Head headOf(uint64_t field, const Stream& stream) {
+  int bits = 1;
+  while (stream.components.size() > uint64_t{1} << bits) ++bits;
+  return {field >> (bits + 1), field & ((uint64_t{1} << bits) - 1), (field >> bits & 1) != 0};
+}
+
 /// FORMAT 3: whether packets of a component say which track they belong to.
-bool namesTracks(const Stream& stream, uint64_t component) {
-  if (component == 0) return stream.geometry && stream.geometry->regions.log2 > 0;
-  return stream.texture && stream.texture->regions.log2 > 0;
+bool namesTracks(const Stream& stream, uint64_t number) {
+  return number < stream.components.size() && stream.components[number].named;
 }
 
 /// FORMAT 2, Index: it decodes nothing, but its syntax counts.
 void skipIndex(Reader& in, const Stream& stream) {
   for (uint64_t left = in.varint(1, 1 << 19); left > 0; --left) {
-    const uint64_t head = in.varint(0, UINT64_MAX);
-    if (namesTracks(stream, head & 1)) in.varint(0, UINT32_MAX);
+    const Head head = headOf(in.varint(0, UINT64_MAX), stream);
+    if (namesTracks(stream, head.number)) in.varint(0, UINT32_MAX);
     in.byte();  // quality
     in.byte();  // slope
   }
 }
 
-/// Of the larger component.
+/// Of the larger component that the decoder takes.
 uint64_t samplesOf(const Stream& stream) {
   uint64_t heights = 0, texels = 0;
   if (const auto& g = stream.geometry) heights = uint64_t(g->shownWidth()) * g->shownHeight();
@@ -263,38 +334,78 @@ uint64_t samplesOf(const Stream& stream) {
   return std::max(heights, texels);
 }
 
-/// FORMAT 2: "smallest n such that neither component has more than 4^(n + 8) samples".
+/// FORMAT 2: "smallest n such that the grid of no component has more than 4^(n + 8) samples".
 int levelOf(const Stream& stream) {
+  uint64_t most = 0;
+  for (const Component& c : stream.components)
+    if (c.domain.kind == 0) most = std::max(most, uint64_t(c.domain.width) * c.domain.height);
   int level = 0;
-  while (samplesOf(stream) > uint64_t{1} << (2 * (level + 8))) ++level;
+  while (most > uint64_t{1} << (2 * (level + 8))) ++level;
   return level;
+}
+
+/// FORMAT 2, Domain.
+Domain readDomain(Reader& in) {
+  Domain domain;
+  domain.kind = in.byte();
+  if (domain.kind != 0) {
+    restOf(in);
+    return domain;
+  }
+  domain.width = static_cast<int>(in.varint(1, 1 << 20));
+  domain.height = static_cast<int>(in.varint(1, 1 << 20));
+  return domain;
+}
+
+/// FORMAT 2, Component.
+void readComponent(Reader& in, const std::vector<Domain>& domains, Stream& stream) {
+  const int kind = in.byte();
+  const uint64_t number = in.varint(0, 15);
+  if (number >= domains.size()) in.fail(Outcome::kCorrupt);
+  RegionHeader regions{in.u8(0, 20)};
+  if (in.outcome() != Outcome::kDone) return;
+  Component component{-1, regions.log2 > 0, domains[number]};
+  const bool grid = component.domain.kind == 0;
+  if (grid && kind == 0 && !stream.geometry) component.role = 0;
+  if (grid && kind == 1 && !stream.texture) component.role = 1;
+  if (component.role >= 0 && regions.log2 > 0 && regions.log2 < 4) in.fail(Outcome::kCorrupt);
+  if (component.role == 0) readHeights(in, component.domain, regions, stream);
+  if (component.role == 1) readTexture(in, component.domain, regions, stream);
+  if (component.role < 0) restOf(in);
+  stream.components.push_back(component);
+}
+
+/// FORMAT 2, parts 64 to 72 of the body.
+void skipInformation(Parts& parts, const Stream& stream) {
+  parts.take(64, [](Reader&) {});                              // lossless
+  parts.take(65, [](Reader& p) { p.littleEndian(4); });        // payload_crc
+  parts.take(66, [](Reader& p) { p.varint(1, UINT32_MAX); });  // triangles
+  Places places(stream);
+  parts.take(67, [&](Reader& p) { places.skipMetadata(p); });
+  parts.take(68, [&](Reader& p) { places.skipHeights(p); });
+  parts.take(69, [&](Reader& p) { places.skipTexture(p); });
+  parts.take(70, [&](Reader& p) { skipIndex(p, stream); });
+  parts.take(71, [](Reader& p) { restOf(p); });  // positions: no status depends on them
+  parts.take(72, [](Reader& p) { restOf(p); });
 }
 
 /// FORMAT 2, Body. Returns `payload_bytes`.
 uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   Reader in(body);
-  const int parts = in.u8(1, 255);
   const uint64_t payloadBytes = in.varint(0, INT64_MAX);
-  if (in.u8(0, 3) >= 2) in.littleEndian(4);  // payload_crc, which a decoder need not look at
-  in.varint(0, UINT32_MAX);                  // triangles
-  if ((parts & 3) == 0) in.fail(Outcome::kCorrupt);
-  if (parts & 1) stream.geometry = readGeometry(in);
-  if (parts & 2) stream.texture = readTexture(in);
-  const Transform spacing = parts & 4 ? skipMetadata(in) : Transform{0, 0, 0, 0, 0, -0.0};
-  if (parts & 16) stream.layers = readLayers(in, stream.geometry);
-  if (parts & 32 && stream.geometry) stream.geometry->regions = readRegions(in);
-  if (stream.geometry && stream.geometry->planes == kStoredPlanes &&
-      stream.geometry->regions.log2 > 0)
-    in.fail(Outcome::kCorrupt);
-  if (parts & 32 && stream.texture) stream.texture->regions = readRegions(in);
-  if (parts & 64 && stream.texture) readWeights(in, *stream.texture);
-  if (stream.texture && stream.texture->planes == kDrawnPlanes &&
-      (stream.texture->regions.log2 > 0 || parts & 64))
-    in.fail(Outcome::kCorrupt);
-  if (parts & 128) skipGeoreference(in, stream, spacing);
-  if (parts & 8) skipIndex(in, stream);
-  // Optional parts inform: whatever stands there, no status depends on it.
-  if (in.outcome() != Outcome::kDone) stream.outcome = Outcome::kCorrupt;
+  Parts parts(in);
+  std::vector<Domain> domains;
+  while (domains.size() < 16 &&
+         parts.take(0, [&](Reader& p) { domains.push_back(readDomain(p)); })) {
+  }
+  while (stream.components.size() < 16 &&
+         parts.take(1, [&](Reader& p) { readComponent(p, domains, stream); })) {
+  }
+  skipInformation(parts, stream);
+  parts.end();
+  if (stream.components.empty()) in.fail(Outcome::kCorrupt);
+  if (!stream.geometry && !stream.texture) in.fail(Outcome::kUnsupported);
+  stream.outcome = in.outcome() == Outcome::kTruncated ? Outcome::kCorrupt : in.outcome();
   return payloadBytes;
 }
 
@@ -311,7 +422,8 @@ std::span<const uint8_t> readHeader(std::span<const uint8_t> prefix, Stream& str
   stream.outcome = in.outcome();
   if (stream.outcome != Outcome::kDone) return {};
   const uint64_t payloadBytes = readBody(body, stream);
-  if (crc != crc32(sealed) || level != levelOf(stream)) stream.outcome = Outcome::kCorrupt;
+  const bool sound = stream.outcome != Outcome::kDone || level == levelOf(stream);
+  if (crc != crc32(sealed) || !sound) stream.outcome = Outcome::kCorrupt;
   return in.rest().first(std::min<uint64_t>(payloadBytes, in.rest().size()));
 }
 
@@ -335,16 +447,18 @@ Outcome readPackets(std::span<const uint8_t> payload, Stream& stream) {
   makeCodewords(stream);
   Reader in(payload);
   while (!in.rest().empty()) {
-    const uint64_t head = in.shortestVarint(0, UINT64_MAX);
-    const uint64_t length = head >> 2, component = head & 1;
-    const uint64_t track = namesTracks(stream, component) ? in.shortestVarint(0, UINT32_MAX) : 0;
+    const auto [length, number, whole] = headOf(in.shortestVarint(0, UINT64_MAX), stream);
+    const uint64_t track = namesTracks(stream, number) ? in.shortestVarint(0, UINT32_MAX) : 0;
     in.byte();  // quality
     if (in.outcome() == Outcome::kTruncated) break;
-    const bool whole = head & 2, announced = track < stream.codewords[component].size();
+    const bool listed = number < stream.components.size();
+    const int role = listed ? stream.components[number].role : -1;
+    const bool announced = listed && (role < 0 || track < stream.codewords[role].size());
     if (in.outcome() != Outcome::kDone || length == 0 || !announced) return Outcome::kCorrupt;
     if (whole && length > in.rest().size()) break;
     const auto bytes = in.take(std::min<uint64_t>(length, in.rest().size()));
-    std::vector<uint8_t>& codeword = stream.codewords[component][track];
+    if (role < 0) continue;
+    std::vector<uint8_t>& codeword = stream.codewords[role][track];
     codeword.insert(codeword.end(), bytes.begin(), bytes.end());
   }
   return Outcome::kDone;

@@ -106,13 +106,26 @@ struct TextureHeader {
 /// The codewords of a component's tracks.
 using Codewords = std::vector<std::vector<uint8_t>>;
 
+/// FORMAT 2, Domain.
+struct Domain {
+  int kind = 0, width = 0, height = 0;
+};
+
+/// FORMAT 2, what every component begins with.
+struct Component {
+  int role = -1;  ///< 0 heights, 1 texture, -1: passed over
+  bool named = false;
+  Domain domain;
+};
+
 /// What a prefix of a stream holds.
 struct Stream {
   Outcome outcome = Outcome::kDone;
   std::optional<GeometryHeader> geometry;
   Layers layers;
   std::optional<TextureHeader> texture;
-  std::array<Codewords, 2> codewords;  ///< by component: 0 geometry, 1 texture
+  std::vector<Component> components;
+  std::array<Codewords, 2> codewords;  ///< by role
 };
 
 /// "Arithmetic on samples and coefficients wraps modulo 2^32" (FORMAT, notation).

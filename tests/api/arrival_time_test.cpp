@@ -36,9 +36,9 @@ ManyPackets manyPackets(uint32_t count, bool indexed) {
   FieldWriter payload;
   std::vector<size_t> begins;
   for (uint32_t i = 0; i < count; ++i) {
-    const PacketHead head{3 << 2, i, 64};
+    const PacketHead head{3, i, 64};
     begins.push_back(payload.bytes.size());
-    const Bytes bytes = headBytes(head, true);
+    const Bytes bytes = headBytes(head, tracks);
     payload.bytes.insert(payload.bytes.end(), bytes.begin(), bytes.end());
     for (int k = 0; k < 3; ++k) payload.bytes.push_back(static_cast<uint8_t>(7 * i + k));
     if (indexed) header.index.push_back({head, 9});

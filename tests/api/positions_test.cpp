@@ -176,28 +176,21 @@ TEST(FitPositions, SaysWhatItCannotDo) {
   EXPECT_EQ(tks_fit_positions(&ground, &buffer), TKS_USAGE);
 }
 
-/// The stream with other optional parts.
-Bytes withParts(const Bytes& stream, std::vector<OptionalPart> parts) {
+/// The stream with other positions of its heights.
+Bytes withPositions(const Bytes& stream, std::string positions) {
   auto parsed = readHeader(stream);
   const size_t begin = parsed->bytes;
-  parsed->header.optional_parts = std::move(parts);
+  parsed->header.height_positions = std::move(positions);
   Bytes out = writeHeader(parsed->header);
   out.insert(out.end(), stream.begin() + static_cast<std::ptrdiff_t>(begin), stream.end());
   return out;
 }
 
-TEST_F(PositionsTest, KindsThatNobodyKnowsAreSkippedAndTheFirstOfAKindCounts) {
+TEST_F(PositionsTest, OfAnotherFormAreNone) {
   const Bytes stream = encode(false);
   const std::string known(positions_.begin(), positions_.end());
-  const auto heights = OptionalKind::kHeightPositions;
-  const auto other = OptionalKind{uint64_t{1} << 60};
-  Stream later(withParts(stream, {{other, std::string(300, 'x')}, {heights, known}}));
-  expectPlace(later.get(), {TKS_PART_HEIGHTS, 7, 9}, 7, 9);
-  const std::vector<Bytes> without = {
-      withParts(stream, {{other, known}}), withParts(stream, {{heights, known + "x"}}),
-      withParts(stream, {{heights, ""}, {heights, known}}),
-      withParts(stream, std::vector<OptionalPart>(16, {other, ""}))};
-  for (const Bytes& bytes : without) {
+  for (const Bytes& bytes : {withPositions(stream, known + "x"), withPositions(stream, ""),
+                             withPositions(stream, known.substr(1))}) {
     Stream decoder(bytes);
     EXPECT_EQ(decoder.info().positions, nullptr);
     const tks_pixel pixel = {TKS_PART_HEIGHTS, 1, 1};
@@ -217,7 +210,7 @@ TEST_F(PositionsTest, OfAnyBytesAreNumbersOrNone) {
     std::string bytes(positions_.begin(), positions_.end());
     for (int change = 0; change < 1 + round % 3; ++change)
       bytes[random() % bytes.size()] = char(random());
-    Stream decoder(withParts(stream, {{OptionalKind::kHeightPositions, bytes}}));
+    Stream decoder(withPositions(stream, bytes));
     const tks_pixel pixel = {TKS_PART_HEIGHTS, 50.0 * (round % 3), -3};
     double longitude = 0, latitude = 0;
     const tks_status status = tks_locate(decoder.get(), &pixel, &longitude, &latitude);

@@ -27,12 +27,12 @@ std::array<std::vector<Bytes>, 2> tracksOf(const Bytes& bytes, const std::vector
   size_t place = parsed.bytes;
   for (const auto& [entry, slope] : parsed.header.index) {
     if (place >= bytes.size()) break;
-    const auto c = static_cast<size_t>(entry.component());
-    place += headBytes(entry, counts[c].named).size();
-    const size_t length = entry.length();
+    const auto c = static_cast<size_t>(entry.component);
+    place += headBytes(entry, counts).size();
+    const size_t length = entry.length;
     size_t known = 0;
     while (known < length && place + known < bytes.size() && there[place + known]) ++known;
-    if (!ended[c][entry.track] && (known == length || !entry.whole())) {
+    if (!ended[c][entry.track] && (known == length || !entry.whole)) {
       Bytes& track = tracks[c][entry.track];
       for (size_t i = 0; i < known; ++i) track.push_back(bytes[place + i]);
     }
@@ -202,7 +202,7 @@ TEST(Put, AnIndexThatLiesIsNoDamageWithoutGaps) {
     header.index = parsed->header.index;
     PacketHead& told = header.index.front().packet;
     if (length) {
-      told.head += 4;
+      told.length += 1;
     } else {
       told.quality ^= 1;
     }

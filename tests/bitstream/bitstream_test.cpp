@@ -338,7 +338,13 @@ struct ThreePackets {
     const std::vector<Packet> packets = {{Component::kGeometry, false, 90, 0, 40, {}},
                                          {Component::kTexture, true, 80, 0, 300, {}},
                                          {Component::kGeometry, false, 70, 40, 700, {}}};
-    payload = multiplex(packets, {Codewords{geometry}, Codewords{texture}}, UINT64_MAX);
+    payload = multiplex(packets, counts(), {Codewords{geometry}, Codewords{texture}}, UINT64_MAX);
+  }
+  static TrackCounts counts() {
+    TrackCounts counts;
+    counts.add(Component::kGeometry, {1, false});
+    counts.add(Component::kTexture, {1, false});
+    return counts;
   }
 };
 
@@ -346,7 +352,7 @@ TEST(Packets, DemultiplexGoesOnWhereItEnded) {
   const std::vector<uint8_t> payload = ThreePackets().payload;
   for (const size_t stride : {1, 2, 37, 500}) {
     Demultiplexed grown;
-    grown.counts = {{{1, false}, {1, false}}};
+    grown.counts = ThreePackets::counts();
     for (size_t end = 0; end < payload.size();) {
       end = std::min(end + stride, payload.size());
       const auto there = std::span(payload).first(end);
@@ -368,14 +374,43 @@ TEST(Packets, DemultiplexUndoesMultiplexAtEveryCut) {
   const auto [geometry, texture, payload] = ThreePackets();
   for (size_t cut = 0; cut <= payload.size(); ++cut) {
     Result<Demultiplexed> out =
-        demultiplex(std::span(payload).first(cut), 0, {{{1, false}, {1, false}}});
+        demultiplex(std::span(payload).first(cut), 0, ThreePackets::counts());
     ASSERT_TRUE(out.ok());
     const auto& g = out->codewords[0][0];
     const auto& t = out->codewords[1][0];
     EXPECT_TRUE(std::equal(g.begin(), g.end(), geometry.begin()));
     EXPECT_TRUE(t.empty() || t == texture);  // a whole packet comes whole or not at all
   }
-  EXPECT_FALSE(demultiplex(payload, 0, {{{1, false}, {0, false}}}).ok());
+  TrackCounts alone;
+  alone.add(Component::kGeometry, {1, false});
+  EXPECT_FALSE(demultiplex(payload, 0, alone).ok());
+}
+
+/// A third component, and one whose packets name regions: those that are known get the same bytes.
+TEST(Packets, OfOtherComponentsArePassedOver) {
+  TrackCounts counts;
+  counts.add(Component::kOther, {0, true});
+  counts.add(Component::kTexture, {1, false});
+  counts.add(Component::kGeometry, {1, false});
+  FieldWriter payload;
+  const auto put = [&](uint8_t number, uint32_t track, const std::vector<uint8_t>& bytes) {
+    const std::vector<uint8_t> head = headBytes({bytes.size(), track, 9, false, number}, counts);
+    payload.bytes.insert(payload.bytes.end(), head.begin(), head.end());
+    payload.bytes.insert(payload.bytes.end(), bytes.begin(), bytes.end());
+  };
+  put(0, 70000, std::vector<uint8_t>(300, 1));
+  put(2, 0, {2, 3});
+  put(0, 5, {4});
+  put(1, 0, {5, 6, 7});
+  put(2, 0, {8});
+  const Result<Demultiplexed> out = demultiplex(payload.bytes, 0, counts);
+  ASSERT_TRUE(out.ok());
+  EXPECT_EQ(out->heads.size(), 5u);
+  EXPECT_EQ(out->codewords[0].at(0), (std::vector<uint8_t>{2, 3, 8}));
+  EXPECT_EQ(out->codewords[1].at(0), (std::vector<uint8_t>{5, 6, 7}));
+  EXPECT_TRUE(out->codewords[2].empty());
+  put(3, 0, {1});
+  EXPECT_FALSE(demultiplex(payload.bytes, 0, counts).ok());
 }
 
 TEST(Packets, QualityRoundsUp) {

@@ -18,7 +18,7 @@ using Bytes = std::vector<uint8_t>;
 /// One packet of the first track.
 Bytes streamOf(StreamHeader header, const Bytes& codeword) {
   FieldWriter payload;
-  payload.put(uint64_t{codeword.size()} << 2 | (header.geometry ? 0u : 1u));
+  payload.put(uint64_t{codeword.size()} << 2);
   if (trackCounts(header)[header.geometry ? 0 : 1].named) payload.put(0);
   payload.bytes.push_back(64);
   payload.bytes.insert(payload.bytes.end(), codeword.begin(), codeword.end());

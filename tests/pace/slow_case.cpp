@@ -201,15 +201,14 @@ StreamHeader anyTexture(Dice& dice, uint64_t most_samples) {
 
 /// Packets of some of the tracks, of so many bytes together at most.
 Bytes anyPayload(Dice& dice, const StreamHeader& header, size_t size, std::string& description) {
-  const uint64_t component = header.geometry ? 0 : 1;
-  const TrackCount tracks = trackCounts(header)[component];
+  const TrackCount tracks = trackCounts(header)[header.geometry ? 0 : 1];
   FieldWriter payload;
   const uint64_t sent = std::min<uint64_t>(tracks.tracks, dice.oneIn(2) ? 1 : dice.anySize(2000));
   const uint64_t step = tracks.tracks / sent;
   const size_t most = std::max<size_t>(1, size / sent);
   const Bytes common = codeword(dice, most, description);
   for (uint64_t i = 0; i < sent; ++i) {
-    payload.put(uint64_t{common.size()} << 2 | component);
+    payload.put(uint64_t{common.size()} << 2);
     if (tracks.named) payload.put(i * step);
     payload.bytes.push_back(64);
     payload.bytes.insert(payload.bytes.end(), common.begin(), common.end());

@@ -22,7 +22,7 @@ inline HostileStream sealed(const std::string& name, StreamHeader header, bool s
   std::vector<uint8_t> payload;
   const uint8_t component = header.geometry ? 0 : 1;
   // A packet of three bytes, of an unsplit component.
-  if (sent) payload = {static_cast<uint8_t>(3 << 2 | component), 90, 0xa5, 0x5a, 0x33};
+  if (sent) payload = {uint8_t{3 << 2}, 90, 0xa5, 0x5a, 0x33};
   header.payload_bytes = payload.size();
   HostileStream stream{name, writeHeader(header), sent};
   stream.bytes.insert(stream.bytes.end(), payload.begin(), payload.end());
