@@ -26,7 +26,7 @@ uint32_t crc32(std::span<const uint8_t> bytes) {
 /// FORMAT 2, table Wavelet.
 WaveletHeader readWavelet(Reader& in) {
   WaveletHeader w;
-  for (int& filter : w.filters) filter = in.u8(0, 5);
+  for (int& filter : w.filters) filter = in.u8(0, 4);
   w.fractionBits = in.u8(0, 8);
   w.sampleBits = in.u8(0, 32);
   if (w.fractionBits > 0) return w;
