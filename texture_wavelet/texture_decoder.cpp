@@ -95,7 +95,7 @@ class ColourPlanes {
     for (ViewSynthesis& plane : synthesis_) plane.allocate();
   }
 
-  Precision decode(const Codewords& coefficients, const DecodeContext<TrackMemory>& context) {
+  int decode(const Codewords& coefficients, const DecodeContext<TrackMemory>& context) {
     const RegionDecoder tracks{header_.wavelet, header_.regions, header_.planes, view_.level,
                                context};
     return tracks.run(
@@ -113,14 +113,14 @@ class ColourPlanes {
   }
 
   /// Called once, when everything is decoded.
-  std::vector<std::vector<int32_t>> restore(uint32_t threads, bool rounds) {
+  std::vector<std::vector<int32_t>> restore(uint32_t threads) {
     inverseColourLevels(colourOf(header_), pyramid(), synthesis_);
     const std::vector<uint8_t> shown =
         slice(std::span<const uint8_t>(opening_.coded), header_.extent(), view_);
     std::vector<std::vector<int32_t>> planes(synthesis_.size());
     // A window's inverse transform knows no threads, that of a whole plane does.
     parallelFor(view_.window ? threads : 1, planes.size(), [&](size_t c) {
-      planes[c] = synthesis_[c].run(threads, rounds);
+      planes[c] = synthesis_[c].run(threads);
       clearUnmarked(std::span(planes[c]), shown);
     });
     return planes;
@@ -165,10 +165,10 @@ Texels decodeLines(const TextureHeader& header, const Codewords& codewords, cons
   const bool growing = memory != nullptr && memory->opening.whole != nullptr;
   TrackMemory* const tracks = growing ? &memory->tracks : nullptr;
   ColourPlanes colours(header, *opening, view, tracks);
-  const Precision precision = colours.decode(coefficients, {context.threads, tracks});
-  std::vector<std::vector<int32_t>> planes = colours.restore(context.threads, precision.rounds);
+  const int fraction_bits = colours.decode(coefficients, {context.threads, tracks});
+  std::vector<std::vector<int32_t>> planes = colours.restore(context.threads);
   Texels texels = emptyTexels(header, view.extentIn(header.extent()));
-  finish(header, precision.fraction_bits, planes, context.threads, texels);
+  finish(header, fraction_bits, planes, context.threads, texels);
   finishAlpha(slice(std::span<const uint8_t>(opening->seen), header.extent(), view), texels);
   opening->paint(header.extent(), view, texels);
   return texels;

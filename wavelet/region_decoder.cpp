@@ -56,16 +56,15 @@ bool RegionDecoder::nothingKnown(const Codewords& codewords) const {
   return regions.side_log2 == 0 && (bit_planes == 0 || codewords.front().empty());
 }
 
-Precision RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of,
-                             const Take& take) const {
+int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const {
   assert(!codewords.empty());
   // Windows do not decode all tracks, so that only the bytes say how much is known.
   TrackMemory* const memory =
       context.memory != nullptr && !context.memory->forgets ? context.memory : nullptr;
   const uint64_t bytes = memory != nullptr ? memory->knownBytes(codewords) : bytesOf(codewords);
-  const Precision precision = precisionOf(wavelet, bit_planes, bytes, level);
-  const int more_bits = precision.fraction_bits - wavelet.fraction_bits;
-  if (nothingKnown(codewords)) return precision;
+  const int fraction_bits = fractionBitsOf(wavelet, bit_planes, bytes, level);
+  const int more_bits = fraction_bits - wavelet.fraction_bits;
+  if (nothingKnown(codewords)) return fraction_bits;
   if (memory != nullptr) memory->tracks.resize(codewords.size());
   parallelFor(context.threads, codewords.size(), [&](size_t i) {
     if (codewords[i].empty() || bit_planes == 0) return;
@@ -79,7 +78,7 @@ Precision RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of,
     memory->tracks[i].emplace(std::move(plan), bit_planes);
     take(i, memory->decode(i, codewords[i]), more_bits);
   });
-  return precision;
+  return fraction_bits;
 }
 
 }  // namespace tetrakis::inline wavelet

@@ -63,7 +63,7 @@ DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords
   synthesis.allocate();
   ShownSignificance significance(layout.pyramid(), view, regions.size());
   const RegionDecoder tracks{header.wavelet, header.regions, header.planes, view.level, context};
-  const Precision precision = tracks.run(
+  const int fraction_bits = tracks.run(
       codewords, [&](size_t i) { return planOf(layout, layout.parts(regions[i]), synthesis); },
       [&](size_t i, const TrackState& state, int more_bits) {
         const std::vector<BandPart> parts = layout.parts(regions[i]);
@@ -72,13 +72,13 @@ DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords
         significance.take(i, state, parts);
       });
   // The layout holds these values, which get fraction bits like those of the synthesis.
-  for (int32_t& height : area_heights) height <<= precision.fraction_bits;
+  for (int32_t& height : area_heights) height <<= fraction_bits;
   const Extent extent = view.extentIn(header.extent());
   DecodedGeometry out;
   out.width = extent.width;
   out.height = extent.height;
-  out.heights = synthesis.run(context.threads, precision.rounds);
-  out.fraction_bits = precision.fraction_bits;
+  out.heights = synthesis.run(context.threads);
+  out.fraction_bits = fraction_bits;
   out.valid = view.isWhole() ? std::move(known.valid)
                              : slice(std::span<const uint8_t>(known.valid), header.extent(), view);
   clearUnmarked(std::span(out.heights), out.valid);

@@ -204,7 +204,7 @@ TEST(PlaneLayout, GatheredCoefficientsArePutBack) {
       }
       back.put(band, 0, part);
     }
-    EXPECT_EQ(back.run(1, true), inverse(uniform(FilterId::kShort), plane, size)) << size;
+    EXPECT_EQ(back.run(1), inverse(uniform(FilterId::kShort), plane, size)) << size;
   }
 }
 

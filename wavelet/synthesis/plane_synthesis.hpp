@@ -35,7 +35,7 @@ class PlaneSynthesis {
     return lies_in_low ? subband.height : 0;
   }
   std::span<int32_t> row(const Subband& subband, uint32_t row);
-  std::vector<int32_t> run(uint32_t threads, bool rounds);
+  std::vector<int32_t> run(uint32_t threads);
 
  private:
   void normalise();
