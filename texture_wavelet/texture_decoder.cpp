@@ -112,15 +112,17 @@ class ColourPlanes {
         });
   }
 
-  /// Called once, when everything is decoded.
-  std::vector<std::vector<int32_t>> restore(uint32_t threads, bool rounds) {
+  /// Called once, when everything is decoded. memory: of each plane, or empty.
+  std::vector<std::vector<int32_t>> restore(uint32_t threads, bool rounds,
+                                            std::span<SynthesisMemory> memory) {
     inverseColourLevels(colourOf(header_), pyramid(), synthesis_);
     const std::vector<uint8_t> shown =
         slice(std::span<const uint8_t>(opening_.coded), header_.extent(), view_);
     std::vector<std::vector<int32_t>> planes(synthesis_.size());
     // A window's inverse transform knows no threads, that of a whole plane does.
     parallelFor(view_.window ? threads : 1, planes.size(), [&](size_t c) {
-      planes[c] = synthesis_[c].run(threads, rounds);
+      planes[c] = memory.empty() ? synthesis_[c].run(threads, rounds)
+                                 : synthesis_[c].run(threads, rounds, memory[c]);
       clearUnmarked(std::span(planes[c]), shown);
     });
     return planes;
@@ -166,7 +168,10 @@ Texels decodeLines(const TextureHeader& header, const Codewords& codewords, cons
   TrackMemory* const tracks = growing ? &memory->tracks : nullptr;
   ColourPlanes colours(header, *opening, view, tracks);
   const Precision precision = colours.decode(coefficients, {context.threads, tracks});
-  std::vector<std::vector<int32_t>> planes = colours.restore(context.threads, precision.rounds);
+  const std::span<SynthesisMemory> kept =
+      memory ? std::span(memory->planes) : std::span<SynthesisMemory>();
+  std::vector<std::vector<int32_t>> planes =
+      colours.restore(context.threads, precision.rounds, kept);
   Texels texels = emptyTexels(header, view.extentIn(header.extent()));
   finish(header, precision.fraction_bits, planes, context.threads, texels);
   finishAlpha(slice(std::span<const uint8_t>(opening->seen), header.extent(), view), texels);

@@ -18,7 +18,7 @@ PriorityMap priorityMapOf(const PriorityHeader& header, Extent plane) {
   map.priorities.resize(size_t{map.columns()} * map.rows());
   const auto* bytes = reinterpret_cast<const uint8_t*>(header.code.data());
   DecisionDecoding io(std::span(bytes, header.code.size()));
-  PriorityPass<DecisionDecoding>(io).run(map.columns(), map.priorities);
+  PriorityPass<DecisionDecoding<>>(io).run(map.columns(), map.priorities);
   return map;
 }
 

@@ -11,6 +11,8 @@
 
 namespace tetrakis::inline coder {
 
+/// Decoder: a RangeDecoder, or what stands in its place.
+template <class Decoder = RangeDecoder>
 class DecisionDecoding {
  public:
   explicit DecisionDecoding(std::span<const uint8_t> codeword) : decoder_(codeword) {}
@@ -18,9 +20,10 @@ class DecisionDecoding {
   bool decideOf(uint32_t zero, bool) { return decoder_.decodeOf(zero); }
   bool even(bool) { return decoder_.decodeEven(); }
   bool stopped() const { return decoder_.exhausted(); }
+  const Decoder& decoder() const { return decoder_; }
 
  private:
-  RangeDecoder decoder_;
+  Decoder decoder_;
 };
 
 }  // namespace tetrakis::inline coder

@@ -121,6 +121,8 @@ DecodedGeometry decodeSteps(const TakenLayers& taken, DecodedView& view,
 DecodedHeights decodeTaken(const TakenLayers& taken, DecodedView& view,
                            const DecodeContext<HeightsMemory>& context) {
   const GeometryHeader& header = taken.header;
+  if (context.memory != nullptr && context.memory->corrected && taken.isCorrected())
+    return context.memory->corrected(taken.corrections.front().size());
   if (header.stored()) {
     const std::vector<uint8_t> valid = validityOf(taken, {}, context.memory);
     view = decodedViewOf(taken, valid, view.view);

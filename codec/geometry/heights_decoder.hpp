@@ -23,6 +23,8 @@ struct HeightsMemory {
   TrackMemory tracks;           ///< likewise: what exists of them follows from those
   /// Of encoders, which have all of a drawing: what its first bytes show behind the opening.
   std::function<DecodedGeometry(uint64_t bytes)> drawing = {};
+  /// Of encoders, which have all corrections: what the first bytes of these make of the heights.
+  std::function<DecodedHeights(uint64_t bytes)> corrected = {};
 
   uint64_t bytes() const;
 };

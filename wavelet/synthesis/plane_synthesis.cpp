@@ -41,6 +41,15 @@ std::vector<int32_t> PlaneSynthesis::run(uint32_t threads, bool rounds) {
   return std::move(values_);
 }
 
+std::vector<int32_t> PlaneSynthesis::run(uint32_t threads, bool rounds, SynthesisMemory& memory) {
+  if (memory.coefficients != values_ || memory.rounds != rounds) {
+    memory.coefficients = values_;
+    memory.rounds = rounds;
+    memory.samples = run(threads, rounds);
+  }
+  return memory.samples;
+}
+
 /// Takes the gain of the finer levels out of the low band.
 void PlaneSynthesis::normalise() {
   constexpr int kShift = 30;

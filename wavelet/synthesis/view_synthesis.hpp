@@ -62,6 +62,10 @@ class ViewSynthesis {
   std::vector<int32_t> run(uint32_t threads, bool rounds) {
     return std::visit([&](auto& kernel) { return kernel.run(threads, rounds); }, kernel_);
   }
+  /// memory: of this plane; no view is a window.
+  std::vector<int32_t> run(uint32_t threads, bool rounds, SynthesisMemory& memory) {
+    return std::get<PlaneSynthesis>(kernel_).run(threads, rounds, memory);
+  }
 
  private:
   using Kernel = std::variant<PlaneSynthesis, WindowSynthesis>;

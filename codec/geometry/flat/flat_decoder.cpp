@@ -15,13 +15,13 @@ FlatAreas decodeFlatAreas(std::span<const uint8_t> codeword, Extent plane, Mask 
   NumberedAreas numbered;
   {
     std::vector<uint8_t> flat(plane.samples());
-    FlatMaskIo<DecisionDecoding> mask_io(io, valid, nullptr);
-    ValidityPass<FlatMaskIo<DecisionDecoding>>({flat, plane}, mask_io).run();
+    FlatMaskIo<DecisionDecoding<>> mask_io(io, valid, nullptr);
+    ValidityPass<FlatMaskIo<DecisionDecoding<>>>({flat, plane}, mask_io).run();
     if (!io.stopped()) numbered = numberAreas(PlaneView<const uint8_t>(flat, plane));
   }
   if (numbered.count != areas) return {};
   FlatAreas out{std::move(numbered.numbers), std::vector<int32_t>(areas)};
-  FlatHeightsPass<DecisionDecoding>(io).run(out.heights);
+  FlatHeightsPass<DecisionDecoding<>>(io).run(out.heights);
   if (io.stopped()) return {};
   return out;
 }
