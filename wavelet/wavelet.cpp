@@ -34,7 +34,7 @@ class Levels {
            const Carrying& carrying) const {
     const Window whole{0, 0, block.extent.width, block.extent.height};
     std::vector<uint8_t> mask;
-    if (!pyramid_.valid().all()) mask = pyramid_.splitMask(level - 1, whole);
+    if (!pyramid_.allExist()) mask = pyramid_.splitMask(level - 1, whole);
     block.existing = mask;
     if (!ladder_) return transform.run(block, carrying);
     const HeldLevel states = ladder_->level(level);
@@ -51,7 +51,7 @@ class Levels {
 }  // namespace
 
 int carriedTo(const WaveletSpec& spec, const Pyramid& pyramid) {
-  if (!pyramid.valid().all() || !pyramid.held().none()) return 0;
+  if (!pyramid.allExist() || !pyramid.held().none()) return 0;
   const auto carries = [&](int level) {
     return spec.joint(level) && pyramid.splitsX(level) && pyramid.splitsY(level);
   };

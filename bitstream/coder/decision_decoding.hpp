@@ -19,6 +19,9 @@ class DecisionDecoding {
   bool decide(AdaptiveBit& model, bool) { return decoder_.decode(model); }
   bool decideOf(uint32_t zero, bool) { return decoder_.decodeOf(zero); }
   bool even(bool) { return decoder_.decodeEven(); }
+  uint32_t run(AdaptiveBit& model, bool answer, uint32_t most) {
+    return decoder_.decodeRun(model, answer, most);
+  }
   bool stopped() const { return decoder_.exhausted(); }
   const Decoder& decoder() const { return decoder_; }
 

@@ -49,32 +49,33 @@ template <class List, class Value>
 class DrawingPrefixes {
  public:
   /// codeword: all of it, as an encoder wrote it. levels: of the grid, coarse to fine.
-  DrawingPrefixes(std::span<const uint8_t> codeword, Extent extent, Mask valid,
+  /// valid: null: all samples have a value.
+  DrawingPrefixes(std::span<const uint8_t> codeword, Extent extent, const BitPlane* valid,
                   std::span<const Level> levels, List list)
-      : list_(std::move(list)), indices_(extent.samples(), kNoIndex) {
+      : list_(std::move(list)), indices_(extent.samples()) {
     WatchedDecoding<Value> io(codeword, decided_);
-    DrawingPass(PlaneView<DrawnIndex>(indices_, extent, valid), list_, io).run(levels);
+    DrawingPass(PlaneView<KeptIndex>(indices_, extent), valid, list_, io).run(levels);
     assert(!io.stopped());
     io.end();
-    shown_.assign(extent.samples(), kNoIndex);
+    shown_.resize(extent.samples());
   }
 
   /// With the values of vertices that are not decided yet, which none of the indices below names.
   const List& list() const { return list_; }
 
   /// The indices that a decoder has after so many bytes. Valid until the next call.
-  std::span<const DrawnIndex> indicesAfter(uint64_t bytes) {
+  std::span<const KeptIndex> indicesAfter(uint64_t bytes) {
     decided_.showAfter(
-        bytes, [&] { std::fill(shown_.begin(), shown_.end(), kNoIndex); },
+        bytes, [&] { std::fill(shown_.begin(), shown_.end(), KeptIndex()); },
         [&](size_t vertex) { shown_[vertex] = indices_[vertex]; });
     return shown_;
   }
 
  private:
   List list_;
-  std::vector<DrawnIndex> indices_;  ///< of the whole codeword
-  DecidedPlaces decided_;            ///< the vertices
-  std::vector<DrawnIndex> shown_;
+  std::vector<KeptIndex> indices_;  ///< of the whole codeword
+  DecidedPlaces decided_;           ///< the vertices
+  std::vector<KeptIndex> shown_;
 };
 
 }  // namespace tetrakis::inline drawing

@@ -55,18 +55,18 @@ TEST(Validity, ComesBackWhateverFollows) {
       const auto valid = validity(shape, size.width, size.height);
       auto codeword = encodeValidity({valid, {size.width, size.height}});
       ASSERT_FALSE(codeword.empty());
-      ASSERT_EQ(decodeValidity(codeword, {size.width, size.height}), valid);
+      ASSERT_EQ(decodeValidity(codeword, {size.width, size.height}).bytes(), valid);
       for (const int tail : {0x00, 0xff}) {
         auto longer = codeword;
         longer.insert(longer.end(), 9, static_cast<uint8_t>(tail));
-        ASSERT_EQ(decodeValidity(longer, {size.width, size.height}), valid);
+        ASSERT_EQ(decodeValidity(longer, {size.width, size.height}).bytes(), valid);
       }
     }
   }
 }
 
 TEST(Validity, NoCodewordSaysThatAllIsValid) {
-  EXPECT_EQ(decodeValidity({}, {7, 5}), std::vector<uint8_t>(35, 1));
+  EXPECT_EQ(decodeValidity({}, {7, 5}).bytes(), std::vector<uint8_t>(35, 1));
 }
 
 /// Half of a coast's codeword leaves far fewer samples wrong than none, and the error falls.
@@ -75,7 +75,8 @@ TEST(Validity, PrefixesAreCoarseMasks) {
   const auto valid = validity(VoidShape::kCoast, kSide, kSide);
   const auto codeword = encodeValidity({valid, {kSide, kSide}});
   const auto wrongAfter = [&](size_t bytes) {
-    return differences(decodeValidity(std::span(codeword).first(bytes), {kSide, kSide}), valid);
+    return differences(decodeValidity(std::span(codeword).first(bytes), {kSide, kSide}).bytes(),
+                       valid);
   };
   const size_t none = wrongAfter(0);
   EXPECT_LT(wrongAfter(codeword.size() / 4), none / 3);
@@ -102,7 +103,7 @@ TEST(Validity, AnyBytesDecode) {
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<uint8_t> bytes(random() % 60);
     for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random());
-    for (const uint8_t v : decodeValidity(bytes, {23, 40})) ASSERT_LE(v, 1);
+    for (const uint8_t v : decodeValidity(bytes, {23, 40}).bytes()) ASSERT_LE(v, 1);
   }
 }
 

@@ -23,8 +23,9 @@ double seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-constexpr double kWindowSeconds = 1;                  // of one sample
-constexpr double kPerPlaneSample = 2e-8;              // of a plane that has to be gone through
+constexpr double kWindowSeconds = 1;       // of one sample
+constexpr double kPerPlaneSample = 2e-8;   // of a plane that has to be gone through, ...
+constexpr double kPerDecidingByte = 2e-3;  // ... or of bytes that cannot decide so many samples
 constexpr double kPerSample = 2e-6, kPerByte = 2e-6;  // of all others
 constexpr double kPerMeshSample = 8e-6;               // whatever the stream: sorting, quadrics
 
@@ -34,7 +35,8 @@ class Watch {
   Watch(size_t bytes, double slow) : bytes_(static_cast<double>(bytes)), slow_(slow) {}
 
   void window(const char* name, double plane, const std::function<void()>& call) {
-    check(name, call, kWindowSeconds + kPerPlaneSample * plane);
+    check(name, call,
+          kWindowSeconds + std::min(kPerPlaneSample * plane, kPerDecidingByte * bytes_));
   }
   /// samples: that the call is asked for.
   void all(const char* name, double samples, const std::function<void()>& call,

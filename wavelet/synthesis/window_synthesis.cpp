@@ -175,7 +175,7 @@ std::vector<std::vector<uint8_t>> WindowSynthesis::findFractions() {
 }
 
 std::vector<uint8_t> WindowSynthesis::maskOf(int level) const {
-  if (pyramid_->valid().all()) return {};
+  if (pyramid_->allExist()) return {};
   return pyramid_->splitMask(level - 1, at(level).block());
 }
 
