@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "api/plane_bytes.hpp"
+#include "api/texture_strips.hpp"
 #include "codec/lines/shown_lines.hpp"
 #include "lattice/validity_decoder.hpp"
 #include "texture_wavelet/tables/channel_tables.hpp"
@@ -73,7 +74,10 @@ class TextureBytes {
 }  // namespace
 
 uint64_t textureBytes(const tks_decoder& decoder, const View& view) {
-  return TextureBytes(decoder, view).decoding();
+  uint64_t most = 0;
+  for (const View& strip : textureStrips(decoder, view))
+    most = std::max(most, TextureBytes(decoder, strip).decoding());
+  return most;
 }
 
 }  // namespace tetrakis::inline api

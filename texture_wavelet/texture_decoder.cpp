@@ -168,7 +168,7 @@ Texels decodeLines(const TextureHeader& header, const Codewords& codewords, cons
 
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view,
                      const DecodeContext<TextureMemory>& context) {
-  assert(!codewords.empty() && (context.memory == nullptr || !view.window));
+  assert(!codewords.empty());
   const ShownLines lines(header, view);
   Texels texels = decodeLines(header, codewords, lines.coded(), context);
   if (lines.none()) return texels;

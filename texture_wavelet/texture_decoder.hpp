@@ -32,8 +32,8 @@ struct TextureMemory {
 
 /// Decodes what a view shows; in a window the time follows its size if the image has regions.
 /// codewords: any prefix of each track, one for each of regionsOf(). Safe on any bytes and on any
-/// header that readHeader() accepts. The memory is that of earlier calls with the same header and
-/// view, which is no window.
+/// header that readHeader() accepts. The memory is that of earlier calls with the same header, for
+/// views of which it keeps all levels, or with the same view.
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view = {},
                      const DecodeContext<TextureMemory>& context = {});
 

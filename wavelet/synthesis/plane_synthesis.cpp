@@ -26,7 +26,7 @@ std::span<int32_t> PlaneSynthesis::row(const Subband& subband, uint32_t row) {
 }
 
 void PlaneSynthesis::put(const Band& band, int fraction_bits, const BandPart& part) {
-  if (!needs(part) || part.shape().empty()) return;
+  if (!needs(part) || !band.hasCells()) return;
   assert(values_.size() == coefficients());
   const Subband& subband = pyramid_->subbands()[part.subband];
   const Reconstruction values(band, fraction_bits);

@@ -115,7 +115,7 @@ bool WindowSynthesis::needs(const BandPart& part) const {
 }
 
 void WindowSynthesis::put(const Band& band, int fraction_bits, const BandPart& part) {
-  if (!needs(part)) return;
+  if (!needs(part) || !band.hasCells()) return;
   const Subband& subband = pyramid_->subbands()[part.subband];
   const Target target = targetOf(subband);
   const Reconstruction values(band, fraction_bits);
