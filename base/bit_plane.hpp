@@ -46,8 +46,8 @@ constexpr uint32_t evenBits(uint64_t bits) {
   return static_cast<uint32_t>(bits | bits >> 16);
 }
 
-/// Between rows lies a word of zeros, so that neighbours along a row need no checks. Bits behind the
-/// last sample of a row are 0.
+/// Between rows lies a word of zeros, so that neighbours along a row need no checks. Bits behind
+/// the last sample of a row are 0.
 class BitPlane {
  public:
   BitPlane() = default;

@@ -54,8 +54,8 @@ inline uint64_t marksOf(const BitPlane* marks, const SampleLine& line) {
 ///   uint64_t asked(const SampleLine&)            which samples take one; the others are void
 ///   bool bit(AdaptiveBit&, size_t sample)        the sample is valid
 ///   uint32_t run(AdaptiveBit&, bool valid, uint32_t most)
-///                                                takes decisions while they are `valid`, at most so
-///                                                many, and returns how many; encoders take none
+///                                                takes decisions while they are `valid`, at most
+///                                                so many, and returns how many; encoders: none
 ///   bool stopped()                               the last decision did not count
 ///   uint64_t otherwise(uint64_t asked, uint64_t majority)
 ///                                                what samples are whose decision does not count

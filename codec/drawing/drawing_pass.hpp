@@ -40,8 +40,8 @@ namespace tetrakis::inline drawing {
 template <class List, class Io>
 class DrawingPass {
  public:
-  /// indices: of every sample, kNoIndex where not known. valid: the samples that have a value; null:
-  /// all.
+  /// indices: of every sample, kNoIndex where not known. valid: the samples that have a value;
+  /// null: all.
   DrawingPass(const PlaneView<KeptIndex>& indices, const BitPlane* valid, List& list, Io& io)
       : indices_(indices), valid_(valid), list_(list), io_(io) {}
 

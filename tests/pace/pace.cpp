@@ -29,14 +29,25 @@ constexpr double kPerDecidingByte = 2e-3;  // ... or of bytes that cannot decide
 constexpr double kPerSample = 2e-6, kPerByte = 2e-6;  // of all others
 constexpr double kPerMeshSample = 8e-6;               // whatever the stream: sorting, quadrics
 
+/// Whether tiers or flat areas of a whole plane are marked, whatever decides them.
+bool marksSamples(std::span<const uint8_t> stream) {
+  const Result<ParsedHeader> parsed = readHeader(stream);
+  if (!parsed.ok()) return false;
+  const StreamHeader& header = parsed->header;
+  return header.layers.flat_bytes > 0 || (header.geometry && !header.geometry->priorities.none()) ||
+         (header.texture && !header.texture->priorities.none());
+}
+
 /// Runs calls and keeps the first that is too slow.
 class Watch {
  public:
-  Watch(size_t bytes, double slow) : bytes_(static_cast<double>(bytes)), slow_(slow) {}
+  Watch(std::span<const uint8_t> stream, double slow)
+      : bytes_(static_cast<double>(stream.size())), marks_(marksSamples(stream)), slow_(slow) {}
 
   void window(const char* name, double plane, const std::function<void()>& call) {
+    const double whole = kPerPlaneSample * plane;
     check(name, call,
-          kWindowSeconds + std::min(kPerPlaneSample * plane, kPerDecidingByte * bytes_));
+          kWindowSeconds + (marks_ ? whole : std::min(whole, kPerDecidingByte * bytes_)));
   }
   /// samples: that the call is asked for.
   void all(const char* name, double samples, const std::function<void()>& call,
@@ -57,7 +68,9 @@ class Watch {
     found_ = sentence;
   }
 
-  double bytes_, slow_;
+  double bytes_;
+  bool marks_;
+  double slow_;
   std::string found_;
 };
 
@@ -168,7 +181,7 @@ double slowness() {
 }
 
 std::string slowCall(std::span<const uint8_t> stream, double slow) {
-  Watch watch(stream.size(), slow);
+  Watch watch(stream, slow);
   tks_decoder* decoder = nullptr;
   watch.all("opening", 0,
             [&] { tks_open(stream.data(), stream.size(), nullptr, &decoder, nullptr, 0); });

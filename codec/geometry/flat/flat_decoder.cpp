@@ -9,6 +9,16 @@
 
 namespace tetrakis::inline flat {
 
+namespace {
+
+bool holdsAny(const BitPlane& flat) {
+  for (uint32_t y = 0; y < flat.extent().height; ++y)
+    if (flat.countBefore(flat.extent().width, y) > 0) return true;
+  return false;
+}
+
+}  // namespace
+
 FlatAreas decodeFlatAreas(std::span<const uint8_t> codeword, Extent plane, const SharedBits& valid,
                           uint32_t areas) {
   DecisionDecoding io(codeword);
@@ -16,7 +26,8 @@ FlatAreas decodeFlatAreas(std::span<const uint8_t> codeword, Extent plane, const
   {
     FlatMaskIo<DecisionDecoding<>> mask_io(io, valid.get(), nullptr);
     const BitPlane flat = ValidityPass<FlatMaskIo<DecisionDecoding<>>>(plane, mask_io).run();
-    if (!io.stopped()) numbered = numberAreas(PlaneView<const uint8_t>(flat.bytes(), plane));
+    if (!io.stopped() && holdsAny(flat))
+      numbered = numberAreas(PlaneView<const uint8_t>(flat.bytes(), plane));
   }
   if (numbered.count != areas) return {};
   FlatAreas out{std::move(numbered.numbers), std::vector<int32_t>(areas)};
