@@ -41,15 +41,17 @@ uint64_t TrackNeeds::bytes() const {
   uint64_t largest = 0;
   const uint64_t count = regionCount(plane.width, plane.height, side_log2);
   for (const Region& region : largestRegions(plane.width, plane.height, side_log2)) {
-    uint64_t sum = kOnce;
+    uint64_t sum = kOnce, band = 0;
     for (const BandPart& part : partsOf(pyramid.subbands(), region)) {
-      if (known) sum += planes * Band::bytesOf(part.shape(), masked);
+      const uint64_t one = known ? Band::bytesOf(part.shape(), masked) : 0;
+      band = std::max(band, one);
+      sum += planes * one;
       if (masked) sum += planes * part.shape().wordCells() * sizeof(uint32_t);  // of the plan
       if (ordered) sum += BandTiers::bytesOf(part.shape());  // likewise, of all planes
     }
-    largest = std::max(largest, sum);
+    largest = std::max(largest, kept ? sum + band : sum);
   }
-  return kept ? 2 * largest * count : largest * std::clamp<uint64_t>(threads, 1, count);
+  return kept ? largest * count : largest * std::clamp<uint64_t>(threads, 1, count);
 }
 
 bool RegionDecoder::nothingKnown(const Codewords& codewords) const {

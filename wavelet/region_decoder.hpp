@@ -49,8 +49,8 @@ struct TrackNeeds {
   uint32_t threads;
   bool kept;  ///< in a TrackMemory
 
-  /// The bytes that the largest track takes at most, on each thread; or that all take, twice the
-  /// largest band included, if they are kept.
+  /// The bytes that the largest track takes at most, on each thread; or that all take, each
+  /// with a copy of its largest band, if they are kept.
   uint64_t bytes() const;
 };
 

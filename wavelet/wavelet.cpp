@@ -33,7 +33,7 @@ class Levels {
   void run(const LevelTransform& transform, int level, SplitBlock block) const {
     const Window whole{0, 0, block.extent.width, block.extent.height};
     std::vector<uint8_t> mask;
-    if (!pyramid_.valid().all()) mask = pyramid_.splitMask(level - 1, whole);
+    if (!pyramid_.allExist()) mask = pyramid_.splitMask(level - 1, whole);
     block.existing = mask;
     if (!ladder_) return transform.run(block);
     const HeldLevel states = ladder_->level(level);

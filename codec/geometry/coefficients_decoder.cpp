@@ -36,10 +36,10 @@ std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart
   return plan.empty() ? plan : layout.marked(parts, std::move(plan));
 }
 
-/// The mask and what is held outlive the layout. memory: null, or what earlier calls know.
-PlaneLayout layoutOf(const GeometryHeader& header, Mask lifted, HeldSamples flat,
+/// What is held outlives the layout. memory: null, or what earlier calls know.
+PlaneLayout layoutOf(const GeometryHeader& header, const SharedBits& lifted, HeldSamples flat,
                      TrackMemory* memory) {
-  PlaneLayout layout(specOf(header.wavelet), Pyramid(header.extent(), lifted, flat),
+  PlaneLayout layout(specOf(header.wavelet), Pyramid(lifted, header.extent(), flat),
                      priorityMapOf(header.priorities, header.extent()),
                      memory != nullptr ? memory->norms : std::nullopt);
   if (memory != nullptr) memory->norms = layout.norms();
@@ -79,8 +79,7 @@ DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords
   out.height = extent.height;
   out.heights = synthesis.run(context.threads);
   out.fraction_bits = fraction_bits;
-  out.valid = view.isWhole() ? std::move(known.valid)
-                             : slice(std::span<const uint8_t>(known.valid), header.extent(), view);
+  out.valid = shownMarks(known.valid, view);
   clearUnmarked(std::span(out.heights), out.valid);
   significance.giveTo(out);
   clearUnmarked(std::span(out.significant), out.valid);

@@ -26,7 +26,7 @@ std::span<int32_t> PlaneSynthesis::row(const Subband& subband, uint32_t row) {
 }
 
 void PlaneSynthesis::put(const Band& band, int fraction_bits, const BandPart& part) {
-  if (!needs(part) || part.shape().empty()) return;
+  if (!needs(part) || !band.hasCells()) return;
   assert(values_.size() == coefficients());
   const Subband& subband = pyramid_->subbands()[part.subband];
   const Reconstruction values(band, fraction_bits);
@@ -39,6 +39,14 @@ std::vector<int32_t> PlaneSynthesis::run(uint32_t threads) {
   normalise();
   values_.resize(thin(*pyramid_, level_, std::span(values_)));
   return std::move(values_);
+}
+
+std::vector<int32_t> PlaneSynthesis::run(uint32_t threads, SynthesisMemory& memory) {
+  if (memory.coefficients != values_) {
+    memory.coefficients = values_;
+    memory.samples = run(threads);
+  }
+  return memory.samples;
 }
 
 /// Takes the gain of the finer levels out of the low band.

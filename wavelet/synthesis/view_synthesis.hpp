@@ -62,6 +62,10 @@ class ViewSynthesis {
   std::vector<int32_t> run(uint32_t threads) {
     return std::visit([&](auto& kernel) { return kernel.run(threads); }, kernel_);
   }
+  /// memory: of this plane; no view is a window.
+  std::vector<int32_t> run(uint32_t threads, SynthesisMemory& memory) {
+    return std::get<PlaneSynthesis>(kernel_).run(threads, memory);
+  }
 
  private:
   using Kernel = std::variant<PlaneSynthesis, WindowSynthesis>;

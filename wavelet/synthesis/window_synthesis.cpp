@@ -87,7 +87,7 @@ bool WindowSynthesis::needs(const BandPart& part) const {
 }
 
 void WindowSynthesis::put(const Band& band, int fraction_bits, const BandPart& part) {
-  if (!needs(part)) return;
+  if (!needs(part) || !band.hasCells()) return;
   const Subband& subband = pyramid_->subbands()[part.subband];
   const Target target = targetOf(subband);
   const Reconstruction values(band, fraction_bits);
@@ -124,7 +124,7 @@ void WindowSynthesis::copyLow(const std::vector<int32_t>& low, int number) {
 }
 
 std::vector<uint8_t> WindowSynthesis::maskOf(int level) const {
-  if (pyramid_->valid().all()) return {};
+  if (pyramid_->allExist()) return {};
   return pyramid_->splitMask(level - 1, at(level).block());
 }
 
