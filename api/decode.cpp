@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Heights, validity and texels through the C interface: all of a level, or a window.
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 #include "api/decoder.hpp"
 #include "api/gaps.hpp"
 #include "api/memory.hpp"
+#include "api/texture_strips.hpp"
 #include "api/written.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
@@ -22,8 +24,8 @@ Status noTexture() {
   return {TKS_USAGE, "The stream holds no texture."};
 }
 
-/// What the decoder remembers for a view; null: nothing. Levels share it: what one decodes of the
-/// tracks others do not decode again.
+/// What the decoder remembers for calls that ask for this view; null: nothing. Levels share it:
+/// what one decodes of the tracks others do not decode again.
 template <class Memory>
 Memory* memoryOf(const tks_decoder& decoder, Memory& memory, const View& view) {
   memory.tracks.all_levels = true;
@@ -177,10 +179,14 @@ Status giveTexels(tks_decoder& decoder, const Call& call) {
     writeUnsentTexels(header, call.out, count);
     return {};
   }
-  writeTexels(decodeTexture(headerFor(decoder, header, *view),
-                            decoder.packets.payload.codewordsOf(Component::kTexture), *view,
-                            {decoder.threads, memoryOf(decoder, decoder.texture_memory, *view)}),
-              sample, call.out);
+  const TextureHeader shown = headerFor(decoder, header, *view);
+  const Codewords codewords = decoder.packets.payload.codewordsOf(Component::kTexture);
+  TextureMemory* const memory = memoryOf(decoder, decoder.texture_memory, *view);
+  auto* out = static_cast<std::byte*>(call.out);
+  for (const View& strip : textureStrips(decoder, *view)) {
+    writeTexels(decodeTexture(shown, codewords, strip, {decoder.threads, memory}), sample, out);
+    out += strip.extentIn(header.shown()).samples() * texel_bytes;
+  }
   return {};
 }
 

@@ -7,6 +7,8 @@
 #include "codec/geometry/heights_decoder.hpp"
 #include "codec/geometry/values/value_table.hpp"
 #include "codec/lines/shown_lines.hpp"
+#include "lattice/validity_decoder.hpp"
+#include "wavelet/morphology.hpp"
 
 namespace tetrakis::inline api {
 
@@ -71,8 +73,7 @@ uint64_t HeightsBytes::decoding() const {
 }
 
 uint64_t HeightsBytes::validity() const {
-  const uint64_t lifted = layers_.late_mask ? area(header_) : 0;
-  return kOnceBytes + (voids_ ? area(header_) + lifted + shown_ : 0) + copyBytes();
+  return kOnceBytes + (voids_ ? openingMaskBytes() + shown_ : 0) + copyBytes();
 }
 
 uint64_t HeightsBytes::decodingLines() const {
@@ -86,14 +87,13 @@ uint64_t HeightsBytes::decodingTaken() const {
   if (header_.drawn) return drawing();
   const PlanesBytes planes(decoder_, header_, view_, 1, voids_);
   const uint64_t samples = view_.window ? shown_ : low();
-  const uint64_t masks = wholeMasks() + (voids_ && !view_.isWhole() ? shown_ : 0);
+  const uint64_t masks = wholeMasks() + (voids_ ? samples : 0);
   const uint64_t corrections = corrected_ ? samples * (kValueBytes + 1) + rows() + parts() : 0;
   const uint64_t state = stateBytes(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
   const uint64_t surface = planes.coefficients + samples + masks + flatBytes() + joinedBytes() +
                            std::max({state, planes.work, corrections + tableBytes()});
-  // A distance for each sample is there while bridges are found.
-  const uint64_t closing = layers_.bridge > 0 ? masks + area(header_) : 0;
-  return kOnceBytes + trackBytes(header_) + std::max({surface, flatOpeningBytes(), closing});
+  return kOnceBytes + trackBytes(header_) +
+         std::max({surface, flatOpeningBytes(), openingMaskBytes()});
 }
 
 /// Models, indices, heights, marks and mask; then a table or corrections.
@@ -101,14 +101,21 @@ uint64_t HeightsBytes::drawing() const {
   constexpr uint64_t kSample = sizeof(DrawnIndex) + kValueBytes + 1;
   const bool corrections = layers_.corrections != CorrectionKind::kNone && view_.level == 0;
   const uint64_t behind = tableBytes() + (corrections ? low() * (2 * kValueBytes + 1) + rows() : 0);
-  const uint64_t masks = voids_ ? area(header_) + shown_ : 0;
+  const uint64_t masks = voids_ ? 2 * BitPlane::bytesOf(header_.extent()) + 2 * shown_ : 0;
   return kDrawnOnceBytes + shown_ * kSample + masks + joinedBytes() + behind;
 }
 
 /// Which samples of the plane are valid, and which are lifted where that is not the same.
 uint64_t HeightsBytes::wholeMasks() const {
   const bool bridged = layers_.bridge > 0 || layers_.late_mask;
-  return voids_ ? (bridged ? 2 : 1) * area(header_) : 0;
+  return voids_ ? (bridged ? 2 : 1) * BitPlane::bytesOf(header_.extent()) : 0;
+}
+
+/// The same while one of them is decoded, or found.
+uint64_t HeightsBytes::openingMaskBytes() const {
+  return voids_ ? wholeMasks() +
+                      std::max(validityBytes(header_.extent()), closingBytes(header_.extent()))
+                : 0;
 }
 
 /// Heights, marks, mask and corrections that are copied, beside what they are copied from.
@@ -156,7 +163,7 @@ uint64_t HeightsBytes::flatBytes() const {
 /// Masks, the numbers of areas and a label for at most every other sample.
 uint64_t HeightsBytes::flatOpeningBytes() const {
   constexpr uint64_t kSample = 1 + sizeof(uint32_t) / 2 + sizeof(uint16_t);
-  return flat_ ? area(header_) * kSample + wholeMasks() : 0;
+  return flat_ ? area(header_) * kSample + validityBytes(header_.extent()) + wholeMasks() : 0;
 }
 
 uint64_t HeightsBytes::low() const {

@@ -28,6 +28,7 @@ class HeightsBytes {
   uint64_t decodingTaken() const;
   uint64_t drawing() const;
   uint64_t wholeMasks() const;
+  uint64_t openingMaskBytes() const;
   uint64_t copyBytes() const;
   uint64_t rows() const;
   uint64_t parts() const;

@@ -30,7 +30,7 @@ inline uint64_t mapBytes(const auto& header) {
   return columns * rows + (columns + 1) * (rows + 1) * sizeof(uint64_t);
 }
 
-/// The state of the tracks that are decoded at a time.
+/// The state of the tracks that are decoded at a time, beside what is remembered of them.
 inline uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint32_t planes,
                            bool masked, Component component) {
   const bool known = header.planes > 0 && header.planes < kDrawnPlanes &&
@@ -38,7 +38,10 @@ inline uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint3
   const bool ordered = !header.priorities.none();
   const TrackNeeds needs{header.extent(), header.regions.side_log2, planes, masked, ordered, known,
                          decoder.threads, decoder.remembers};
-  return needs.bytes() + (ordered ? mapBytes(header) : 0);
+  const TrackMemory& memory = component == Component::kTexture ? decoder.texture_memory.tracks
+                                                               : decoder.heights_memory.tracks;
+  const uint64_t state = needs.bytes();
+  return state - std::min(state, memory.bytes()) + (ordered ? mapBytes(header) : 0);
 }
 
 /// What there is for each track all the time.

@@ -4,8 +4,11 @@
 #include <algorithm>
 
 #include "api/plane_bytes.hpp"
+#include "api/texture_strips.hpp"
 #include "codec/lines/shown_lines.hpp"
+#include "lattice/validity_decoder.hpp"
 #include "texture_wavelet/tables/channel_tables.hpp"
+#include "wavelet/morphology.hpp"
 
 namespace tetrakis::inline api {
 
@@ -41,10 +44,13 @@ class TextureBytes {
         stateBytes(decoder_, header_, colour_planes, masked_, Component::kTexture);
     const uint64_t once = header_.overlay_bytes > 0 ? kDrawnOnceBytes : kOnceBytes;
     return once + opening() + tableBytesOf(header_) + trackBytes(header_) +
-           std::max({bridged() ? area(header_) : 0, all + state, all + masks + planes.work,
-                     samples + masks + out});
+           std::max({finding(), all + state, all + masks + planes.work, samples + masks + out});
   }
-  /// A distance for each texel is there while bridges are found.
+  /// What there is while a mask is decoded, or bridges are found.
+  uint64_t finding() const {
+    return std::max(seen_ ? validityBytes(header_.extent()) : 0,
+                    bridged() ? closingBytes(header_.extent()) : 0);
+  }
   bool bridged() const { return header_.bridge > 0; }
   uint64_t direct(uint64_t count) const {
     return count * ((header_.drawn() ? sizeof(DrawnIndex) : 0) + texel());
@@ -53,7 +59,8 @@ class TextureBytes {
   /// mask of the texels that are coded and one of those that are lifted, each of a whole plane.
   uint64_t opening() const {
     const uint64_t overlay = header_.overlay_bytes > 0 ? sizeof(DrawnIndex) : 0;
-    return area(header_) * ((seen_ ? 1 : 0) + overlay + (masked_ ? 1 : 0) + (bridged() ? 1 : 0));
+    const uint64_t masks = (seen_ ? 1u : 0u) + (masked_ ? 1u : 0u) + (bridged() ? 1u : 0u);
+    return area(header_) * overlay + masks * BitPlane::bytesOf(header_.extent());
   }
 
   const tks_decoder& decoder_;
@@ -67,7 +74,10 @@ class TextureBytes {
 }  // namespace
 
 uint64_t textureBytes(const tks_decoder& decoder, const View& view) {
-  return TextureBytes(decoder, view).decoding();
+  uint64_t most = 0;
+  for (const View& strip : textureStrips(decoder, view))
+    most = std::max(most, TextureBytes(decoder, strip).decoding());
+  return most;
 }
 
 }  // namespace tetrakis::inline api

@@ -31,6 +31,21 @@ Level makeLevel(LevelKind kind, uint32_t step, uint32_t width, uint32_t height) 
 
 }  // namespace
 
+/// Midpoints of step s depend on centres of that step within s; both on what finer levels need:
+/// their steps together are less than s, and each counts twice.
+Window neededOf(const Level& level, const Window& window, Extent grid) {
+  const uint64_t reach = uint64_t{level.kind == LevelKind::kCentres ? 3u : 2u} * level.step;
+  const auto around = [reach](uint32_t& first, uint32_t& size, uint32_t whole) {
+    const uint64_t end = std::min<uint64_t>(uint64_t{first} + size + reach, whole);
+    first -= static_cast<uint32_t>(std::min<uint64_t>(first, reach));
+    size = static_cast<uint32_t>(end - first);
+  };
+  Window needed = window;
+  around(needed.x, needed.width, grid.width);
+  around(needed.y, needed.height, grid.height);
+  return needed;
+}
+
 std::vector<Level> levelsOf(uint32_t width, uint32_t height, int mip) {
   assert(width > 0 && height > 0 && mip >= 0);
   const uint32_t depth = depthOf(BorderRule::kClipped, width, height);

@@ -15,10 +15,12 @@
 // The grid may have any size. It is not padded: there are no vertices outside the grid.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
+#include "base/view.hpp"
 #include "lattice/border_rule.hpp"
 
 namespace tetrakis::inline lattice {
@@ -39,6 +41,29 @@ struct Level {
   }
   uint32_t pitch() const { return kind == LevelKind::kRoots ? step : 2 * step; }
 };
+
+/// Calls visit(x, y) for the vertices of a level that lie in a window of the grid, row by row.
+template <class Visit>
+void forEachVertex(const Level& level, const Window& window, const Visit& visit) {
+  const auto upTo = [](uint32_t end, uint32_t first, uint32_t pitch) {
+    return end > first ? (end - first - 1) / pitch + 1 : 0;
+  };
+  const bool centres = level.kind == LevelKind::kCentres;
+  const uint32_t first_y = centres ? level.step : 0, row_pitch = (centres ? 2 : 1) * level.step;
+  const uint32_t last_row =
+      std::min(level.rows, upTo(window.y + window.height, first_y, row_pitch));
+  for (uint32_t row = upTo(window.y, first_y, row_pitch); row < last_row; ++row) {
+    const uint32_t first = level.firstX(row), pitch = level.pitch();
+    const uint32_t end =
+        std::min(level.columns[row % 2], upTo(window.x + window.width, first, pitch));
+    for (uint32_t i = upTo(window.x, first, pitch); i < end; ++i)
+      visit(first + i * pitch, level.y(row));
+  }
+}
+
+/// The window of a level's vertices that those in another window depend on, where each depends on
+/// coarser ones within its step, and these again.
+Window neededOf(const Level& level, const Window& window, Extent grid);
 
 /// Returns the 1 + 2 * depth levels of a grid: the roots, then the centres and the midpoints of
 /// every step from coarse to fine. With a mip level, returns only the levels all of whose vertices

@@ -11,8 +11,13 @@ namespace {
 class DecodingIo {
  public:
   explicit DecodingIo(std::span<const uint8_t> codeword) : decoder_(codeword) {}
+  uint64_t asked(const SampleLine& line) const { return lowBits(line.count); }
   bool bit(AdaptiveBit& model, size_t) { return decoder_.decode(model); }
+  uint32_t run(AdaptiveBit& model, bool valid, uint32_t most) {
+    return decoder_.decodeRun(model, valid, most);
+  }
   bool stopped() const { return decoder_.exhausted(); }
+  uint64_t otherwise(uint64_t, uint64_t majority) const { return majority; }
 
  private:
   RangeDecoder decoder_;
@@ -20,20 +25,16 @@ class DecodingIo {
 
 }  // namespace
 
-std::vector<uint8_t> decodeLateValidity(std::span<const uint8_t> codeword, Extent plane,
-                                        Mask lifted) {
-  std::vector<uint8_t> valid(plane.samples());
+BitPlane decodeLateValidity(std::span<const uint8_t> codeword, Extent plane,
+                            const SharedBits& lifted) {
   DecodingIo decoding(codeword);
-  LateMaskIo<DecodingIo> io(decoding, lifted);
-  ValidityPass<LateMaskIo<DecodingIo>>({valid, plane}, io).run();
-  return valid;
+  LateMaskIo<DecodingIo> io(decoding, lifted.get());
+  return ValidityPass<LateMaskIo<DecodingIo>>(plane, io).run();
 }
 
-std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, Extent plane) {
-  std::vector<uint8_t> valid(plane.samples());
+BitPlane decodeValidity(std::span<const uint8_t> codeword, Extent plane) {
   DecodingIo io(codeword);
-  ValidityPass<DecodingIo>({valid, plane}, io).run();
-  return valid;
+  return ValidityPass<DecodingIo>(plane, io).run();
 }
 
 }  // namespace tetrakis::inline lattice

@@ -13,12 +13,15 @@ namespace {
 class EncodingIo {
  public:
   explicit EncodingIo(std::span<const uint8_t> valid) : valid_(valid) {}
+  uint64_t asked(const SampleLine& line) const { return lowBits(line.count); }
   bool bit(AdaptiveBit& model, size_t sample) {
     assert(valid_[sample] <= 1);
     encoder_.encode(model, valid_[sample] != 0);
     return valid_[sample] != 0;
   }
+  uint32_t run(AdaptiveBit&, bool, uint32_t) { return 0; }
   bool stopped() const { return false; }
+  uint64_t otherwise(uint64_t, uint64_t majority) const { return majority; }
   std::vector<uint8_t> finish() { return encoder_.finish(); }
 
  private:
@@ -36,17 +39,16 @@ std::vector<uint8_t> finished(EncodingIo& io) {
 }  // namespace
 
 std::vector<uint8_t> encodeValidity(const PlaneView<const uint8_t>& valid) {
-  std::vector<uint8_t> known(valid.extent().samples());
   EncodingIo io(valid.values());
-  ValidityPass<EncodingIo>({known, valid.extent()}, io).run();
+  ValidityPass<EncodingIo>(valid.extent(), io).run();
   return finished(io);
 }
 
 std::vector<uint8_t> encodeLateValidity(const PlaneView<const uint8_t>& valid, Mask lifted) {
-  std::vector<uint8_t> known(valid.extent().samples());
   EncodingIo encoding(valid.values());
-  LateMaskIo<EncodingIo> io(encoding, lifted);
-  ValidityPass<LateMaskIo<EncodingIo>>({known, valid.extent()}, io).run();
+  const SharedBits bits = sharedBits(lifted, valid.extent());
+  LateMaskIo<EncodingIo> io(encoding, bits.get());
+  ValidityPass<LateMaskIo<EncodingIo>>(valid.extent(), io).run();
   return finished(encoding);
 }
 

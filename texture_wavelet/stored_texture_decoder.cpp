@@ -6,22 +6,18 @@
 namespace tetrakis::inline texture {
 
 Texels decodeStoredTexture(const TextureHeader& header, std::span<const uint8_t> codeword,
-                           int level) {
-  const int bits = header.sample == TKS_U8 ? 8 : 16;
-  const uint32_t channels = header.channels, step = uint32_t{1} << level;
-  Texels texels{(header.width - 1) / step + 1,
-                (header.height - 1) / step + 1,
-                channels,
-                bits,
-                {},
-                header.opaque,
-                header.white_level};
-  const BytePlanes words(codeword, size_t{header.width} * header.height * channels, bits / 8);
+                           const View& view) {
+  const int bits = header.sampleBits();
+  const uint32_t channels = header.channels;
+  const Extent extent = view.extentIn(header.extent());
+  Texels texels{extent.width, extent.height, channels, bits, {}, header.opaque, header.white_level};
+  const BytePlanes words(codeword, header.extent().samples() * channels, bits / 8);
   const auto unknown = static_cast<uint16_t>((texels.white() + 1) / 2);
-  texels.samples.reserve(size_t{texels.width} * texels.height * channels);
-  for (uint32_t y = 0; y < header.height; y += step) {
-    for (uint32_t x = 0; x < header.width; x += step) {
-      const size_t first = (size_t{y} * header.width + x) * channels;
+  texels.samples.reserve(extent.samples() * channels);
+  for (uint32_t y = 0; y < extent.height; ++y) {
+    const size_t row = (view.firstRow() + size_t{y} * view.step()) * header.width;
+    for (uint32_t x = 0; x < extent.width; ++x) {
+      const size_t first = (row + view.firstColumn() + size_t{x} * view.step()) * channels;
       for (size_t i = first; i < first + channels; ++i)
         texels.samples.push_back(words.knows(i) ? static_cast<uint16_t>(words[i]) : unknown);
     }

@@ -6,13 +6,14 @@
 #include <span>
 
 #include "base/texels.hpp"
+#include "base/view.hpp"
 #include "bitstream/stream/texture_header.hpp"
 
 namespace tetrakis::inline texture {
 
-/// Returns the texels at multiples of 2^level. codeword: any prefix of the track of a texture with
+/// Returns the texels that a view shows. codeword: any prefix of the track of a texture with
 /// header.stored. Safe on any bytes. A sample that has no byte yet is half of the largest.
 Texels decodeStoredTexture(const TextureHeader& header, std::span<const uint8_t> codeword,
-                           int level);
+                           const View& view);
 
 }  // namespace tetrakis::inline texture

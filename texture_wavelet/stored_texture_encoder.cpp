@@ -30,7 +30,7 @@ EncodedTexture encodeStoredTexture(const Texels& texels) {
                                 texels.bits / 8);
   track.planes = kDrawnPlanes;
   for (uint64_t bytes = 0; bytes <= track.codeword.size(); bytes += texels.samples.size()) {
-    const Texels decoded = decodeStoredTexture(header, std::span(track.codeword).first(bytes), 0);
+    const Texels decoded = decodeStoredTexture(header, std::span(track.codeword).first(bytes), {});
     const double squares = countedSquares(texels, decoded, {});
     const bool last = bytes == track.codeword.size();
     if (track.points.empty() || last || squares < track.points.back().distortion)

@@ -63,22 +63,6 @@ Texels emptyTexels(const TextureHeader& header, Extent extent) {
           {},           header.opaque, header.white_level};
 }
 
-/// Drawn and stored textures, which know levels but no windows.
-Texels decodeDirect(const TextureHeader& header, std::span<const uint8_t> codeword,
-                    const View& view) {
-  Texels texels = header.stored ? decodeStoredTexture(header, codeword, view.level)
-                                : decodeDrawn(header, codeword, view.level);
-  if (!view.window) return texels;
-  const Window& texel_window = *view.window;
-  const uint32_t channels = texels.channels;
-  const Window samples{texel_window.x * channels, texel_window.y, texel_window.width * channels,
-                       texel_window.height};
-  Texels part = emptyTexels(header, texel_window.extent());
-  part.samples = slice(std::span<const uint16_t>(texels.samples),
-                       {texels.width * channels, texels.height}, {0, samples});
-  return part;
-}
-
 /// The colour planes of a view, from their tracks.
 class ColourPlanes {
  public:
@@ -88,14 +72,14 @@ class ColourPlanes {
       : header_(header),
         opening_(opening),
         view_(view),
-        plan_(header, opening.lifting(), memory ? memory->norms : std::nullopt) {
+        plan_(header, opening.lifted, memory ? memory->norms : std::nullopt) {
     if (memory != nullptr) memory->norms = plan_.layout().norms();
     const ViewSynthesis empty(specOf(header.wavelet), pyramid(), view);
     synthesis_.assign(header.colourPlanes(), empty);
     for (ViewSynthesis& plane : synthesis_) plane.allocate();
   }
 
-  Precision decode(const Codewords& coefficients, const DecodeContext<TrackMemory>& context) {
+  int decode(const Codewords& coefficients, const DecodeContext<TrackMemory>& context) {
     const RegionDecoder tracks{header_.wavelet, header_.regions, header_.planes, view_.level,
                                context};
     return tracks.run(
@@ -112,15 +96,15 @@ class ColourPlanes {
         });
   }
 
-  /// Called once, when everything is decoded.
-  std::vector<std::vector<int32_t>> restore(uint32_t threads, bool rounds) {
+  /// Called once, when everything is decoded. memory: of each plane, or empty.
+  std::vector<std::vector<int32_t>> restore(uint32_t threads, std::span<SynthesisMemory> memory) {
     inverseColourLevels(colourOf(header_), pyramid(), synthesis_);
-    const std::vector<uint8_t> shown =
-        slice(std::span<const uint8_t>(opening_.coded), header_.extent(), view_);
+    const std::vector<uint8_t> shown = shownMarks(opening_.coded, view_);
     std::vector<std::vector<int32_t>> planes(synthesis_.size());
     // A window's inverse transform knows no threads, that of a whole plane does.
     parallelFor(view_.window ? threads : 1, planes.size(), [&](size_t c) {
-      planes[c] = synthesis_[c].run(threads, rounds);
+      planes[c] =
+          memory.empty() ? synthesis_[c].run(threads) : synthesis_[c].run(threads, memory[c]);
       clearUnmarked(std::span(planes[c]), shown);
     });
     return planes;
@@ -145,8 +129,9 @@ class ColourPlanes {
 uint64_t TextureMemory::bytes() const {
   uint64_t bytes = tracks.bytes();
   if (const TextureOpening* const whole = opening.whole.get()) {
-    bytes += whole->seen.size() + whole->coded.size() + whole->lifted.size();
-    bytes += whole->overlay.indices.size() * sizeof(DrawnIndex);
+    for (const SharedBits& marks : {whole->seen, whole->coded, whole->lifted})
+      bytes += marks != nullptr ? BitPlane::bytesOf(marks->extent()) : 0;
+    bytes += whole->overlay.indices.size() * sizeof(KeptIndex);
   }
   return bytes;
 }
@@ -158,18 +143,21 @@ Texels decodeLines(const TextureHeader& header, const Codewords& codewords, cons
                    const DecodeContext<TextureMemory>& context) {
   TextureMemory* const memory = context.memory;
   if (memory != nullptr && memory->drawing) return memory->drawing(codewords.front().size());
-  if (header.direct()) return decodeDirect(header, codewords.front(), view);
+  if (header.stored) return decodeStoredTexture(header, codewords.front(), view);
+  if (header.drawn()) return decodeDrawn(header, codewords.front(), view);
   Codewords coefficients = codewords;
   const auto opening =
       takeOpening(header, memory ? &memory->opening : nullptr, coefficients.front());
   const bool growing = memory != nullptr && memory->opening.whole != nullptr;
   TrackMemory* const tracks = growing ? &memory->tracks : nullptr;
   ColourPlanes colours(header, *opening, view, tracks);
-  const Precision precision = colours.decode(coefficients, {context.threads, tracks});
-  std::vector<std::vector<int32_t>> planes = colours.restore(context.threads, precision.rounds);
+  const int fraction_bits = colours.decode(coefficients, {context.threads, tracks});
+  const std::span<SynthesisMemory> kept =
+      memory ? std::span(memory->planes) : std::span<SynthesisMemory>();
+  std::vector<std::vector<int32_t>> planes = colours.restore(context.threads, kept);
   Texels texels = emptyTexels(header, view.extentIn(header.extent()));
-  finish(header, precision.fraction_bits, planes, context.threads, texels);
-  finishAlpha(slice(std::span<const uint8_t>(opening->seen), header.extent(), view), texels);
+  finish(header, fraction_bits, planes, context.threads, texels);
+  finishAlpha(shownMarks(opening->seen, view), texels);
   opening->paint(header.extent(), view, texels);
   return texels;
 }
@@ -178,7 +166,7 @@ Texels decodeLines(const TextureHeader& header, const Codewords& codewords, cons
 
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view,
                      const DecodeContext<TextureMemory>& context) {
-  assert(!codewords.empty() && (context.memory == nullptr || !view.window));
+  assert(!codewords.empty());
   const ShownLines lines(header, view);
   Texels texels = decodeLines(header, codewords, lines.coded(), context);
   if (lines.none()) return texels;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "base/texels.hpp"
 #include "base/view.hpp"
@@ -11,6 +12,7 @@
 #include "bitstream/stream/texture_header.hpp"
 #include "texture_wavelet/texture_opening.hpp"
 #include "wavelet/region_decoder.hpp"
+#include "wavelet/synthesis/plane_synthesis.hpp"
 
 namespace tetrakis::inline texture {
 
@@ -21,14 +23,17 @@ struct TextureMemory {
   TrackMemory tracks;  ///< once the opening is whole: what exists of them follows from it
   /// Of encoders, which have all of a drawing: what its first bytes show.
   std::function<Texels(uint64_t bytes)> drawing = {};
+  /// Of encoders that look at many prefixes of small textures: the colour planes, most of which a
+  /// few more bytes leave as they are; empty: they are not kept.
+  std::vector<SynthesisMemory> planes = {};
 
   uint64_t bytes() const;
 };
 
 /// Decodes what a view shows; in a window the time follows its size if the image has regions.
 /// codewords: any prefix of each track, one for each of regionsOf(). Safe on any bytes and on any
-/// header that readHeader() accepts. The memory is that of earlier calls with the same header and
-/// view, which is no window.
+/// header that readHeader() accepts. The memory is that of earlier calls with the same header, for
+/// views of which it keeps all levels, or with the same view.
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view = {},
                      const DecodeContext<TextureMemory>& context = {});
 

@@ -236,7 +236,7 @@ EncodedTexture encode(const WaveletCoding& coding) {
   TextureHeader& header = encoded.header;
   const bool whole = header.wavelet.fraction_bits == 0;
   const double rounded_squares = whole ? roundedSquaresOf(coding, colours, lifted) : 0;
-  const TexturePlan plan(header, lifted);
+  const TexturePlan plan(header, sharedBits(lifted, header.extent()));
   TransformedPlanes planes{
       plan,
       colours.colour,

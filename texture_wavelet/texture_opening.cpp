@@ -20,36 +20,46 @@ std::span<const uint8_t> take(uint64_t bytes, std::span<const uint8_t>& codeword
   return taken;
 }
 
+/// seen: null: all texels.
+BitPlane notDrawnOver(const DrawnOverlay& overlay, Extent plane, const BitPlane* seen) {
+  BitPlane coded = seen != nullptr ? *seen : BitPlane(plane);
+  if (seen == nullptr) coded.invert();
+  for (uint32_t y = 0; y < plane.height; y += overlay.step) {
+    uint64_t* const row = coded.row(y);
+    const size_t first = size_t{y} * plane.width;
+    for (uint32_t x = 0; x < plane.width; x += overlay.step)
+      row[x / kWordBits] &= ~(uint64_t{overlay.covers(first + x)} << x % kWordBits);
+  }
+  return coded;
+}
+
 TextureOpening decodeOpening(const TextureHeader& header, std::span<const uint8_t> alpha,
                              std::span<const uint8_t> drawn, const OpeningMemory* memory) {
   TextureOpening opening;
-  if (header.alpha_bytes > 0) opening.seen = decodeValidity(alpha, header.extent());
+  if (header.alpha_bytes > 0) opening.seen = shared(decodeValidity(alpha, header.extent()));
   if (header.hidden) opening.coded = opening.seen;
   if (header.overlay_bytes > 0) {
     opening.overlay = memory != nullptr && memory->overlay ? memory->overlay(drawn.size())
                                                            : decodeOverlay(header, drawn);
-    const std::vector<DrawnIndex>& indices = opening.overlay.indices;
-    if (opening.coded.empty()) opening.coded.assign(indices.size(), 1);
-    for (size_t i = 0; i < indices.size(); ++i) opening.coded[i] &= indices[i] == kSeeThrough;
+    opening.coded = shared(notDrawnOver(opening.overlay, header.extent(), opening.coded.get()));
   }
-  opening.bridges = header.bridge > 0;
-  if (opening.bridges)
-    opening.lifted = liftedSamples(opening.coded, header.extent(), header.bridge);
+  opening.lifted = liftedSamples(opening.coded, header.bridge);
   return opening;
 }
 
 }  // namespace
 
 void TextureOpening::paint(Extent whole, const View& view, Texels& texels) const {
-  if (overlay.indices.empty()) return;
+  if (overlay.indices.size() == 0) return;
   assert(texels.extent() == view.extentIn(whole));
   uint16_t* out = texels.samples.data();
   for (uint32_t y = 0; y < texels.height; ++y) {
-    const DrawnIndex* row = overlay.indices.data() + view.firstColumn() +
-                            (view.firstRow() + size_t{y} * view.step()) * whole.width;
+    const size_t row =
+        view.firstColumn() + (view.firstRow() + size_t{y} * view.step()) * whole.width;
     for (uint32_t x = 0; x < texels.width; ++x, out += texels.channels) {
-      const DrawnIndex index = row[size_t{x} * view.step()];
-      if (index != kSeeThrough) std::copy_n(overlay.colours[index].begin(), texels.channels, out);
+      const size_t texel = row + size_t{x} * view.step();
+      if (!overlay.covers(texel)) continue;
+      std::copy_n(overlay.colours[overlay.indices[texel]].begin(), texels.channels, out);
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/bit_plane.hpp"
 #include "base/plane.hpp"
 #include "base/texels.hpp"
 #include "base/view.hpp"
@@ -17,14 +18,11 @@
 namespace tetrakis::inline texture {
 
 struct TextureOpening {
-  std::vector<uint8_t> seen;  ///< of all texels, 1 where alpha is not 0; empty: not a cut-out
+  SharedBits seen;  ///< texels whose alpha is not 0; null: not a cut-out
   DrawnOverlay overlay;
-  std::vector<uint8_t> coded;   ///< of all texels, 1 where coefficients count; empty: everywhere
-  std::vector<uint8_t> lifted;  ///< liftedSamples() of those, if they are bridged
-  bool bridges = false;
+  SharedBits coded;   ///< texels whose coefficients count; null: all
+  SharedBits lifted;  ///< texels that have coefficients: those, with liftedSamples() if bridged
 
-  /// Which texels have coefficients.
-  Mask lifting() const { return bridges ? lifted : coded; }
   /// Draws what a view of the whole image shows of the overlay over the texels of that view.
   void paint(Extent whole, const View& view, Texels& texels) const;
 };

@@ -15,9 +15,9 @@ namespace tetrakis::inline texture {
 
 class TexturePlan {
  public:
-  /// coded: the texels that the coefficients make. Its bytes outlive the plan. norms: those of an
+  /// coded: the texels that the coefficients make. norms: those of an
   /// earlier plan.
-  TexturePlan(const TextureHeader& header, Mask coded,
+  TexturePlan(const TextureHeader& header, const SharedBits& coded,
               const std::optional<SynthesisNorms>& norms = {});
 
   const PlaneLayout& layout() const { return layout_; }

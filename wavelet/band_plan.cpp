@@ -2,6 +2,7 @@
 #include "wavelet/band_plan.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <utility>
 
@@ -27,6 +28,32 @@ std::array<int, 2> siblingsOf(std::span<const BandPart> parts, size_t index,
     if (i != index && !parts[i].shape().empty()) siblings[count++] = first + static_cast<int>(i);
   }
   return siblings;
+}
+
+/// A row of the coefficients of a part.
+struct Coefficients {
+  const Subband& subband;
+  uint32_t column;  ///< of the subband, where the part begins
+  uint32_t y;       ///< of the plane
+
+  uint32_t x(uint32_t at) const { return subband.sampleColumn(column + at); }
+};
+
+/// Calls mark(tier, columns) for the marked ones of 32 columns from `first` on: tiles are wide, so
+/// that mostly all have one tier.
+template <class Mark>
+void forEachTier(const CoefficientPriorities& priorities, const Coefficients& line, uint32_t first,
+                 uint32_t columns, const Mark& mark) {
+  if (columns == 0) return;
+  const int level = line.subband.level;
+  const auto last = static_cast<uint32_t>(std::bit_width(columns)) - 1;
+  const bool alike = priorities.alike(line.x(first), line.x(first + last), level);
+  while (columns != 0) {
+    const auto next = static_cast<uint32_t>(std::countr_zero(columns));
+    const uint32_t marked = alike ? columns : columns & (0 - columns);
+    mark(priorities.at(line.x(first + next), line.y, level), marked);
+    columns &= ~marked;
+  }
 }
 
 }  // namespace
@@ -91,11 +118,10 @@ std::vector<BandPlan> PlaneLayout::marked(std::span<const BandPart> parts,
 }
 
 void PlaneLayout::markAbsent(std::span<const BandPart> parts, std::span<BandPlan> bands) const {
-  const Mask valid = pyramid_.valid();
   const HeldSamples held = pyramid_.held();
-  if (valid.all() && held.none()) return;
-  const auto isAbsent = [&](size_t sample) {
-    return !valid[sample] || (!held.none() && held.numbers[sample] != 0);
+  if (pyramid_.allExist() && held.none()) return;
+  const auto isHeld = [&](uint32_t x, uint32_t y) {
+    return held.numbers[size_t{y} * pyramid_.plane().width + x] != 0;
   };
   assert(bands.size() == parts.size());
   for (size_t i = 0; i < bands.size(); ++i) {
@@ -104,12 +130,13 @@ void PlaneLayout::markAbsent(std::span<const BandPart> parts, std::span<BandPlan
     const BandShape& shape = bands[i].shape;
     bands[i].absent.assign(shape.wordCells(), 0);
     for (uint32_t row = 0; row < part.rows; ++row) {
-      const size_t line = size_t{subband.planeRow(part.row + row)} * pyramid_.plane().width;
+      const uint32_t y = subband.planeRow(part.row + row);
       for (uint32_t first = 0; first < part.columns; first += 32) {
-        uint32_t word = 0;
-        for (uint32_t k = 0; k < std::min(32u, part.columns - first); ++k)
-          word |= uint32_t{isAbsent(line + subband.sampleColumn(part.column + first + k))} << k;
-        bands[i].absent[shape.word(row, first / 32)] = word;
+        const uint32_t x = subband.sampleColumn(part.column + first);
+        uint32_t word = ~pyramid_.existing(subband.splits_x, x, y);
+        for (uint32_t k = 0; !held.none() && k < std::min(32u, part.columns - first); ++k)
+          word |= uint32_t{isHeld(subband.sampleColumn(part.column + first + k), y)} << k;
+        bands[i].absent[shape.word(row, first / 32)] = word & shape.valid(first / 32);
       }
     }
   }
@@ -126,14 +153,14 @@ void PlaneLayout::markTiers(std::span<const BandPart> parts, std::span<BandPlan>
     BandTiers tiers;
     tiers.members.assign(kPriorities * shape.wordCells(), 0);
     for (uint32_t row = 0; row < part.rows; ++row) {
-      const uint32_t y = subband.planeRow(part.row + row);
-      for (uint32_t column = 0; column < part.columns; ++column) {
-        const size_t word = shape.word(row, column / 32);
-        const uint32_t bit = uint32_t{1} << column % 32;
-        if (!bands[i].absent.empty() && (bands[i].absent[word] & bit) != 0) continue;
-        const uint32_t x = subband.sampleColumn(part.column + column);
-        const uint8_t tier = priorities_->at(x, y, subband.level);
-        tiers.members[tier * shape.wordCells() + word] |= bit;
+      const Coefficients line{subband, part.column, subband.planeRow(part.row + row)};
+      for (uint32_t k = 0; k < shape.words(); ++k) {
+        const size_t word = shape.word(row, k);
+        const uint32_t absent = bands[i].absent.empty() ? 0 : bands[i].absent[word];
+        const auto mark = [&](uint8_t tier, uint32_t columns) {
+          tiers.members[tier * shape.wordCells() + word] |= columns;
+        };
+        forEachTier(*priorities_, line, 32 * k, shape.valid(k) & ~absent, mark);
       }
     }
     tiers.markBlocks(shape);

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/plane.hpp"
+#include "base/bit_plane.hpp"
 
 namespace tetrakis::inline wavelet {
 
@@ -16,8 +16,9 @@ namespace tetrakis::inline wavelet {
 inline constexpr uint8_t kBridgeAll = 255;
 
 /// Returns the mask of the samples that are lifted: the closing of the valid ones by squares of
-/// that reach (wavelet/morphology.hpp). Empty: all are. reach: 0 bridges nothing, kBridgeAll
+/// that reach (wavelet/morphology.hpp). Nothing: all are. reach: 0 bridges nothing, kBridgeAll
 /// everything.
+SharedBits liftedSamples(const SharedBits& valid, uint8_t reach);
 std::vector<uint8_t> liftedSamples(const std::vector<uint8_t>& valid, Extent plane, uint8_t reach);
 
 }  // namespace tetrakis::inline wavelet

@@ -35,7 +35,7 @@ std::span<const int32_t> valuesAfter(const HeldStates& states, size_t step, Dire
 }
 
 bool masked(const Pyramid& pyramid) {
-  return !pyramid.valid().all();
+  return !pyramid.allExist();
 }
 
 }  // namespace

@@ -47,11 +47,11 @@ LevelTransform::LevelTransform(const WaveletSpec& spec, int level, Direction dir
       jointly_wide_(spec.jointlyWide(level)),
       threads_(threads) {}
 
-void LevelTransform::run(const SplitBlock& block, const Carrying& carrying) const {
+void LevelTransform::run(const SplitBlock& block) const {
   assert(block.existing.empty() || block.existing.size() == block.extent.samples());
   const bool rows = block.splitsRows(), columns = block.splitsColumns();
   const bool free = block.existing.empty() && block.held == nullptr;
-  if (joint_ && rows && columns && free) return liftJointly(block, carrying);
+  if (joint_ && rows && columns && free) return liftJointly(block);
   if (doubles_ && !analyses()) forEachLowRow(block, halveValues);
   if (block.held != nullptr) {
     if (!analyses()) holdCoefficients(block);
@@ -66,24 +66,8 @@ void LevelTransform::run(const SplitBlock& block, const Carrying& carrying) cons
   if (doubles_ && analyses()) forEachLowRow(block, doubleValues);
 }
 
-std::vector<uint8_t> LevelTransform::lowFractions(const SplitBlock& block,
-                                                  const Carrying& carrying) const {
-  assert(carrying.out);
-  std::vector<uint8_t> low(block.low.samples());
-  const JointBlock joint = jointBlock(block, carrying);
-  inChunks(block.extent.height, [&](uint32_t begin, uint32_t end) {
-    JointLifting(joint, id_, direction_, jointly_wide_).findFractions(begin, end, low);
-  });
-  return low;
-}
-
-JointBlock LevelTransform::jointBlock(const SplitBlock& block, const Carrying& carrying) const {
-  return {block.first, block.pitch,  block.extent,      doubles_,
-          carrying.in, carrying.out, carrying.fractions};
-}
-
-void LevelTransform::liftJointly(const SplitBlock& block, const Carrying& carrying) const {
-  const JointBlock joint = jointBlock(block, carrying);
+void LevelTransform::liftJointly(const SplitBlock& block) const {
+  const JointBlock joint{block.first, block.pitch, block.extent, doubles_};
   for (const JointStep step : JointLifting::steps(direction_)) {
     inChunks(block.extent.height, [&](uint32_t begin, uint32_t end) {
       JointLifting(joint, id_, direction_, jointly_wide_).run(step, begin, end);

@@ -33,12 +33,6 @@ struct SplitBlock {
   bool splitsColumns() const { return low.height < extent.height; }
 };
 
-/// What a level does with fractions: as JointBlock has it.
-struct Carrying {
-  bool in = false, out = false;
-  std::span<const uint8_t> fractions = {};
-};
-
 /// The bytes that lifting takes for each value of a row or a column, on each thread: both halves of
 /// it and their masks.
 inline constexpr uint64_t kLiftingBytes = 8;
@@ -48,18 +42,13 @@ class LevelTransform {
   /// threads: nothing depends on them.
   LevelTransform(const WaveletSpec& spec, int level, Direction direction, uint32_t threads = 1);
 
-  /// Turns samples into coefficients, or back, in place. Only blocks that are split jointly carry
-  /// fractions.
-  void run(const SplitBlock& block, const Carrying& carrying = {}) const;
-
-  /// The fractions of the low part, row by row, from coefficients that no level has undone.
-  std::vector<uint8_t> lowFractions(const SplitBlock& block, const Carrying& carrying) const;
+  /// Turns samples into coefficients, or back, in place.
+  void run(const SplitBlock& block) const;
 
  private:
   bool analyses() const { return direction_ == Direction::kAnalysis; }
-  JointBlock jointBlock(const SplitBlock& block, const Carrying& carrying) const;
 
-  void liftJointly(const SplitBlock& block, const Carrying& carrying) const;
+  void liftJointly(const SplitBlock& block) const;
   void liftRows(const SplitBlock& block) const;
   void liftColumns(const SplitBlock& block) const;
   /// The same beside held samples.

@@ -18,7 +18,7 @@ PriorityMap priorityMapOf(const PriorityHeader& header, Extent plane) {
   map.priorities.resize(size_t{map.columns()} * map.rows());
   const auto* bytes = reinterpret_cast<const uint8_t*>(header.code.data());
   DecisionDecoding io(std::span(bytes, header.code.size()));
-  PriorityPass<DecisionDecoding>(io).run(map.columns(), map.priorities);
+  PriorityPass<DecisionDecoding<>>(io).run(map.columns(), map.priorities);
   return map;
 }
 
@@ -48,16 +48,10 @@ CoefficientPriorities::CoefficientPriorities(const PriorityMap& map)
   }
 }
 
-/// What a coefficient changes lies mostly within half of its level's spacing. Means are those of
-/// squared errors, which 4^priority stands for.
+/// Means are those of squared errors, which 4^priority stands for.
 uint8_t CoefficientPriorities::at(uint32_t x, uint32_t y, int level) const {
-  const uint32_t reach = (uint32_t{1} << level) / 2;
-  const auto first = [&](uint32_t place) { return (place - std::min(place, reach)) >> tile_log2_; };
-  const auto end = [&](uint32_t place, uint32_t side) {
-    return (std::min(place + reach, side - 1) >> tile_log2_) + 1;
-  };
-  const size_t west = first(x), east = end(x, plane_.width);
-  const size_t north = first(y), south = end(y, plane_.height);
+  const size_t west = firstTile(x, level), east = endTile(x, plane_.width, level);
+  const size_t north = firstTile(y, level), south = endTile(y, plane_.height, level);
   const uint64_t sum = sums_[south * stride_ + east] - sums_[south * stride_ + west] -
                        sums_[north * stride_ + east] + sums_[north * stride_ + west];
   const uint64_t mean = sum / ((east - west) * (south - north));

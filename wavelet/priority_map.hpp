@@ -4,6 +4,7 @@
 // Encoders make it of what cameras see; without one all coefficients have priority 0.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -39,8 +40,22 @@ class CoefficientPriorities {
 
   /// The priority of a coefficient of a level whose sample lies at (x, y).
   uint8_t at(uint32_t x, uint32_t y, int level) const;
+  /// Whether those of a row between two of them, and these, are means over the same tiles.
+  bool alike(uint32_t x0, uint32_t x1, int level) const {
+    return firstTile(x0, level) == firstTile(x1, level) &&
+           endTile(x0, plane_.width, level) == endTile(x1, plane_.width, level);
+  }
 
  private:
+  /// What a coefficient changes lies mostly within half of its level's spacing.
+  uint32_t firstTile(uint32_t place, int level) const {
+    return (place - std::min(place, reachOf(level))) >> tile_log2_;
+  }
+  uint32_t endTile(uint32_t place, uint32_t side, int level) const {
+    return (std::min(place + reachOf(level), side - 1) >> tile_log2_) + 1;
+  }
+  static uint32_t reachOf(int level) { return (uint32_t{1} << level) / 2; }
+
   Extent plane_;
   int tile_log2_;
   uint32_t stride_;

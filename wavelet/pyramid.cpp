@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace tetrakis::inline wavelet {
 
@@ -22,10 +23,10 @@ LowBand split(const LowBand& whole) {
 
 }  // namespace
 
-Pyramid::Pyramid(Extent plane, Mask valid, HeldSamples held)
-    : valid_(valid), held_(held), lows_{{plane, 0, 0}} {
+Pyramid::Pyramid(SharedBits valid, Extent plane, HeldSamples held)
+    : valid_(std::move(valid)), held_(held), lows_{{plane, 0, 0}} {
   assert(plane.samples() > 0);
-  assert(valid.all() || valid.bytes().size() == plane.samples());
+  assert(allExist() || valid_->extent() == plane);
   assert(held.none() || held.numbers.size() == plane.samples());
   while (std::max(lows_.back().extent.width, lows_.back().extent.height) > kSmallestSide)
     lows_.push_back(split(lows_.back()));
@@ -60,17 +61,17 @@ std::span<const Subband> Pyramid::subbandsOf(int level) const {
 std::vector<uint8_t> Pyramid::splitMask(int level, const Window& block) const {
   const LowBand& band = low(level);
   const bool split_rows = level < levels() && splitsX(level + 1);
-  assert(!valid_.all() && block.isInside(band.extent));
+  assert(!allExist() && block.isInside(band.extent));
   assert(!split_rows || block.x % 2 == 0);
   const uint32_t lows = split_rows ? block.width - block.width / 2 : block.width;
-  const uint32_t pitch = (split_rows ? 2u : 1u) << band.splits_x;
+  const uint32_t pitch = (split_rows ? 2u : 1u) << band.splits_x, first = block.x << band.splits_x;
   std::vector<uint8_t> mask(block.extent().samples());
   uint8_t* to = mask.data();
   for (uint32_t y = block.y; y < block.y + block.height; ++y) {
-    const uint8_t* row = valid_.from((size_t{y} << band.splits_y) * plane().width +
-                                     (size_t{block.x} << band.splits_x));
-    for (uint32_t x = 0; x < lows; ++x) *to++ = row[size_t{x} * pitch];
-    for (uint32_t x = 0; x < block.width - lows; ++x) *to++ = row[size_t{x} * pitch + pitch / 2];
+    const uint32_t row = y << band.splits_y;
+    for (uint32_t x = 0; x < lows; ++x) *to++ = valid_->at(first + x * pitch, row);
+    for (uint32_t x = 0; x < block.width - lows; ++x)
+      *to++ = valid_->at(first + x * pitch + pitch / 2, row);
   }
   assert(to == mask.data() + mask.size());
   return mask;

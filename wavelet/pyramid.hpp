@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "base/bit_plane.hpp"
 #include "base/plane.hpp"
 #include "base/view.hpp"
 #include "bitstream/track/band.hpp"
@@ -60,12 +61,19 @@ struct LowBand {
 
 class Pyramid {
  public:
-  /// The mask marks the samples of the plane that exist; its bytes, and what is held, outlive the
-  /// pyramid.
-  explicit Pyramid(Extent plane, Mask valid = {}, HeldSamples held = {});
+  /// The mask marks the samples of the plane that exist. What is held outlives the pyramid.
+  explicit Pyramid(Extent plane, Mask valid = {}, HeldSamples held = {})
+      : Pyramid(sharedBits(valid, plane), plane, held) {}
+  /// The same, of marks that are there as bits.
+  Pyramid(SharedBits valid, Extent plane, HeldSamples held = {});
 
   Extent plane() const { return lows_.front().extent; }
-  Mask valid() const { return valid_; }
+  bool allExist() const { return valid_ == nullptr; }
+  bool exists(uint32_t x, uint32_t y) const { return allExist() || valid_->at(x, y); }
+  /// Which of 32 samples of a row exist that lie 2^log2 apart, from x on.
+  uint32_t existing(int log2, uint32_t x, uint32_t y) const {
+    return allExist() ? ~uint32_t{0} : valid_->every(log2, x, y);
+  }
   HeldSamples held() const { return held_; }
 
   /// The number of levels, which is also the number of the coarsest one. 0 for the smallest planes.
@@ -90,13 +98,13 @@ class Pyramid {
 
   /// Which samples exist of a rectangle of the low band of a level, laid out like the values that
   /// the next level leaves there: where it splits rows, the rectangle begins at an even column, and
-  /// the even columns come before the odd ones. The pyramid has a mask with bytes.
+  /// the even columns come before the odd ones. Not all samples of the pyramid exist.
   std::vector<uint8_t> splitMask(int level, const Window& block) const;
 
  private:
   void addSubbands(int level);
 
-  Mask valid_;
+  SharedBits valid_;
   HeldSamples held_;
   std::vector<LowBand> lows_;
   std::vector<Subband> subbands_;

@@ -41,31 +41,32 @@ uint64_t TrackNeeds::bytes() const {
   uint64_t largest = 0;
   const uint64_t count = regionCount(plane.width, plane.height, side_log2);
   for (const Region& region : largestRegions(plane.width, plane.height, side_log2)) {
-    uint64_t sum = kOnce;
+    uint64_t sum = kOnce, band = 0;
     for (const BandPart& part : partsOf(pyramid.subbands(), region)) {
-      if (known) sum += planes * Band::bytesOf(part.shape(), masked);
+      const uint64_t one = known ? Band::bytesOf(part.shape(), masked) : 0;
+      band = std::max(band, one);
+      sum += planes * one;
       if (masked) sum += planes * part.shape().wordCells() * sizeof(uint32_t);  // of the plan
       if (ordered) sum += BandTiers::bytesOf(part.shape());  // likewise, of all planes
     }
-    largest = std::max(largest, sum);
+    largest = std::max(largest, kept ? sum + band : sum);
   }
-  return kept ? 2 * largest * count : largest * std::clamp<uint64_t>(threads, 1, count);
+  return kept ? largest * count : largest * std::clamp<uint64_t>(threads, 1, count);
 }
 
 bool RegionDecoder::nothingKnown(const Codewords& codewords) const {
   return regions.side_log2 == 0 && (bit_planes == 0 || codewords.front().empty());
 }
 
-Precision RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of,
-                             const Take& take) const {
+int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const {
   assert(!codewords.empty());
   // Windows do not decode all tracks, so that only the bytes say how much is known.
   TrackMemory* const memory =
       context.memory != nullptr && !context.memory->forgets ? context.memory : nullptr;
   const uint64_t bytes = memory != nullptr ? memory->knownBytes(codewords) : bytesOf(codewords);
-  const Precision precision = precisionOf(wavelet, bit_planes, bytes, level);
-  const int more_bits = precision.fraction_bits - wavelet.fraction_bits;
-  if (nothingKnown(codewords)) return precision;
+  const int fraction_bits = fractionBitsOf(wavelet, bit_planes, bytes, level);
+  const int more_bits = fraction_bits - wavelet.fraction_bits;
+  if (nothingKnown(codewords)) return fraction_bits;
   if (memory != nullptr) memory->tracks.resize(codewords.size());
   parallelFor(context.threads, codewords.size(), [&](size_t i) {
     if (codewords[i].empty() || bit_planes == 0) return;
@@ -79,7 +80,7 @@ Precision RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of,
     memory->tracks[i].emplace(std::move(plan), bit_planes);
     take(i, memory->decode(i, codewords[i]), more_bits);
   });
-  return precision;
+  return fraction_bits;
 }
 
 }  // namespace tetrakis::inline wavelet

@@ -49,8 +49,8 @@ struct TrackNeeds {
   uint32_t threads;
   bool kept;  ///< in a TrackMemory
 
-  /// The bytes that the largest track takes at most, on each thread; or that all take, twice the
-  /// largest band included, if they are kept.
+  /// The bytes that the largest track takes at most, on each thread; or that all take, each
+  /// with a copy of its largest band, if they are kept.
   uint64_t bytes() const;
 };
 
@@ -72,8 +72,8 @@ struct RegionDecoder {
   /// True if there is only one track and nothing is known of it, so that run() takes none.
   bool nothingKnown(const Codewords& codewords) const;
 
-  /// Returns the precision of the values taken (docs/FORMAT.md, section 7).
-  Precision run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const;
+  /// Returns the fraction bits of the values taken (docs/FORMAT.md, section 7).
+  int run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const;
 };
 
 }  // namespace tetrakis::inline wavelet

@@ -30,17 +30,16 @@ class Levels {
   }
 
   /// block: of blockOf().
-  void run(const LevelTransform& transform, int level, SplitBlock block,
-           const Carrying& carrying) const {
+  void run(const LevelTransform& transform, int level, SplitBlock block) const {
     const Window whole{0, 0, block.extent.width, block.extent.height};
     std::vector<uint8_t> mask;
-    if (!pyramid_.valid().all()) mask = pyramid_.splitMask(level - 1, whole);
+    if (!pyramid_.allExist()) mask = pyramid_.splitMask(level - 1, whole);
     block.existing = mask;
-    if (!ladder_) return transform.run(block, carrying);
+    if (!ladder_) return transform.run(block);
     const HeldLevel states = ladder_->level(level);
     const HeldBlock held(pyramid_, states, level, whole);
     block.held = &held;
-    transform.run(block, carrying);
+    transform.run(block);
   }
 
  private:
@@ -50,47 +49,22 @@ class Levels {
 
 }  // namespace
 
-int carriedTo(const WaveletSpec& spec, const Pyramid& pyramid) {
-  if (!pyramid.valid().all() || !pyramid.held().none()) return 0;
-  const auto carries = [&](int level) {
-    return spec.joint(level) && pyramid.splitsX(level) && pyramid.splitsY(level);
-  };
-  int last = 0;
-  while (last < std::min(spec.first_doubled, pyramid.levels()) && carries(last + 1)) ++last;
-  return last > 1 ? last : 0;
-}
-
 void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
                     uint32_t threads) {
   const Levels levels(spec, pyramid);
-  const int carried = carriedTo(spec, pyramid);
   for (int level = 1; level <= pyramid.levels(); ++level) {
     levels.run(LevelTransform(spec, level, Direction::kAnalysis, threads), level,
-               blockOf(pyramid, level, 0, values),
-               {level > 1 && level <= carried, level < carried, {}});
+               blockOf(pyramid, level, 0, values));
   }
 }
 
 void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
                     const InverseOptions& options) {
-  const int level = options.level;
   const Levels levels(spec, pyramid);
-  const int carried = options.rounds && level == 0 ? carriedTo(spec, pyramid) : 0;
-  const auto transformOf = [&](int split) {
-    return LevelTransform(spec, split, Direction::kSynthesis, options.threads);
-  };
-  std::vector<std::vector<uint8_t>> fractions(static_cast<size_t>(std::max(carried, 1)));
-  const auto carryingOf = [&](int split) -> Carrying {
-    if (split <= 1 || split > carried) return {false, split < carried, {}};
-    return {true, split < carried, fractions[static_cast<size_t>(split - 1)]};
-  };
-  for (int split = 1; split < carried; ++split) {
-    fractions[static_cast<size_t>(split)] =
-        transformOf(split).lowFractions(blockOf(pyramid, split, 0, values), carryingOf(split));
+  for (int split = pyramid.levels(); split > options.level; --split) {
+    levels.run(LevelTransform(spec, split, Direction::kSynthesis, options.threads), split,
+               blockOf(pyramid, split, options.level, values));
   }
-  for (int split = pyramid.levels(); split > level; --split)
-    levels.run(transformOf(split), split, blockOf(pyramid, split, level, values),
-               carryingOf(split));
 }
 
 }  // namespace tetrakis::inline wavelet

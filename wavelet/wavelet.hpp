@@ -4,10 +4,9 @@
 //
 // Every level rounds, and the rounding errors of coarse levels spread over the whole plane. Planes
 // with fraction bits keep these errors below a step. Planes without them (lossless ones) round each
-// coefficient once (wavelet/lifting/joint_lifting.hpp). The finest levels do not round their low
-// bands at all, but carry the fractions to the next one. Then the low bands of three levels are
-// doubled, so that coarser levels round half as much: prefixes get better, lossless streams a
-// little longer. docs/EXPERIMENTS.md says by how much.
+// coefficient once (wavelet/lifting/joint_lifting.hpp). The low bands of three levels are doubled,
+// so that coarser levels round half as much: prefixes get better, lossless streams a little longer.
+// docs/EXPERIMENTS.md says by how much.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +17,6 @@
 
 namespace tetrakis::inline wavelet {
 
-/// The last of the levels that pass fractions on, from the first to this one, which rounds; 0: none
-/// do. These levels lift jointly. The first level that doubles its low band is the last at most.
-int carriedTo(const WaveletSpec& spec, const Pyramid& pyramid);
-
 /// Turns the samples of the plane of a pyramid into coefficients, in place, laid out as
 /// wavelet/pyramid.hpp says. inverseWavelet() with the same spec and an equal pyramid undoes it
 /// exactly. Samples that do not exist are left alone; those that are held have their values, and
@@ -31,10 +26,7 @@ void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<i
 
 /// How coefficients become samples.
 struct InverseOptions {
-  int level = 0;  ///< whose low band they become: the coarser levels alone are undone
-  /// The values are whole coefficients, known to the last bit or nearly, and roundings are undone.
-  /// Else fractions are not carried; nor are they where level > 0.
-  bool rounds = true;
+  int level = 0;         ///< whose low band they become: the coarser levels alone are undone
   uint32_t threads = 1;  ///< nothing depends on them
 };
 

@@ -29,27 +29,19 @@ inline std::vector<int32_t> withFractions(std::span<const int32_t> values, int f
   return scaled;
 }
 
-/// The binary places of coefficients of samples without fraction bits in an inverse that does not
-/// round: as many as fit.
+/// The binary places of coefficients of samples without fraction bits in an inverse that is not to
+/// restore them: as many as fit.
 inline int unroundedBits(int bit_planes) {
   return std::clamp(19 - bit_planes, 0, 4);
 }
 
-/// How finely an inverse works.
-struct Precision {
-  int fraction_bits;  ///< of the values
-  bool rounds;        ///< they are whole numbers, and roundings are undone
-};
-
-/// The precision of the inverse down to a mip level: that of the header, or, if it has no fraction
-/// bits and so much is unknown that roundings would add to it, as many binary places as fit. Mip
-/// levels above 0 are never rounded: details that they do not know made the fractions that they are
-/// made of. bytes: of the coefficients, in all tracks together.
-inline Precision precisionOf(const WaveletHeader& header, int bit_planes, uint64_t bytes,
-                             int level) {
-  if (header.fraction_bits > 0) return {header.fraction_bits, false};
-  if (level == 0 && bytes >= header.rounded_bytes) return {0, true};
-  return {unroundedBits(bit_planes), false};
+/// The fraction bits that values have in the inverse down to a mip level: those of the header, or,
+/// if it has none and so much is unknown that roundings would add to it, as many as fit. Mip levels
+/// above 0 are never rounded: details that they do not know made the fractions that they are made
+/// of. bytes: of the coefficients, in all tracks together.
+inline int fractionBitsOf(const WaveletHeader& header, int bit_planes, uint64_t bytes, int level) {
+  if (header.fraction_bits > 0) return header.fraction_bits;
+  return level == 0 && bytes >= header.rounded_bytes ? 0 : unroundedBits(bit_planes);
 }
 
 }  // namespace tetrakis::inline wavelet

@@ -36,6 +36,9 @@ class AdaptiveBit {
   /// It has seen two decisions, or was trained.
   bool experienced() const { return seen_ >= 2; }
 
+  /// No such decision changes the model any more.
+  bool isSettledOn(bool bit) const { return seen_ == kLimit && zero_ == (bit ? 0 : 0xffff); }
+
   void update(bool bit) {
     assert(seen_ < kDecisionShare.size());
     // Rounded towards the target: else the mean of zeros would stop 2^-8 before it, and each void

@@ -26,6 +26,8 @@ class DecisionEncoding {
     encoder_.encodeEven(answer);
     return answer;
   }
+  /// Each decision is taken by itself.
+  uint32_t run(AdaptiveBit&, bool, uint32_t) { return 0; }
   bool stopped() const { return false; }
   std::vector<uint8_t> finish() { return encoder_.finish(); }
 

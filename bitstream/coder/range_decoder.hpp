@@ -4,6 +4,7 @@
 // on it.
 #pragma once
 
+#include <bit>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -32,6 +33,17 @@ class RangeDecoder {
 
   bool decodeUncertain(AdaptiveBit& model) { return decode(model); }
 
+  /// Decodes decisions of one model while they are `bit`, at most so many, and returns how many. A
+  /// decision that differs, or that the bytes do not decide, is left to decode().
+  uint32_t decodeRun(AdaptiveBit& model, bool bit, uint32_t most) {
+    uint32_t count = 0;
+    for (; count < most && !model.isSettledOn(bit); ++count) {
+      if (!decides(model.zero()) || (code_ >= boundOf(model.zero())) != bit) return count;
+      decode(model);
+    }
+    return count + decodeSettled(bit, most - count);
+  }
+
   /// How many bytes have been read of those that the decoder was made of.
   size_t read(std::span<const uint8_t> bytes) const {
     return static_cast<size_t>(next_ - bytes.data());
@@ -53,7 +65,7 @@ class RangeDecoder {
 
   /// Whether the bytes decide a decision of which P(bit = 0) is `zero` units of 2^-16.
   bool decides(uint32_t zero) const {
-    const uint64_t bound = (uint64_t{range_} * zero) >> AdaptiveBit::kPrecision;
+    const uint32_t bound = boundOf(zero);
     return !exhausted_ && (slack_ == 0 || code_ >= bound || uint64_t{code_} + slack_ < bound);
   }
 
@@ -73,11 +85,36 @@ class RangeDecoder {
   class Plenty;
 
  private:
+  uint32_t boundOf(uint32_t zero) const {
+    return static_cast<uint32_t>((uint64_t{range_} * zero) >> AdaptiveBit::kPrecision);
+  }
+
+  /// decodeRun() of a model that no such decision changes any more, in a few instructions each.
+  uint32_t decodeSettled(bool bit, uint32_t most) {
+    constexpr int kShift = AdaptiveBit::kPrecision - std::countr_zero(AdaptiveBit::kFloor);
+    if (exhausted_) return 0;
+    for (uint32_t count = 0; count < most; ++count) {
+      // boundOf() the floor, or of what it leaves.
+      const uint32_t bound = bit ? range_ >> kShift : range_ - 1 - ((range_ - 1) >> kShift);
+      if (bit ? code_ < bound : uint64_t{code_} + slack_ >= bound) return count;
+      if (bit) code_ -= bound;
+      range_ = bit ? range_ - bound : bound;
+      renormalise();
+    }
+    return most;
+  }
+
+  void renormalise() {
+    while (range_ < kRenormalise) {
+      range_ <<= 8;
+      shiftIn();
+    }
+  }
+
   bool split(uint32_t zero) {
     assert(zero > 0 && zero < 1u << AdaptiveBit::kPrecision);
     assert(range_ >= kRenormalise);
-    const uint32_t bound =
-        static_cast<uint32_t>((uint64_t{range_} * zero) >> AdaptiveBit::kPrecision);
+    const uint32_t bound = boundOf(zero);
     const bool bit = code_ >= bound;
     if (slack_ != 0 && (exhausted_ || (!bit && uint64_t{code_} + slack_ >= bound))) {
       exhausted_ = true;
@@ -89,10 +126,7 @@ class RangeDecoder {
     } else {
       range_ = bound;
     }
-    while (range_ < kRenormalise) {
-      range_ <<= 8;
-      shiftIn();
-    }
+    renormalise();
     return bit;
   }
 

@@ -43,7 +43,7 @@ struct WaveletHeader {
   template <class V>
   void visit(V& v, uint8_t& planes) {
     v.u8("planes", planes, 0, kMostPlanes);
-    for (uint8_t& filter : filters) v.u8("filter", filter, 0, 5);
+    for (uint8_t& filter : filters) v.u8("filter", filter, 0, 4);
     v.u8("fraction_bits", fraction_bits, 0, kMaxFractionBits);
     v.u8("sample_bits", bits, 0, 32);
     if (fraction_bits > 0) return;

@@ -11,7 +11,7 @@ LineMaps lineMapsOf(const LineRepeats& repeats) {
   assert(!repeats.none());
   const auto* bytes = reinterpret_cast<const uint8_t*>(repeats.code.data());
   DecisionDecoding io(std::span(bytes, repeats.code.size()));
-  RepeatPass<DecisionDecoding> pass(io);
+  RepeatPass<DecisionDecoding<>> pass(io);
   const auto map = [&](uint32_t lines) {
     std::vector<uint8_t> repeated(lines);
     if (!io.stopped()) pass.run(repeated);

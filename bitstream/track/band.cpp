@@ -40,9 +40,6 @@ Band::Band(const BandShape& band_shape, Orientation band_orientation,
     : shape(band_shape),
       orientation(band_orientation),
       tiers(std::move(band_tiers)),
-      magnitude(shape.cells()),
-      scaled(shape.cells()),
-      sign(shape.cells()),
       significant(shape.wordCells()),
       visited(shape.wordCells()),
       block_nonzero(size_t{blockRows()} * shape.words()) {
@@ -63,6 +60,13 @@ uint64_t Band::bytesOf(const BandShape& band_shape, bool masked) {
   const uint64_t blocks =
       (uint64_t{band_shape.rows} + kBlockRows - 1) / kBlockRows * band_shape.words();
   return band_shape.cells() * cell + band_shape.wordCells() * word + blocks;
+}
+
+void Band::makeCells() {
+  if (hasCells()) return;
+  magnitude = ZeroedArray<uint32_t>(shape.cells());
+  scaled = ZeroedArray<uint8_t>(shape.cells());
+  sign = ZeroedArray<int8_t>(shape.cells());
 }
 
 void Band::clearVisited(size_t tier) {

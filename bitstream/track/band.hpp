@@ -5,6 +5,9 @@
 // Sets of coefficients (significant, visited in this plane) are bit maps, one word for each 32
 // columns: a pass finds its coefficients by word operations and skips the others. Coefficients that
 // do not exist, because their sample is void, count as visited from the start of every plane.
+//
+// Most bands of a large plane hold nothing for long. What takes bytes for each coefficient is
+// allocated when the first significant one follows.
 #pragma once
 
 #include <array>
@@ -116,6 +119,10 @@ struct Band {
                             : tiers->members[tier * shape.wordCells() + shape.word(row, index)];
   }
 
+  /// A significant coefficient follows, in a band that may have had none so far.
+  void makeCells();
+  bool hasCells() const { return magnitude.size() > 0; }
+
   /// Nothing is known of the next bit-plane of a tier yet.
   void clearVisited(size_t tier = 0);
   /// All is known of a bit-plane of a tier: nothing is significant there.
@@ -164,9 +171,11 @@ struct Band {
   Orientation orientation = Orientation::kLL;
   std::array<TierState, kPriorities> tier_states;
   std::shared_ptr<const BandTiers> tiers;  ///< null: all coefficients are in tier 0
-  ZeroedArray<uint32_t> magnitude;         ///< known bits, unknown ones zero
-  ZeroedArray<uint8_t> scaled;  ///< magnitude >> plane, held below 2^7; of the last pass's tier
-  ZeroedArray<int8_t> sign;     ///< -1, 0 while insignificant, 1
+  // Of each cell, once makeCells() has been called: before that nothing is significant.
+  ZeroedArray<uint32_t> magnitude;  ///< known bits, unknown ones zero
+  ZeroedArray<uint8_t> scaled;      ///< magnitude >> plane, held below 2^7; of the last pass's tier
+  ZeroedArray<int8_t> sign;         ///< -1, 0 while insignificant, 1
+  // From the start.
   ZeroedArray<uint32_t> significant;   ///< bit map: magnitude is not zero
   ZeroedArray<uint32_t> visited;       ///< bit map: bit `plane` of its tier is known, or absent
   ZeroedArray<uint32_t> absent;        ///< bit map: does not exist; without elements: all do

@@ -52,7 +52,8 @@ class RowHints {
   /// Siblings may lack the last row, which then is margin, and the last column.
   static const uint32_t* at(const Band* band, uint32_t row, uint32_t column) {
     static constexpr std::array<uint32_t, 32> kNone{};
-    if (band == nullptr || column >= 32 * band->shape.words()) return kNone.data();
+    const bool any = band != nullptr && band->hasCells() && column < 32 * band->shape.words();
+    if (!any) return kNone.data();
     return band->magnitude.data() + band->shape.cell(row, column);
   }
 

@@ -91,7 +91,11 @@ class PlanePass {
     const bool bit = io_.bandBit(models_.band, plane_);
     if (io_.stopped()) return false;
     band_.tier_states[tier_].nonzero = bit;
-    if (!bit) band_.markVisited(tier_);
+    if (bit) {
+      band_.makeCells();
+    } else {
+      band_.markVisited(tier_);
+    }
     return bit;
   }
 

@@ -44,6 +44,13 @@ struct DecodingIo : Decisions<RangeDecoder> {
 
 PlentyIo::PlentyIo(DecodingIo& io) : Decisions{RangeDecoder::Plenty(io.decoder)} {}
 
+/// What a band holds, without its tiers.
+uint64_t bytesOf(const Band& band) {
+  const uint64_t words = band.significant.size() + band.visited.size() + band.absent.size();
+  return (band.magnitude.size() + words) * sizeof(uint32_t) + band.scaled.size() +
+         band.sign.size() + band.block_nonzero.size();
+}
+
 }  // namespace
 
 TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
@@ -137,14 +144,13 @@ const TrackState& GrowingTrack::decodePasses(std::span<const uint8_t> codeword, 
 }
 
 uint64_t GrowingTrack::bytes() const {
-  uint64_t sum = 0, largest = 0;
+  uint64_t sum = (state_.models.size() + 1) * sizeof(BandModels);
   for (const BandPlan& band : plan_) {
-    const uint64_t one = Band::bytesOf(band.shape, !band.absent.empty());
-    sum += one + band.absent.size() * sizeof(uint32_t);
+    sum += band.absent.size() * sizeof(uint32_t);
     if (band.tiers != nullptr) sum += band.tiers->bytes();
-    largest = std::max(largest, one);
   }
-  return sum + largest + (state_.models.size() + 1) * sizeof(BandModels);
+  for (const Band& band : state_.bands) sum += bytesOf(band);
+  return sum + (band_ ? bytesOf(*band_) : 0);
 }
 
 }  // namespace tetrakis::inline track

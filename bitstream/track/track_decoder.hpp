@@ -36,7 +36,7 @@ class GrowingTrack {
   /// with calls of decode().
   const TrackState& decodePasses(std::span<const uint8_t> codeword, uint64_t bytes);
 
-  /// What the state takes, at most, as it is and as it was at the beginning of a pass.
+  /// What the state takes, as it is and as it was at the beginning of a pass.
   uint64_t bytes() const;
 
  private:

@@ -16,4 +16,19 @@ inline constexpr int kDrawnIndexBits = 12;
 inline constexpr size_t kMostDrawnValues = size_t{1} << kDrawnIndexBits;
 inline constexpr DrawnIndex kNoIndex = 0xffff;
 
+/// An index as planes keep it: kNoIndex where nothing was written to zeroed memory, which then need
+/// not even be there.
+class KeptIndex {
+ public:
+  KeptIndex() = default;
+  KeptIndex& operator=(DrawnIndex index) {
+    complement_ = static_cast<DrawnIndex>(~index);
+    return *this;
+  }
+  operator DrawnIndex() const { return static_cast<DrawnIndex>(~complement_); }
+
+ private:
+  DrawnIndex complement_;
+};
+
 }  // namespace tetrakis::inline drawing

@@ -6,11 +6,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
 #include "bitstream/coder/adaptive_bit.hpp"
 #include "bitstream/coder/mixture.hpp"
 #include "codec/drawing/drawing_neighbours.hpp"
+#include "codec/drawing/lazy_models.hpp"
 
 namespace tetrakis::inline drawing {
 
@@ -95,8 +95,8 @@ class DrawingModels {
     return (context * 2654435761u) >> (32 - bits);
   }
 
-  std::vector<AdaptiveBit> pairs_, singles_, indices_;
-  std::vector<AdaptiveBit> rivals_, patterns_, differences_, values_;
+  LazyModels pairs_, singles_, indices_;
+  LazyModels rivals_, patterns_, differences_, values_;
   std::array<AdaptiveBit, 2 * Candidates::kRanked * 4 * 5 * 3 * 9> counts_;
   std::array<MixtureWeights<5>, 2 * Candidates::kRanked * 4> candidate_weights_;
   MixtureWeights<3> index_weights_ = freshWeights<3>();

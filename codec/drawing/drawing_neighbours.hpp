@@ -97,7 +97,7 @@ class Candidates {
 /// one, as voids, are no neighbours.
 class Neighbourhood {
  public:
-  Neighbourhood(const Level& level, std::span<const DrawnIndex> indices, Extent extent)
+  Neighbourhood(const Level& level, std::span<const KeptIndex> indices, Extent extent)
       : indices_(indices.data()), width_(extent.width), height_(extent.height) {
     if (level.kind == LevelKind::kRoots) return;
     const Stencil stencil = stencilOf(level.kind, level.step, width_);
@@ -114,24 +114,25 @@ class Neighbourhood {
   /// The index that all neighbours have; kNoIndex if they differ or some lie outside.
   DrawnIndex common(uint32_t x, uint32_t y) const {
     if (count_ == 0 || !inside(x, y)) return kNoIndex;
-    const DrawnIndex* const at = indices_ + size_t{y} * width_ + x;
+    const KeptIndex* const at = indices_ + size_t{y} * width_ + x;
     const DrawnIndex first = at[neighbours_[0].linear];
     uint32_t differences = 0;
     for (const Neighbour& n : neighbours_)
-      differences |= static_cast<uint32_t>(at[n.linear] ^ first);
+      differences |= static_cast<uint32_t>(DrawnIndex{at[n.linear]} ^ first);
     return differences == 0 ? first : kNoIndex;
   }
 
   Candidates around(uint32_t x, uint32_t y) const {
-    const DrawnIndex* const at = indices_ + size_t{y} * width_ + x;
+    const KeptIndex* const at = indices_ + size_t{y} * width_ + x;
     const bool all = inside(x, y);
     Candidates::Indices indices{};
     uint32_t known = 0;
     for (int i = 0; i < count_; ++i) {
       const Neighbour& n = neighbours_[static_cast<size_t>(i)];
       if (!all && !(reaches(x, n.dx, width_) && reaches(y, n.dy, height_))) continue;
-      indices[static_cast<size_t>(i)] = at[n.linear];
-      known |= uint32_t{at[n.linear] != kNoIndex} << i;
+      const DrawnIndex index = at[n.linear];
+      indices[static_cast<size_t>(i)] = index;
+      known |= uint32_t{index != kNoIndex} << i;
     }
     return Candidates(indices, known);
   }
@@ -155,7 +156,7 @@ class Neighbourhood {
     neighbours_[static_cast<size_t>(count_++)] = {dx, dy, dy * static_cast<ptrdiff_t>(width_) + dx};
   }
 
-  const DrawnIndex* indices_;
+  const KeptIndex* indices_;
   uint32_t width_, height_, reach_ = 0;
   std::array<Neighbour, Candidates::kNeighbours> neighbours_{};
   int count_ = 0;  ///< roots have no neighbours

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <span>
 
+#include "base/bit_plane.hpp"
 #include "base/plane.hpp"
 #include "codec/drawing/drawing_models.hpp"
 #include "codec/drawing/drawing_neighbours.hpp"
@@ -39,12 +40,14 @@ namespace tetrakis::inline drawing {
 template <class List, class Io>
 class DrawingPass {
  public:
-  /// indices: of every sample, kNoIndex where not known. valid: the samples that have a value.
-  DrawingPass(const PlaneView<DrawnIndex>& indices, List& list, Io& io)
-      : indices_(indices), list_(list), io_(io) {}
+  /// indices: of every sample, kNoIndex where not known. valid: the samples that have a value;
+  /// null: all.
+  DrawingPass(const PlaneView<KeptIndex>& indices, const BitPlane* valid, List& list, Io& io)
+      : indices_(indices), valid_(valid), list_(list), io_(io) {}
 
-  /// levels: of the grid, coarse to fine. Ends early at a decision that does not count.
-  void run(std::span<const Level> levels) {
+  /// levels: of the grid, coarse to fine. Ends early at a decision that does not count. Returns the
+  /// step of the last level: the vertices that are known lie at its multiples.
+  uint32_t run(std::span<const Level> levels) {
     for (const Level& level : levels) {
       const Neighbourhood neighbourhood(level, indices_.values(), indices_.extent());
       const ModelChain unanimous = models_.candidate(Candidates::unanimous(), 0, level.kind);
@@ -53,17 +56,18 @@ class DrawingPass {
         uint32_t x = level.firstX(row);
         for (uint32_t i = 0; i < level.columns[row % 2]; ++i, x += level.pitch()) {
           const size_t vertex = size_t{y} * indices_.width + x;
-          if (!indices_.valid[vertex]) continue;
+          if (valid_ != nullptr && !valid_->at(x, y)) continue;
           const DrawnIndex target = io_.target(vertex), common = neighbourhood.common(x, y);
           const bool asked = common != kNoIndex;  // most vertices, and nothing else to do for them
           DrawnIndex index = common;
           if (!asked || !ask(unanimous, target == common))
             index = decide(neighbourhood.around(x, y), level.kind, vertex, target, asked);
-          if (io_.stopped()) return;
+          if (io_.stopped()) return level.step;
           indices_.data[vertex] = index;
         }
       }
     }
+    return levels.back().step;
   }
 
  private:
@@ -113,7 +117,8 @@ class DrawingPass {
     return bit;
   }
 
-  const PlaneView<DrawnIndex> indices_;
+  const PlaneView<KeptIndex> indices_;
+  const BitPlane* valid_;
   List& list_;
   Io& io_;
   DrawingModels models_;

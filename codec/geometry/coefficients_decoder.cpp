@@ -36,10 +36,10 @@ std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart
   return plan.empty() ? plan : layout.marked(parts, std::move(plan));
 }
 
-/// The mask and what is held outlive the layout. memory: null, or what earlier calls know.
-PlaneLayout layoutOf(const GeometryHeader& header, Mask lifted, HeldSamples flat,
+/// What is held outlives the layout. memory: null, or what earlier calls know.
+PlaneLayout layoutOf(const GeometryHeader& header, const SharedBits& lifted, HeldSamples flat,
                      TrackMemory* memory) {
-  PlaneLayout layout(specOf(header.wavelet), Pyramid(header.extent(), lifted, flat),
+  PlaneLayout layout(specOf(header.wavelet), Pyramid(lifted, header.extent(), flat),
                      priorityMapOf(header.priorities, header.extent()),
                      memory != nullptr ? memory->norms : std::nullopt);
   if (memory != nullptr) memory->norms = layout.norms();
@@ -63,7 +63,7 @@ DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords
   synthesis.allocate();
   ShownSignificance significance(layout.pyramid(), view, regions.size());
   const RegionDecoder tracks{header.wavelet, header.regions, header.planes, view.level, context};
-  const Precision precision = tracks.run(
+  const int fraction_bits = tracks.run(
       codewords, [&](size_t i) { return planOf(layout, layout.parts(regions[i]), synthesis); },
       [&](size_t i, const TrackState& state, int more_bits) {
         const std::vector<BandPart> parts = layout.parts(regions[i]);
@@ -72,15 +72,14 @@ DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords
         significance.take(i, state, parts);
       });
   // The layout holds these values, which get fraction bits like those of the synthesis.
-  for (int32_t& height : area_heights) height <<= precision.fraction_bits;
+  for (int32_t& height : area_heights) height <<= fraction_bits;
   const Extent extent = view.extentIn(header.extent());
   DecodedGeometry out;
   out.width = extent.width;
   out.height = extent.height;
-  out.heights = synthesis.run(context.threads, precision.rounds);
-  out.fraction_bits = precision.fraction_bits;
-  out.valid = view.isWhole() ? std::move(known.valid)
-                             : slice(std::span<const uint8_t>(known.valid), header.extent(), view);
+  out.heights = synthesis.run(context.threads);
+  out.fraction_bits = fraction_bits;
+  out.valid = shownMarks(known.valid, view);
   clearUnmarked(std::span(out.heights), out.valid);
   significance.giveTo(out);
   clearUnmarked(std::span(out.significant), out.valid);

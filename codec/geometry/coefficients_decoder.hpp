@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/bit_plane.hpp"
 #include "base/view.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/packet.hpp"
@@ -18,15 +19,9 @@ namespace tetrakis::inline geometry {
 
 /// What is known of a plane before its coefficients.
 struct KnownSamples {
-  std::vector<uint8_t> valid;  ///< 1 where a sample is valid, 0 where it is void; empty: all valid
-  HeldSamples flat = {};       ///< of flat areas, which outlive the call
-  /// Of liftedSamples(), if voids are bridged; its bytes outlive the call.
-  std::optional<Mask> lifted = {};
-
-  KnownSamples() = default;
-  KnownSamples(std::vector<uint8_t> valid_samples, HeldSamples flat_samples = {},
-               std::optional<Mask> lifted_samples = {})
-      : valid(std::move(valid_samples)), flat(flat_samples), lifted(lifted_samples) {}
+  SharedBits valid = {};                  ///< which samples are valid; the others are void
+  HeldSamples flat = {};                  ///< of flat areas, which outlive the call
+  std::optional<SharedBits> lifted = {};  ///< of liftedSamples(), if voids are bridged
 };
 
 /// Decodes what a view shows; in a window the time follows its size if the plane has regions.

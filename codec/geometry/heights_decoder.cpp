@@ -21,28 +21,28 @@ namespace tetrakis::inline geometry {
 
 namespace {
 
-/// Which samples of the whole plane are lifted, of heights whose mask comes late; empty: all.
-std::vector<uint8_t> lateLifted(const TakenLayers& taken) {
-  if (taken.stated.lifted_bytes == 0) return {};
-  return decodeValidity(taken.lifted, taken.header.extent());
+/// Which samples of the whole plane are lifted, of heights whose mask comes late; null: all.
+SharedBits lateLifted(const TakenLayers& taken) {
+  if (taken.stated.lifted_bytes == 0) return nullptr;
+  return shared(decodeValidity(taken.lifted, taken.header.extent()));
 }
 
 /// The validity mask of the whole plane. lifted: lateLifted(), if the mask comes late.
-std::vector<uint8_t> validityOf(const TakenLayers& taken, Mask lifted,
-                                HeightsMemory* memory = nullptr) {
+SharedBits validityOf(const TakenLayers& taken, const SharedBits& lifted,
+                      HeightsMemory* memory = nullptr) {
   const GeometryLayers& stated = taken.stated;
-  if (stated.validity_bytes == 0) return {};
+  if (stated.validity_bytes == 0) return nullptr;
   const bool whole = memory != nullptr && taken.validity.size() == stated.validity_bytes;
-  if (whole && !memory->valid.empty()) return memory->valid;
+  if (whole && memory->valid != nullptr) return memory->valid;
   const Extent plane = taken.header.extent();
-  std::vector<uint8_t> valid = stated.late_mask ? decodeLateValidity(taken.validity, plane, lifted)
-                                                : decodeValidity(taken.validity, plane);
+  SharedBits valid = shared(stated.late_mask ? decodeLateValidity(taken.validity, plane, lifted)
+                                             : decodeValidity(taken.validity, plane));
   if (whole) memory->valid = valid;
   return valid;
 }
 
 /// The flat areas of the whole plane. known: which samples may be flat.
-FlatAreas flatAreasOf(const TakenLayers& taken, Mask known) {
+FlatAreas flatAreasOf(const TakenLayers& taken, const SharedBits& known) {
   if (taken.stated.flat_bytes == 0 || taken.flat.empty()) return {};
   return decodeFlatAreas(taken.flat, taken.header.extent(), known, taken.stated.flat_areas);
 }
@@ -63,24 +63,33 @@ struct DecodedView {
 
 /// Whether corrections of a plane in one track end before a row: each takes a decision, of which
 /// the bytes pay for so many.
-bool correctionsEndBefore(uint32_t row, const TakenLayers& taken, Mask valid) {
+bool correctionsEndBefore(uint32_t row, const TakenLayers& taken, const SharedBits& valid) {
   if (taken.corrections.size() > 1) return false;
-  const size_t end = size_t{row} * taken.header.width;
-  uint64_t left = mostDecisions(taken.corrections.front().size());
-  if (valid.all()) return end >= left;
-  for (const uint8_t one : valid.bytes().first(end)) {
-    left -= one;
-    if (left == 0) return true;
+  const uint64_t most = mostDecisions(taken.corrections.front().size());
+  if (valid == nullptr) return size_t{row} * taken.header.width >= most;
+  uint64_t before = 0;
+  for (uint32_t y = 0; y < row && before < most; ++y)
+    before += valid->countBefore(taken.header.width, y);
+  return before >= most;
+}
+
+/// Voids have no corrections.
+bool holdsValid(const SharedBits& valid, const Window& window) {
+  if (valid == nullptr) return true;
+  for (uint32_t y = window.y; y < window.y + window.height; ++y) {
+    if (valid->countBefore(window.x + window.width, y) > valid->countBefore(window.x, y))
+      return true;
   }
   return false;
 }
 
-DecodedView decodedViewOf(const TakenLayers& taken, Mask valid, const View& asked) {
+DecodedView decodedViewOf(const TakenLayers& taken, const SharedBits& valid, const View& asked) {
   const bool corrected = asked.level == 0 && taken.isCorrected();
   if (!asked.window) return {asked, corrected};
-  const View all = decodedView(taken.header, taken.stated, asked);
-  if (taken.header.direct()) return {all, corrected};
-  if (!corrected || correctionsEndBefore(asked.window->y, taken, valid)) return {asked, false};
+  const View all = correctedView(taken.header, taken.stated, asked);
+  if (!corrected || !holdsValid(valid, *asked.window) ||
+      correctionsEndBefore(asked.window->y, taken, valid))
+    return {asked, false};
   return {all, true};
 }
 
@@ -94,25 +103,23 @@ DecodedGeometry decodeSteps(const TakenLayers& taken, DecodedView& view,
   HeightsMemory* const kept = taken.isOpened() ? context.memory : nullptr;
   HeightsMemory of_this_call;
   HeightsMemory& memory = kept != nullptr ? *kept : of_this_call;
-  std::vector<uint8_t>& lifted = memory.lifted;
-  if (stated.late_mask && lifted.empty()) lifted = lateLifted(taken);
-  std::vector<uint8_t> valid = validityOf(taken, lifted, context.memory);
+  SharedBits& lifted = memory.lifted;
+  if (stated.late_mask && lifted == nullptr) lifted = lateLifted(taken);
+  const SharedBits valid = validityOf(taken, lifted, context.memory);
   view = decodedViewOf(taken, valid, view.view);
   const JoinedCoefficients joined = joinCoefficients(taken);
   if (header.drawn) {
     const std::span<const uint8_t> codeword = joined.codewords.front();
     return kept != nullptr && kept->drawing
                ? kept->drawing(codeword.size())
-               : decodeDrawnHeights(header, codeword, valid, view.view.level);
+               : decodeDrawnHeights(header, codeword, valid, view.view);
   }
-  if (stated.bridge > 0 && lifted.empty())
-    lifted = liftedSamples(valid, header.extent(), stated.bridge);
-  std::optional<Mask> bridged;
+  if (stated.bridge > 0 && lifted == nullptr) lifted = liftedSamples(valid, stated.bridge);
+  std::optional<SharedBits> bridged;
   if (stated.late_mask || stated.bridge > 0) bridged = lifted;
-  if (memory.flat.empty())
-    memory.flat = flatAreasOf(taken, stated.late_mask ? *bridged : Mask(valid));
-  return decodeCoefficients(header, joined.codewords,
-                            {std::move(valid), memory.flat.held(), bridged}, view.view,
+  if (memory.flat.empty()) memory.flat = flatAreasOf(taken, stated.late_mask ? lifted : valid);
+  return decodeCoefficients(header, joined.codewords, {valid, memory.flat.held(), bridged},
+                            view.view,
                             {context.threads, kept != nullptr ? &memory.tracks : nullptr});
 }
 
@@ -121,11 +128,11 @@ DecodedGeometry decodeSteps(const TakenLayers& taken, DecodedView& view,
 DecodedHeights decodeTaken(const TakenLayers& taken, DecodedView& view,
                            const DecodeContext<HeightsMemory>& context) {
   const GeometryHeader& header = taken.header;
+  if (context.memory != nullptr && context.memory->corrected && taken.isCorrected())
+    return context.memory->corrected(taken.corrections.front().size());
   if (header.stored()) {
-    const std::vector<uint8_t> valid = validityOf(taken, {}, context.memory);
-    view = decodedViewOf(taken, valid, view.view);
-    return decodeStoredHeights(header, joinCoefficients(taken).codewords.front(), valid,
-                               view.view.level);
+    return decodeStoredHeights(header, joinCoefficients(taken).codewords.front(),
+                               validityOf(taken, nullptr, context.memory), view.view);
   }
   DecodedGeometry steps = decodeSteps(taken, view, context);
   DecodedHeights decoded = heightsOf(std::move(steps), taken);
@@ -148,18 +155,19 @@ DecodedHeights decodeLines(const TakenLayers& taken, const View& view,
 }  // namespace
 
 uint64_t HeightsMemory::bytes() const {
-  return valid.size() + lifted.size() + flat.numbers.size() * sizeof(uint16_t) +
+  const auto bytesOf = [](const SharedBits& marks) {
+    return marks != nullptr ? BitPlane::bytesOf(marks->extent()) : 0;
+  };
+  return bytesOf(valid) + bytesOf(lifted) + flat.numbers.size() * sizeof(uint16_t) +
          flat.heights.size() * sizeof(int32_t) + tracks.bytes();
 }
 
 std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const GeometryLayers& layers,
                                          const Codewords& codewords, const View& view) {
   const TakenLayers taken = takeApart(codewords, header, layers);
-  std::vector<uint8_t> lifted;
-  if (layers.late_mask) lifted = lateLifted(taken);
-  const std::vector<uint8_t> valid = validityOf(taken, lifted);
+  const SharedBits valid = validityOf(taken, layers.late_mask ? lateLifted(taken) : nullptr);
   const ShownLines lines(header, view);
-  return lines.shown(slice(std::span<const uint8_t>(valid), header.extent(), lines.coded()));
+  return lines.shown(shownMarks(valid, lines.coded()));
 }
 
 View decodedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view) {

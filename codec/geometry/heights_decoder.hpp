@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/bit_plane.hpp"
 #include "base/view.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/coefficients_decoder.hpp"
@@ -17,12 +18,14 @@ namespace tetrakis::inline geometry {
 /// What one call of decodeHeights() leaves to the next, whose tracks begin with the same bytes. It
 /// is empty before the first call.
 struct HeightsMemory {
-  std::vector<uint8_t> valid;   ///< once it is whole
-  std::vector<uint8_t> lifted;  ///< if voids are bridged, once all before the coefficients is there
-  FlatAreas flat;               ///< likewise
-  TrackMemory tracks;           ///< likewise: what exists of them follows from those
+  SharedBits valid;    ///< once it is whole
+  SharedBits lifted;   ///< if voids are bridged, once all before the coefficients is there
+  FlatAreas flat;      ///< likewise
+  TrackMemory tracks;  ///< likewise: what exists of them follows from those
   /// Of encoders, which have all of a drawing: what its first bytes show behind the opening.
   std::function<DecodedGeometry(uint64_t bytes)> drawing = {};
+  /// Of encoders, which have all corrections: what the first bytes of these make of the heights.
+  std::function<DecodedHeights(uint64_t bytes)> corrected = {};
 
   uint64_t bytes() const;
 };

@@ -45,44 +45,54 @@ class StoredSamples {
   DecodedHeights& out_;
 };
 
-DecodedHeights emptyHeights(Extent extent, bool masked) {
+DecodedHeights emptyHeights(Extent extent) {
   DecodedHeights out;
   out.geometry.width = extent.width;
   out.geometry.height = extent.height;
   out.geometry.heights.resize(extent.samples());
   out.geometry.significant.resize(extent.samples());
-  if (masked) out.geometry.valid.resize(extent.samples());
   out.corrections.resize(extent.samples());
   return out;
+}
+
+/// Calls see(i, number) for the valid samples of a view: sample i of those that are shown is the
+/// one with that number of all valid ones.
+void forEachValid(const GeometryHeader& header, const BitPlane* valid, const View& view,
+                  const auto& see) {
+  const Extent extent = view.extentIn(header.extent());
+  size_t rows_before = 0;
+  size_t i = 0;
+  for (uint32_t y = 0, above = 0; y < extent.height; ++y) {
+    const uint32_t row = view.firstRow() + y * view.step();
+    for (; above < row; ++above)
+      rows_before += valid != nullptr ? valid->countBefore(header.width, above) : header.width;
+    uint32_t x = view.firstColumn();
+    size_t number = rows_before + (valid != nullptr ? valid->countBefore(x, row) : x);
+    for (uint32_t k = 0; k < extent.width; ++k, ++i) {
+      if (valid == nullptr || valid->at(x, row)) see(i, number);
+      for (const uint32_t end = std::min(x + view.step(), header.width); x < end; ++x)
+        number += valid == nullptr || valid->at(x, row);
+    }
+  }
 }
 
 }  // namespace
 
 DecodedHeights decodeStoredHeights(const GeometryHeader& header, std::span<const uint8_t> bytes,
-                                   Mask valid, int level) {
-  const size_t count = header.extent().samples();
-  const auto marks = valid.bytes();
-  const auto voids = static_cast<size_t>(std::count(marks.begin(), marks.end(), uint8_t{0}));
+                                   const SharedBits& valid, const View& view) {
+  size_t count = header.extent().samples();
+  if (valid != nullptr) {
+    count = 0;
+    for (uint32_t y = 0; y < header.height; ++y) count += valid->countBefore(header.width, y);
+  }
   const auto sample = static_cast<tks_sample>(header.sample);
-  const BytePlanes words(bytes, count - voids, static_cast<int>(tks_sample_bytes(sample)));
-  assert(valid.all() || marks.size() == count);
-  const Extent extent = View{level, {}}.extentIn(header.extent());
-  DecodedHeights decoded = emptyHeights(extent, !valid.all());
-  const size_t between = (size_t{1} << level) - 1;
+  const BytePlanes words(bytes, count, static_cast<int>(tks_sample_bytes(sample)));
+  DecodedHeights decoded = emptyHeights(view.extentIn(header.extent()));
+  decoded.geometry.valid = shownMarks(valid, view);
   withSampleType(sample, [&](auto type) {
     StoredSamples<decltype(type)> samples(header, words, decoded);
-    size_t at = 0, i = 0, number = 0;
-    for (uint32_t y = 0; y < header.height; ++y) {
-      for (uint32_t x = 0; x < header.width; ++x, ++at) {
-        const bool is_valid = valid[at];
-        const bool taken = ((x | y) & between) == 0;
-        if (taken && is_valid) samples.put(i, number);
-        if (taken && !valid.all()) decoded.geometry.valid[i] = is_valid;
-        i += taken;
-        number += is_valid;
-      }
-    }
-    assert(i == extent.samples() && number == count - voids);
+    forEachValid(header, valid.get(), view,
+                 [&](size_t i, size_t number) { samples.put(i, number); });
   });
   return decoded;
 }

@@ -5,16 +5,16 @@
 #include <cstdint>
 #include <span>
 
-#include "base/plane.hpp"
+#include "base/bit_plane.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
 
 namespace tetrakis::inline geometry {
 
-/// Returns the samples at multiples of 2^level. Their steps are those nearest to the samples, and
+/// Returns the samples that a view shows. Their steps are those nearest to the samples, and
 /// corrections restore the samples. A sample that has no byte yet is that of step 0. bytes: any
 /// prefix of what is stored of a geometry with header.stored(). valid: of the whole plane.
 DecodedHeights decodeStoredHeights(const GeometryHeader& header, std::span<const uint8_t> bytes,
-                                   Mask valid, int level);
+                                   const SharedBits& valid, const View& view);
 
 }  // namespace tetrakis::inline geometry

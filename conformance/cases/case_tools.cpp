@@ -59,7 +59,8 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
      "cut-out, doubled low bands, levels of several filters, shears of coefficients, texture by "
      "wavelet"},
     {"cutout_rgb_budget_70x45", "cut-out, fraction bits, hidden colours, texture by wavelet"},
-    {"cutout_grey16_1x41", "cut-out, fraction bits, hidden colours, texture by wavelet"},
+    {"cutout_grey16_1x41",
+     "cut-out, fraction bits, hidden colours, levels of several filters, texture by wavelet"},
     {"checker_rgb_16x16", "drawn texture"},
     {"ramp_129x96", "fraction bits, levels of several filters, texture by wavelet"},
     {"ramp_90x40", "fraction bits, levels of several filters, texture by wavelet"},
@@ -120,7 +121,7 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
      "doubled low bands, heights by wavelet, nodata, relative steps, voids, wide sums"},
     {"relative_surveys_75x61",
      "doubled low bands, heights by wavelet, regions of heights, relative steps, wide sums"},
-    {"facets_83x61", "doubled low bands, facets, heights by wavelet, levels of several filters"},
+    {"facets_83x61", "doubled low bands, facets, heights by wavelet"},
     {"facets_voids_64x75",
      "doubled low bands, facets, heights by wavelet, levels of several filters, nodata, regions of "
      "heights, voids"},
@@ -148,7 +149,7 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"joint_index_33x33_40x40",
      "doubled low bands, heights by wavelet, index, levels of several filters, shears of "
      "coefficients, texture by wavelet"},
-    {"regions_groups_200x70", "fraction bits, heights by wavelet, regions of heights"},
+    {"regions_groups_200x70", "flat areas, fraction bits, heights by wavelet, regions of heights"},
     {"regions_long_150x9", "doubled low bands, heights by wavelet, regions of heights"},
     {"regions_joint_index_40x33_50x47",
      "doubled low bands, heights by wavelet, index, levels of several filters, regions of heights, "
@@ -166,8 +167,7 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"half_void_i16_256x40", "fraction bits, heights by wavelet, nodata, voids"},
     {"long_i16_9000x4", "fraction bits, heights by wavelet"},
     {"tiny_float_24x40", "doubled low bands, heights by wavelet, wide sums"},
-    {"spikes_300x300",
-     "exact corrections, flat areas, fraction bits, heights by wavelet, levels of several filters"},
+    {"spikes_300x300", "exact corrections, flat areas, fraction bits, heights by wavelet"},
     {"holes_i16_64x50", "doubled low bands, heights by wavelet, nodata, voids"},
     {"holes_f32_91x70", "bridged voids, fraction bits, heights by wavelet, voids"},
     {"holes_bounded_i16_64x50",

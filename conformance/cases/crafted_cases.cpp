@@ -23,7 +23,7 @@ std::vector<VectorCase> wideCases() {
   StreamHeader deep = heightsHeader(2, 300, TKS_I32, 30);
   deep.geometry->wavelet.fraction_bits = 8;
   StreamHeader smooth = heightsHeader(60, 45, TKS_I32, 30);
-  smooth.geometry->wavelet.filters = {5, 5, 5};
+  smooth.geometry->wavelet.filters = {4, 4, 4};
   Bytes mask = noise(60, 2);
   append(mask, noise(2500, 3, 3));
   return {crafted("noise_i32_70x40", "noise: sums wrap at 32 bits, but not above level 3",

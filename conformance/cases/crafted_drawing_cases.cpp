@@ -34,11 +34,11 @@ class MadeDrawing : public DrawingDecisions {
 
 Bytes drawnStream(uint32_t width, uint32_t height, uint32_t fresh) {
   const Texels format{width, height, 1, 8, {}};
-  std::vector<DrawnIndex> indices(size_t{width} * height, kNoIndex);
+  std::vector<KeptIndex> indices(size_t{width} * height);
   DrawnColours colours(format);
   MadeDrawing<DrawnColour> io(
       fresh, [](uint32_t h) { return DrawnColour{static_cast<uint16_t>(h & 255)}; });
-  DrawingPass(PlaneView<DrawnIndex>(indices, {width, height}), colours, io)
+  DrawingPass(PlaneView<KeptIndex>(indices, {width, height}), nullptr, colours, io)
       .run(levelsOf(width, height));
   return streamOf(textureHeader(width, height, 1, TKS_U8, kDrawnPlanes), io.finish());
 }
@@ -51,10 +51,10 @@ StreamHeader drawnHeightsHeader(uint32_t width, uint32_t height, tks_sample samp
 
 /// Steps over all of 32 bits.
 Bytes drawnHeightsStream(uint32_t width, uint32_t height, uint32_t fresh) {
-  std::vector<DrawnIndex> indices(size_t{width} * height, kNoIndex);
+  std::vector<KeptIndex> indices(size_t{width} * height);
   DrawnSteps steps;
   MadeDrawing<int32_t> io(fresh, [](uint32_t h) { return static_cast<int32_t>(h); });
-  DrawingPass(PlaneView<DrawnIndex>(indices, {width, height}), steps, io)
+  DrawingPass(PlaneView<KeptIndex>(indices, {width, height}), nullptr, steps, io)
       .run(levelsOf(width, height));
   return streamOf(drawnHeightsHeader(width, height, TKS_F32), io.finish());
 }

@@ -139,11 +139,11 @@ std::vector<VectorCase> roundedCases() {
                       [](WaveletHeader& wavelet) { wavelet.rounded_bytes = 0; }),
           waveletCase("joint_smooth_40x37", "the filter for smooth ground, lifted jointly", flat,
                       [](WaveletHeader& wavelet) {
-                        wavelet.filters = {5, 5, 5};
+                        wavelet.filters = {4, 4, 4};
                       }),
           waveletCase("voids_smooth_40x37", "the filter for smooth ground beside voids", voids,
                       [](WaveletHeader& wavelet) {
-                        wavelet.filters = {5, 3, 5};
+                        wavelet.filters = {4, 3, 4};
                       }),
           waveletCase("doubled_0_40x37", "no low band is doubled", flat,
                       [](WaveletHeader& wavelet) { wavelet.first_doubled = 0; }),

@@ -93,7 +93,7 @@ std::vector<VectorCase> layerCases() {
                   {Pattern::kRidges, 64, 64, 1, TKS_U16}, maxError(1500)),
       withVoids(
           heightsCase("coast_bounded_64x50", "validity, coefficients and corrections of steps",
-                      {Pattern::kRidges, 64, 50, 1, TKS_I16}, maxError(1500)),
+                      {Pattern::kRidges, 64, 50, 1, TKS_I16}, maxError(1000)),
           VoidShape::kCoast, -32768),
       withVoids(heightsCase("coast_exact_64x50", "exact corrections behind a cut, beside voids",
                             {Pattern::kRidges, 64, 50, 1, TKS_I16}, budget(9000)),
@@ -153,7 +153,7 @@ std::vector<VectorCase> sparseCases() {
   tiny.gridless = true;
   VectorCase spikes = heightsCase("spikes_300x300", "a large plain with few spikes: header level 1",
                                   {Pattern::kFlat, 300, 300, 1, TKS_I16}, budget(4096));
-  spikes.spikes = 9001;
+  spikes.spikes = 6007;
   return {
       declared(heightsCase("nodata_unused_u8_64x48", "a nodata value is declared, nothing is void",
                            {Pattern::kRidges, 64, 48, 1, TKS_U8}, budget(900)),

@@ -65,7 +65,7 @@ std::vector<VectorCase> regionCases() {
       budgeted,
       withVoids(corrected, samples::VoidShape::kCoast, NAN),
       withVoids(heightsCase("regions_coast_bounded_64x50", "corrections of steps, of regions",
-                            {Pattern::kRidges, 64, 50, 1, TKS_I16}, inRegions(maxError(1500), 16)),
+                            {Pattern::kRidges, 64, 50, 1, TKS_I16}, inRegions(maxError(1000), 16)),
                 samples::VoidShape::kCoast, -32768)};
 }
 

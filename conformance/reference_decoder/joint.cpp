@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference decoder: lifting of rows and columns in one go (docs/FORMAT.md, section 7, "Joint
-// lifting" and "Carried fractions").
+// lifting").
 #include <functional>
 
 #include "conformance/reference_decoder/wavelet.hpp"
@@ -20,44 +20,30 @@ int64_t mirrored(int64_t t, int64_t n) {
 
 class Joint {
  public:
-  Joint(const WaveletHeader& header, const JointLevel& of, const Carried& carried, Plane& plane)
+  Joint(const WaveletHeader& header, const JointLevel& of, Plane& plane)
       : filter_(filterOf(header, of.level)),
         exact_(of.level > 3 || header.sampleBits + 4 >= filter_.widest),
         doubled_(doublesLow(header, of.level)),
-        given_(of.level > 1 && of.level <= static_cast<int>(carried.size())),
-        gives_(of.level < static_cast<int>(carried.size())),
         of_(of),
-        carried_(carried),
         plane_(plane),
         width_((plane.width - 1) / of.stepX + 1),
         height_((plane.height - 1) / of.stepY + 1) {}
 
   void synthesise() {
     const ValueAt whole = [this](int64_t x, int64_t y) { return at(x, y); };
-    const int k = given_ ? 8 : 4;  // samples of the level are sixteenths or whole
     const ValueAt raised = [&](int64_t x, int64_t y) {  // c + Py a
-      const int64_t c = given_ ? at(x, y) : sixteenths(x, y);
-      return wrap(c + alongY(0, k, x, y, whole));
+      return wrap(sixteenths(x, y) + alongY(0, 4, x, y, whole));
     };
     each(0, 0, [&](int64_t x, int64_t y) { corner(x, y, cornerBracket(x, y)); });
     each(1, 0, [&](int64_t x, int64_t y) {
-      change(x, y, wrap(int64_t{alongX(0, k, x, y, whole)} + alongY(1, 4, x, y, whole)));
+      change(x, y, wrap(int64_t{alongX(0, 4, x, y, whole)} + alongY(1, 4, x, y, whole)));
     });
     each(0, 1, [&](int64_t x, int64_t y) {
-      change(x, y, wrap(int64_t{alongX(1, 4, x, y, whole)} + alongY(0, k, x, y, whole)));
+      change(x, y, wrap(int64_t{alongX(1, 4, x, y, whole)} + alongY(0, 4, x, y, whole)));
     });
     each(1, 1, [&](int64_t x, int64_t y) {
-      change(x, y, wrap(int64_t{alongX(0, 8, x, y, raised)} + alongY(0, k, x, y, whole)));
+      change(x, y, wrap(int64_t{alongX(0, 8, x, y, raised)} + alongY(0, 4, x, y, whole)));
     });
-  }
-
-  /// Of the low band, from the coefficients.
-  std::vector<int32_t> lowFractions() {
-    std::vector<int32_t> fractions(plane_.values.size());
-    each(0, 0, [&](int64_t x, int64_t y) {
-      fractions.at(index(x, y)) = (fractionAt(x, y) + int64_t{cornerBracket(x, y)}) & 15;
-    });
-    return fractions;
   }
 
  private:
@@ -65,10 +51,6 @@ class Joint {
     return plane_.index(static_cast<int>(x) * of_.stepX, static_cast<int>(y) * of_.stepY);
   }
   int32_t& at(int64_t x, int64_t y) { return plane_.values.at(index(x, y)); }
-  /// Of a sample that the level splits.
-  int32_t fractionAt(int64_t x, int64_t y) const {
-    return of_.level > 1 ? carried_.at(size_t(of_.level) - 1).at(index(x, y)) : 0;
-  }
   int64_t sixteenths(int64_t x, int64_t y) { return wrap(int64_t{at(x, y)} * 16); }
 
   /// All places of one parity in x and y.
@@ -102,28 +84,17 @@ class Joint {
     return wrap(int64_t{alongX(1, 8, x, y, lowered)} + alongY(1, 4, x, y, whole));
   }
   void change(int64_t x, int64_t y, int32_t bracket) {
-    const int32_t r = given_ ? fractionAt(x, y) : 0;
-    const int32_t n = wrap(int64_t{at(x, y)} - (wrap(int64_t{bracket} + r + 8) >> 4));
-    at(x, y) = given_ ? wrap(int64_t{n} * 16 + r) : n;
+    at(x, y) = wrap(int64_t{at(x, y)} - (wrap(int64_t{bracket} + 8) >> 4));
   }
   void corner(int64_t x, int64_t y, int32_t bracket) {
-    if (gives_) {
-      const int32_t a = wrap(int64_t{at(x, y)} - bracket);
-      at(x, y) = given_ ? a : a >> 4;
-      return;
-    }
     if (!doubled_) return change(x, y, bracket);
-    const int32_t r = given_ ? fractionAt(x, y) : 0;
-    const int32_t twice = wrap(int64_t{at(x, y)} - (wrap(int64_t{bracket} + r + 4) >> 3));
-    const int32_t n = wrap(int64_t{twice} + 1) >> 1;
-    at(x, y) = given_ ? wrap(int64_t{n} * 16 + r) : n;
+    const int32_t twice = wrap(int64_t{at(x, y)} - (wrap(int64_t{bracket} + 4) >> 3));
+    at(x, y) = wrap(int64_t{twice} + 1) >> 1;
   }
 
   const Filter& filter_;
   bool exact_, doubled_;
-  bool given_, gives_;  ///< fractions: of the level's samples, of its low band
   JointLevel of_;
-  const Carried& carried_;
   Plane& plane_;
   int64_t width_, height_;
 };
@@ -136,19 +107,8 @@ bool liftsJointly(const WaveletHeader& header, int level, const Plane& plane) {
          plane.flat.areas.empty();
 }
 
-Carried carriedFractions(const WaveletHeader& header, int last, Plane& plane) {
-  // The size is right from the start: it says which levels give and are given fractions.
-  Carried carried(static_cast<size_t>(last));
-  for (int level = 1; level < last; ++level) {
-    const int step = 1 << (level - 1);
-    carried[size_t(level)] = Joint(header, {level, step, step}, carried, plane).lowFractions();
-  }
-  return carried;
-}
-
-void synthesiseJointly(const WaveletHeader& header, const JointLevel& of, const Carried& carried,
-                       Plane& plane) {
-  Joint(header, of, carried, plane).synthesise();
+void synthesiseJointly(const WaveletHeader& header, const JointLevel& of, Plane& plane) {
+  Joint(header, of, plane).synthesise();
 }
 
 }  // namespace tetrakis::reference

@@ -83,7 +83,7 @@ std::vector<uint8_t> restOf(Reader& in) {
 WaveletHeader readWavelet(Reader& in, int& planes) {
   WaveletHeader w;
   planes = in.u8(0, 30);
-  for (int& filter : w.filters) filter = in.u8(0, 5);
+  for (int& filter : w.filters) filter = in.u8(0, 4);
   w.fractionBits = in.u8(0, 8);
   w.sampleBits = in.u8(0, 32);
   if (w.fractionBits > 0) return w;

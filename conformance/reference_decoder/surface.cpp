@@ -58,14 +58,13 @@ Surface decodeSurface(const GeometryHeader& header, const std::vector<uint8_t>& 
     dropFiner(surface.parts.back(), level, bands);
     decodeTrack(coefficients[track], header.planes, bands);
   }
-  const Fraction fraction = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);
-  surface.f = fraction.f;
+  surface.f = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);
   for (size_t i = 0; i < surface.parts.size(); ++i) {
     place(surface.bands[i], surface.parts[i], surface.f - header.wavelet.fractionBits,
           surface.plane);
   }
   for (int32_t& height : surface.plane.flat.heights) height = wrap(int64_t{height} << surface.f);
-  synthesise(header.wavelet, subbands, level, fraction.rounds, surface.plane);
+  synthesise(header.wavelet, subbands, level, surface.plane);
   surface.plane.valid = valid;
   const Plane whole = surface.plane;
   if (level > 0) surface.plane = levelOf(header.wavelet, subbands, level, surface.plane);

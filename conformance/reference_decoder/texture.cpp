@@ -188,9 +188,8 @@ Tracks decodeTracks(const TextureHeader& header,
 
 /// The colour planes of a level, in units of 2^-f.
 std::vector<Plane> planesOf(const TextureHeader& header, const Tracks& tracks, const Plane& lifted,
-                            Fraction fraction, int level) {
+                            int f, int level) {
   const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
-  const auto [f, rounds] = fraction;
   std::vector<Plane> planes(header.colourPlanes, lifted);
   for (int c = 0; c < header.colourPlanes; ++c) {
     planes[c].values.resize(static_cast<size_t>(header.width) * header.height);
@@ -202,7 +201,7 @@ std::vector<Plane> planesOf(const TextureHeader& header, const Tracks& tracks, c
   }
   unshearLevels(header, subbands, planes);
   for (Plane& plane : planes) {
-    synthesise(header.wavelet, subbands, level, rounds, plane);
+    synthesise(header.wavelet, subbands, level, plane);
     plane = levelOf(header.wavelet, subbands, level, plane);
   }
   return planes;
@@ -232,14 +231,14 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
   if (header.stored) return decodeStored(header, coefficients[0], level);
   const Opening opening = takeOpening(header, coefficients[0]);
   const Tracks tracks = decodeTracks(header, coefficients, opening.lifted, level);
-  const auto fraction = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);
-  std::vector<Plane> planes = planesOf(header, tracks, opening.lifted, fraction, level);
+  const int f = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);
+  std::vector<Plane> planes = planesOf(header, tracks, opening.lifted, f, level);
   std::vector<uint8_t> samples;
   for (int y = 0; y < planes[0].height; ++y) {
     for (int x = 0; x < planes[0].width; ++x) {
       std::array<int32_t, 4> values = {};
       for (size_t c = 0; c < planes.size(); ++c) values[c] = planes[c].at(x, y);
-      const auto texel = texelAt(header, opening, x << level, y << level, values, fraction.f);
+      const auto texel = texelAt(header, opening, x << level, y << level, values, f);
       for (int c = 0; c < header.channels; ++c) {
         samples.push_back(static_cast<uint8_t>(texel[c]));
         if (header.sample == kU16) samples.push_back(static_cast<uint8_t>(texel[c] >> 8));

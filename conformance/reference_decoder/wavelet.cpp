@@ -152,13 +152,13 @@ HeldValues heldValues(const WaveletHeader& header, const std::vector<Subband>& s
 
 /// FORMAT 7, "Inverse transform", one level. hh: the subband that is high in both directions.
 void synthesiseLevel(const WaveletHeader& header, const Subband& hh, const HeldValues& held,
-                     const Carried& carried, Plane& plane) {
+                     Plane& plane) {
   const int lowX = 1 << hh.splitsX, lowY = 1 << hh.splitsY;
   // A side that was split at this level was split at every finer one.
   const bool splitX = hh.splitsX == hh.level, splitY = hh.splitsY == hh.level;
   const int stepX = splitX ? lowX / 2 : lowX, stepY = splitY ? lowY / 2 : lowY;
   if (splitX && splitY && liftsJointly(header, hh.level, plane))
-    return synthesiseJointly(header, {hh.level, stepX, stepY}, carried, plane);
+    return synthesiseJointly(header, {hh.level, stepX, stepY}, plane);
   if (doublesLow(header, hh.level)) {
     for (int y = 0; y < plane.height; y += lowY) {
       for (int x = 0; x < plane.width; x += lowX)
@@ -176,21 +176,6 @@ void synthesiseLevel(const WaveletHeader& header, const Subband& hh, const HeldV
   }
 }
 
-/// FORMAT 7, "Carried fractions": the last level that is given some; 0: none is.
-int lastCarrying(const WaveletHeader& header, const std::vector<Subband>& subbands,
-                 const Plane& plane) {
-  int last = 0;
-  for (int level = 1; level <= header.firstDoubled; ++level) {
-    const bool splits_both = std::any_of(subbands.begin(), subbands.end(), [&](const auto& band) {
-      return band.orientation == kHH && band.level == level && band.splitsX == level &&
-             band.splitsY == level;
-    });
-    if (!splits_both || !liftsJointly(header, level, plane)) break;
-    last = level;
-  }
-  return last > 1 ? last : 0;
-}
-
 size_t filterNumber(const WaveletHeader& header, int level) {
   return header.filters.at(static_cast<size_t>(std::min(level, 3) - 1));
 }
@@ -201,9 +186,8 @@ const Filter& filterOf(const WaveletHeader& header, int level) {
   static const Filter kFilters[] = {
       {8, 20, {{-128}, {64}}},
       {8, 20, {{-147, 28, -9}, {78, -20, 6}}},
-      {12, 15, {{-7895, 81}, {-258, 64}, {4447, 105}, {2189, -297}}},
-      {8, 20, {{-157, 41, -17, 8, -3}, {77, -24, 12, -6, 2}}},
       {13, 15, {{0}, {1435, -176}, {-3653, 706, -186}, {2218, -254, 116}}},
+      {8, 20, {{-157, 41, -17, 8, -3}, {77, -24, 12, -6, 2}}},
       {8, 20, {{-150, 25, -3}, {75, -13, 2}}},
   };
   return kFilters[filterNumber(header, level)];
@@ -214,20 +198,17 @@ bool doublesLow(const WaveletHeader& header, int level) {
   return header.fractionBits == 0 && first > 0 && (level >= first && level <= first + 2);
 }
 
-Fraction fractionOf(const WaveletHeader& header, int planes, uint64_t bytes, int level) {
-  if (header.fractionBits > 0) return {header.fractionBits, false};
-  if (level == 0 && bytes >= header.roundedBytes) return {0, true};
-  return {std::clamp(19 - planes, 0, 4), false};
+int fractionOf(const WaveletHeader& header, int planes, uint64_t bytes, int level) {
+  if (header.fractionBits > 0) return header.fractionBits;
+  if (level == 0 && bytes >= header.roundedBytes) return 0;
+  return std::clamp(19 - planes, 0, 4);
 }
 
 void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands, int target,
-                bool rounds, Plane& plane) {
-  const Carried carried =
-      rounds ? carriedFractions(header, lastCarrying(header, subbands, plane), plane) : Carried();
+                Plane& plane) {
   for (const Subband& subband : subbands) {
     if (subband.orientation == kHH && subband.level > target) {
-      synthesiseLevel(header, subband, heldValues(header, subbands, subband.level, plane), carried,
-                      plane);
+      synthesiseLevel(header, subband, heldValues(header, subbands, subband.level, plane), plane);
     }
   }
 }
@@ -240,10 +221,8 @@ Plane levelOf(const WaveletHeader& header, const std::vector<Subband>& subbands,
       return subband.orientation == kHH && subband.level == l;
     });
     const int splits = (hh->splitsX == l) + (hh->splitsY == l);
-    const size_t filter = filterNumber(header, l);
-    if (filter != 2 && filter != 4) continue;
-    const int64_t factor = filter == 2 ? 847671299 : 821297201;
-    for (int i = 0; i < splits; ++i) weight = (weight * factor + (1 << 29)) >> 30;
+    if (filterNumber(header, l) != 2) continue;
+    for (int i = 0; i < splits; ++i) weight = (weight * int64_t{821297201} + (1 << 29)) >> 30;
   }
   int d = 0;
   for (int l = 1; l <= level; ++l) d += doublesLow(header, l);

@@ -40,12 +40,8 @@ std::vector<Subband> subbandsOf(int width, int height);
 /// FORMAT 7, "Norms", without the priority.
 int logNormOf(const WaveletHeader& header, const Subband& subband);
 
-/// FORMAT 7, "Fraction": f, and whether roundings are undone.
-struct Fraction {
-  int f;
-  bool rounds;
-};
-Fraction fractionOf(const WaveletHeader& header, int planes, uint64_t bytes, int level);
+/// FORMAT 7, "Fraction": f.
+int fractionOf(const WaveletHeader& header, int planes, uint64_t bytes, int level);
 
 /// FORMAT 8.1, "Flat areas". Empty: there are none.
 struct Flat {
@@ -76,18 +72,12 @@ struct JointLevel {
 };
 bool liftsJointly(const WaveletHeader& header, int level, const Plane& plane);
 
-/// FORMAT 7, "Carried fractions": [l]: of the values of the low band of level l, at their samples;
-/// of every sample at l = 0. Empty: none are carried.
-using Carried = std::vector<std::vector<int32_t>>;
-/// Of a plane of coefficients. last: the last level that is given fractions.
-Carried carriedFractions(const WaveletHeader& header, int last, Plane& plane);
-void synthesiseJointly(const WaveletHeader& header, const JointLevel& of, const Carried& carried,
-                       Plane& plane);
+void synthesiseJointly(const WaveletHeader& header, const JointLevel& of, Plane& plane);
 
 /// The inverse transform, of the levels above the target alone, of values that lie at their places.
 /// Levels of flat areas are in units of 2^-f.
 void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands, int target,
-                bool rounds, Plane& plane);
+                Plane& plane);
 
 /// FORMAT 7.1: what the inverse transform down to a level has made, as an image of its own.
 Plane levelOf(const WaveletHeader& header, const std::vector<Subband>& subbands, int level,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/samples.hpp"
+#include "codec/geometry/correction_prefixes.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_prefixes.hpp"
 #include "codec/geometry/steps/height_samples.hpp"
 #include "codec/geometry/taken_layers.hpp"
@@ -59,6 +60,9 @@ double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t 
 
 HeightsMemory memoryFor(const CodedHeights& heights) {
   HeightsMemory memory;
+  if (heights.correction_bytes > 0 && heights.quantised->isSmall())
+    memory.corrected =
+        prefixesOfCorrections(heights.header, heights.layers, heights.tracks.front().codeword);
   if (!heights.header.drawn) return memory;
   const TakenLayers taken = takeApart(codewordsOf(heights.tracks), heights.header, heights.layers);
   memory.drawing = prefixesOfDrawing(heights.header, joinCoefficients(taken).codewords.front(),

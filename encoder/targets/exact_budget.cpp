@@ -107,12 +107,13 @@ std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Cand
 
 /// What the picture lacks with rising parts of the budget, the last of which is all of it; nothing
 /// if nobody can look at the terrain.
-std::vector<double> errorsWithin(const EncodeInputs& inputs, Selection selection) {
+std::vector<double> errorsWithin(const EncodeInputs& inputs, const PrefixErrors& errors,
+                                 Selection selection) {
   selection.packets = joinNeighbours(selection.packets);
   std::vector<uint64_t> lengths;
   for (const double part : {1. / 16, 1. / 8, 1. / 4, 1. / 2, 3. / 4, 1.})
     lengths.push_back(static_cast<uint64_t>(part * static_cast<double>(inputs.options.bytes)));
-  return errorsOfPrefixes(inputs, selection, lengths);
+  return errors.of(selection, lengths);
 }
 
 /// As good with all bytes, and better by as many decibels as prefixes lose in all, up to what can
@@ -149,13 +150,14 @@ std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const
                                                std::vector<HeightsCandidate> ways) {
   if (!few && ways.empty()) return {};
   const Selection inexact = orderPackets(lossy);
-  const std::vector<double> of_lossy = errorsWithin(inputs, inexact);
+  const PrefixErrors errors_of(inputs, inexact);
+  const std::vector<double> of_lossy = errorsWithin(inputs, errors_of, inexact);
   if (of_lossy.empty()) return {};
   Ending least = endingOf(inputs, inexact, of_lossy);
   std::optional<Selection> best;
   const auto consider = [&](const Candidates& exact, bool prefixes_count) {
     Selection selection = endWithin(inputs, orderPackets(exact));
-    const std::vector<double> errors = errorsWithin(inputs, selection);
+    const std::vector<double> errors = errorsWithin(inputs, errors_of, selection);
     const Ending ending = endingOf(inputs, selection, errors);
     if (ending >= least || (prefixes_count && !pays(errors, of_lossy))) return;
     least = ending;

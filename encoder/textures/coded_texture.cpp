@@ -9,6 +9,7 @@
 
 #include "base/samples.hpp"
 #include "encoder/textures/texture_options.hpp"
+#include "ratecontrol/curves/audit.hpp"
 #include "texture_wavelet/drawn/drawn_prefixes.hpp"
 #include "texture_wavelet/stored_texture_encoder.hpp"
 #include "texture_wavelet/texture_choice.hpp"
@@ -94,6 +95,8 @@ TextureMemory memoryFor(const CodedTexture& texture) {
   const std::span<const uint8_t> codeword = texture.tracks.front().codeword;
   TextureMemory memory;
   if (header.drawn()) memory.drawing = prefixesOfDrawing(header, codeword);
+  if (texture.source->texels.samples.size() <= kSmallSamples)
+    memory.planes.resize(header.colourPlanes());
   if (header.overlay_bytes > 0) {
     const auto overlay = codeword.subspan(header.alpha_bytes, header.overlay_bytes);
     memory.opening.overlay = prefixesOfOverlay(header, overlay);

@@ -5,7 +5,6 @@
 
 #include "encoder/views/decoded_nodes.hpp"
 #include "encoder/views/view_inputs.hpp"
-#include "ratecontrol/pictures/picture_errors.hpp"
 
 namespace tetrakis::inline views {
 
@@ -43,23 +42,30 @@ ComponentCurve curveOfPrefixes(const Coded& coded, const std::vector<Packet>& pa
 
 }  // namespace
 
-std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection& selection,
-                                     std::span<const uint64_t> lengths) {
+PrefixErrors::PrefixErrors(const EncodeInputs& inputs, const Selection& any) : inputs_(inputs) {
+  const tks_heights& heights = *inputs.heights;
+  const GroundRays ground(reliefOf(heights, heights.data, any.heights->quantised->steps.valid));
+  const std::vector<Camera> cameras = camerasOf(inputs.options, ground.bounds());
+  if (!cameras.empty())
+    pictures_.emplace(cameras, kPrefixPixels, ground, any.texture->source->texels);
+}
+
+std::vector<double> PrefixErrors::of(const Selection& selection,
+                                     std::span<const uint64_t> lengths) const {
+  if (!pictures_) return {};
   const CodedHeights& heights = *selection.heights;
   const CodedTexture& texture = *selection.texture;
   const ComponentCurve of_heights = curveOfPrefixes(heights, selection.packets, lengths);
   const ComponentCurve of_texture = curveOfPrefixes(texture, selection.packets, lengths);
-  DecodedNodes decoded(inputs, {heights, of_heights}, {texture, of_texture});
-  const GroundRays ground(decoded.original());
-  const std::vector<Camera> cameras = camerasOf(inputs.options, ground.bounds());
-  if (cameras.empty()) return {};
-  const PictureErrors pictures(cameras, kPrefixPixels, ground, decoded.originalTexels());
+  DecodedNodes decoded(inputs_, {heights, of_heights}, {texture, of_texture});
   std::vector<double> errors;
+  std::optional<PictureErrors::Surface> surface;
   for (size_t i = 0; i < lengths.size(); ++i) {
-    const auto surface =
-        pictures.surfaceOf(GroundRays(decoded.shownAt(of_heights.points[i].bytes)));
+    const std::vector<RatePoint>& points = of_heights.points;
+    if (i == 0 || points[i].bytes > points[i - 1].bytes)
+      surface = pictures_->surfaceOf(GroundRays(decoded.shownAt(points[i].bytes)));
     const ScreenTexture shown = decoded.textureAt(of_texture.points[i].bytes);
-    errors.push_back(pictures.errorInside(surface, shown) + surface.outlines);
+    errors.push_back(pictures_->errorInside(*surface, shown) + surface->outlines);
   }
   return errors;
 }

@@ -1,19 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// What cameras see of prefixes of a stream that is not written yet.
+// What cameras see of prefixes of streams that are not written yet.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "encoder/inputs/encode_inputs.hpp"
 #include "encoder/selection/selection.hpp"
+#include "ratecontrol/pictures/picture_errors.hpp"
 
 namespace tetrakis::inline views {
 
-/// Squared errors of the picture after so many bytes of the packets, their heads counted.
-/// selection, inputs: of both components. lengths: rising. Empty: nobody can look at the terrain.
-std::vector<double> errorsOfPrefixes(const EncodeInputs& inputs, const Selection& selection,
-                                     std::span<const uint64_t> lengths);
+/// The pictures of the inputs themselves, which take longer than those of some prefixes: one for
+/// all streams that are held against each other.
+class PrefixErrors {
+ public:
+  /// inputs: of both components; they outlive this. any: a selection of them.
+  PrefixErrors(const EncodeInputs& inputs, const Selection& any);
+
+  /// Squared errors of the picture after so many bytes of the packets, their heads counted.
+  /// lengths: rising. Empty: nobody can look at the terrain.
+  std::vector<double> of(const Selection& selection, std::span<const uint64_t> lengths) const;
+
+ private:
+  const EncodeInputs& inputs_;
+  std::optional<PictureErrors> pictures_;
+};
 
 }  // namespace tetrakis::inline views

@@ -26,8 +26,9 @@ bool mapsPay(const EncodeInputs& inputs, const Selection& with, const Selection&
     lengths.push_back(length);
     behind_map.push_back(lengths.back() - std::min(lengths.back(), map));
   }
-  const std::vector<double> mapped = errorsOfPrefixes(inputs, with, behind_map);
-  const std::vector<double> plain = errorsOfPrefixes(inputs, without, lengths);
+  const PrefixErrors errors(inputs, with);
+  const std::vector<double> mapped = errors.of(with, behind_map);
+  const std::vector<double> plain = errors.of(without, lengths);
   constexpr double kNone = 1e-6;  // squared parts of 255
   double logarithms = 0;
   for (size_t i = 0; i < mapped.size(); ++i)

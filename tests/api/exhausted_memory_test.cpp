@@ -258,11 +258,13 @@ std::vector<Called> encodingCalls() {
   static const samples::Raster image = samples::make({samples::Pattern::kRidges, 5, 6, 3, TKS_U8});
   const auto encoding = [](const tks_heights& h, const tks_image& i, tks_encode_options options) {
     options.threads = 2;
-    return Called{"tks_encode", [=](Desk& d) {
+    Called encode{"tks_encode", [=](Desk& d) {
                     tks_free_buffer(&d.buffer);
                     return tks_encode(h.size > 0 ? &h : nullptr, i.size > 0 ? &i : nullptr,
                                       &options, &d.buffer, d.message, sizeof d.message);
                   }};
+    encode.remembers = false;
+    return encode;
   };
   return {encoding(heights.heights(), {}, lossless()), encoding({}, image.image(), lossless()),
           encoding(heights.heights(), image.image(), budget(150))};

@@ -142,7 +142,7 @@ TEST(LateMask, HalfOfAPrefixIsHeights) {
   const GeometryLayers layers = layersOf(bytes);
   ASSERT_TRUE(layers.late_mask);
   EXPECT_EQ(layers.lifted_bytes, 0u);
-  EXPECT_GT(layers.validity_after, layers.validity_bytes / 2);
+  EXPECT_GT(layers.validity_after, layers.validity_bytes * 2 / 5);
   Raster filled = h.raster;
   for (size_t i = 0; i < h.valid.size(); ++i)
     if (!h.valid[i]) std::memset(filled.data.data() + 2 * i, 0, 2);

@@ -141,8 +141,9 @@ Window randomWindow(Random& random, const Size& size) {
 
 void expectCodedWindows(Random& random, const Coded& coded, const Size& size,
                         const std::vector<uint8_t>& valid) {
-  const DecodedGeometry whole = decodeCoefficients(coded.header, coded.spans(), valid);
-  const DecodedGeometry again = decodeCoefficients(coded.header, coded.spans(), valid, {}, {5});
+  const KnownSamples known{sharedBits(valid, size.extent())};
+  const DecodedGeometry whole = decodeCoefficients(coded.header, coded.spans(), known);
+  const DecodedGeometry again = decodeCoefficients(coded.header, coded.spans(), known, {}, {5});
   ASSERT_EQ(whole.heights, again.heights);
   ASSERT_EQ(whole.significant, again.significant);
   ASSERT_EQ(whole.quiet_levels, again.quiet_levels);
@@ -151,7 +152,7 @@ void expectCodedWindows(Random& random, const Coded& coded, const Size& size,
         i == 0 ? Window{0, 0, size.width, size.height} : randomWindow(random, size);
     const auto threads = static_cast<uint32_t>(1 + i % 3);
     const DecodedGeometry part =
-        decodeCoefficients(coded.header, coded.spans(), valid, {0, window}, {threads});
+        decodeCoefficients(coded.header, coded.spans(), known, {0, window}, {threads});
     ASSERT_EQ(part.fraction_bits, whole.fraction_bits);
     ASSERT_EQ(part.heights,
               slice(std::span<const int32_t>(whole.heights), size.extent(), {0, window}))

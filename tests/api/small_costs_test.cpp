@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small inputs take little processor time, whatever they are and whatever is asked for: no more
-// than twenty times as much as one ordinary terrain takes on the same machine at the same moment.
+// than ten times as much as one ordinary terrain takes on the same machine at the same moment.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <ctime>
 #include <optional>
 #include <string>
@@ -83,16 +84,26 @@ std::vector<std::pair<std::string, tks_encode_options>> targets() {
           {"within 0.5", within(0.5)}};
 }
 
-TEST(SmallCosts, StayBelowTwentyOrdinaryTerrains) {
-  constexpr double kMost = 20;
+/// In units of an ordinary terrain, whose time was measured a moment ago. Where that is too much, a
+/// disturbed machine gets another two chances.
+double costOf(const SmallInput& input, const tks_encode_options& options, double ordinary,
+              double most) {
+  const Raster* const heights = input.heights ? &*input.heights : nullptr;
+  const Raster* const texture = input.texture ? &*input.texture : nullptr;
+  double cost = secondsToEncode(heights, texture, options) / ordinary;
+  for (int again = 0; again < 2 && cost >= most; ++again)
+    cost = std::min(cost, secondsToEncode(heights, texture, options) / ordinarySeconds());
+  return cost;
+}
+
+TEST(SmallCosts, StayBelowTenOrdinaryTerrains) {
+  constexpr double kMost = 10;
   for (const SmallInput& input : smallInputs()) {
+    const double ordinary = ordinarySeconds();
     for (const auto& [target, options] : targets()) {
-      const Raster* const heights = input.heights ? &*input.heights : nullptr;
-      const Raster* const texture = input.texture ? &*input.texture : nullptr;
-      const double ordinary = ordinarySeconds();
-      const double seconds = secondsToEncode(heights, texture, options);
-      EXPECT_LT(seconds, kMost * ordinary) << input.name << ", " << target;
-      RecordProperty(input.name + ", " + target, std::to_string(seconds / ordinary));
+      const double cost = costOf(input, options, ordinary, kMost);
+      EXPECT_LT(cost, kMost) << input.name << ", " << target;
+      RecordProperty(input.name + ", " + target, std::to_string(cost));
     }
   }
 }

@@ -114,6 +114,7 @@ TEST(Band, SignificantWithinIsWhatAnEyeSees) {
 /// A band of random magnitudes, and what they are read as: 0 outside.
 Band filled(Random& random, const BandShape& shape) {
   Band band(shape, Orientation::kHL);
+  band.makeCells();
   for (uint32_t row = 0; row < shape.rows; ++row) {
     for (uint32_t column = 0; column < shape.columns; ++column)
       band.magnitude[shape.cell(row, column)] = static_cast<uint32_t>(random() % 1000);

@@ -65,6 +65,11 @@ Material material(uint32_t seed, const BandShape& coarse, int scale_bits) {
   return m;
 }
 
+/// What is known of a coefficient, with its sign: 0 in a band without cells.
+int64_t knownOf(const Band& band, size_t cell) {
+  return band.hasCells() ? int64_t{band.sign[cell]} * band.magnitude[cell] : 0;
+}
+
 /// What the decoder believes is true: known bits, signs, and that the rest is below 2^plane.
 /// places: binary ones that estimates are also read with.
 void expectTruth(const TrackState& state, size_t index, const BandSource& source, int places) {
@@ -79,11 +84,12 @@ void expectTruth(const TrackState& state, size_t index, const BandSource& source
       const int32_t truth = source.values[cell];
       const bool visited = (band.visited[word] >> column % 32) & 1;
       const int plane = band.tier_states[0].plane + (visited ? 0 : 1);
-      const int64_t low = band.magnitude[cell], high = low + (int64_t{1} << plane);
+      const int64_t known = knownOf(band, cell);
+      const int64_t low = std::abs(known), high = low + (int64_t{1} << plane);
       const int64_t magnitude = std::abs(int64_t{truth});
       ASSERT_TRUE(magnitude >= low && magnitude < high) << truth << " below plane " << plane;
-      ASSERT_EQ(band.magnitude[cell] != 0, ((band.significant[word] >> column % 32) & 1) != 0);
-      ASSERT_EQ(band.sign[cell], low == 0 ? 0 : truth < 0 ? -1 : 1);
+      ASSERT_EQ(low != 0, ((band.significant[word] >> column % 32) & 1) != 0);
+      ASSERT_TRUE(low == 0 || (known < 0) == (truth < 0));
       const int64_t estimate = std::abs(int64_t{whole[column]});
       ASSERT_TRUE(estimate >= low && estimate < high) << "an estimate outside of what is known";
       ASSERT_TRUE(low == 0 || (whole[column] < 0) == (truth < 0));
@@ -167,6 +173,23 @@ TEST(TrackCoding, GrowingTracksEndInLongPasses) {
           << bytes << " of " << track.codeword.size() << " bytes";
     }
   }
+}
+
+/// Bands take bytes for each coefficient from the first significant one on.
+TEST(TrackCoding, BandsWithoutSignificanceHaveNoCells) {
+  const Material m = material(4, {40, 70}, 6);
+  const EncodedTrack track = encodeTrack(m.plan, m.sources);
+  size_t without = 0;
+  for (size_t bytes = 0; bytes <= track.codeword.size(); bytes += 1 + bytes / 2) {
+    const TrackState state =
+        decodeTrack(m.plan, track.planes, std::span(track.codeword).first(bytes));
+    for (const Band& band : state.bands) {
+      ASSERT_TRUE(band.hasCells() || band.tier_states[0].significant_count == 0);
+      ASSERT_EQ(band.hasCells(), band.nonzero());
+      without += !band.hasCells();
+    }
+  }
+  EXPECT_GT(without, 0u);
 }
 
 /// All known bits of a are known in b.
@@ -347,7 +370,7 @@ TEST(Reconstruction, EstimatesReduceTheError) {
         for (uint32_t column = 0; column < band.shape.columns; ++column) {
           const size_t cell = band.shape.cell(row, column);
           const double truth = m.sources[i].values[cell];
-          const double low = band.sign[cell] * static_cast<double>(band.magnitude[cell]);
+          const auto low = static_cast<double>(knownOf(band, cell));
           estimated += std::pow(values[column] - truth, 2);
           low_ends += std::pow(low - truth, 2);
         }

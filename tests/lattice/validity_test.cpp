@@ -8,12 +8,14 @@
 #include <numeric>
 #include <random>
 
+#include "bitstream/coder/range_decoder.hpp"
 #include "codec/geometry/corrections/corrections_decoder.hpp"
 #include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "lattice/levels.hpp"
 #include "lattice/validity_decoder.hpp"
 #include "lattice/validity_encoder.hpp"
+#include "lattice/validity_pass.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -55,18 +57,18 @@ TEST(Validity, ComesBackWhateverFollows) {
       const auto valid = validity(shape, size.width, size.height);
       auto codeword = encodeValidity({valid, {size.width, size.height}});
       ASSERT_FALSE(codeword.empty());
-      ASSERT_EQ(decodeValidity(codeword, {size.width, size.height}), valid);
+      ASSERT_EQ(decodeValidity(codeword, {size.width, size.height}).bytes(), valid);
       for (const int tail : {0x00, 0xff}) {
         auto longer = codeword;
         longer.insert(longer.end(), 9, static_cast<uint8_t>(tail));
-        ASSERT_EQ(decodeValidity(longer, {size.width, size.height}), valid);
+        ASSERT_EQ(decodeValidity(longer, {size.width, size.height}).bytes(), valid);
       }
     }
   }
 }
 
 TEST(Validity, NoCodewordSaysThatAllIsValid) {
-  EXPECT_EQ(decodeValidity({}, {7, 5}), std::vector<uint8_t>(35, 1));
+  EXPECT_EQ(decodeValidity({}, {7, 5}).bytes(), std::vector<uint8_t>(35, 1));
 }
 
 /// Half of a coast's codeword leaves far fewer samples wrong than none, and the error falls.
@@ -75,7 +77,8 @@ TEST(Validity, PrefixesAreCoarseMasks) {
   const auto valid = validity(VoidShape::kCoast, kSide, kSide);
   const auto codeword = encodeValidity({valid, {kSide, kSide}});
   const auto wrongAfter = [&](size_t bytes) {
-    return differences(decodeValidity(std::span(codeword).first(bytes), {kSide, kSide}), valid);
+    return differences(decodeValidity(std::span(codeword).first(bytes), {kSide, kSide}).bytes(),
+                       valid);
   };
   const size_t none = wrongAfter(0);
   EXPECT_LT(wrongAfter(codeword.size() / 4), none / 3);
@@ -102,7 +105,35 @@ TEST(Validity, AnyBytesDecode) {
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<uint8_t> bytes(random() % 60);
     for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random());
-    for (const uint8_t v : decodeValidity(bytes, {23, 40})) ASSERT_LE(v, 1);
+    for (const uint8_t v : decodeValidity(bytes, {23, 40}).bytes()) ASSERT_LE(v, 1);
+  }
+}
+
+/// A decoder's side that takes every decision by itself.
+struct OneByOne {
+  RangeDecoder decoder;
+
+  uint64_t asked(const SampleLine& line) const { return lowBits(line.count); }
+  bool bit(AdaptiveBit& model, size_t) { return decoder.decode(model); }
+  uint32_t run(AdaptiveBit&, bool, uint32_t) { return 0; }
+  bool stopped() const { return decoder.exhausted(); }
+  uint64_t otherwise(uint64_t, uint64_t majority) const { return majority; }
+};
+
+/// Wherever bytes end in a run, and whatever comes behind it.
+TEST(Validity, RunsAreDecisionsOneByOne) {
+  std::mt19937 random(6);
+  for (const Extent plane : {Extent{700, 300}, Extent{3, 900}, Extent{513, 4}}) {
+    for (int trial = 0; trial < 60; ++trial) {
+      std::vector<uint8_t> bytes(1 + random() % 8, trial % 2 == 0 ? 0x00 : 0xff);
+      if (trial % 2 == 1) bytes.push_back(0xfe);
+      for (auto more = random() % 9; more > 0; --more)
+        bytes.push_back(static_cast<uint8_t>(random()));
+      OneByOne io{RangeDecoder(bytes)};
+      ASSERT_EQ(decodeValidity(bytes, plane).bytes(),
+                ValidityPass<OneByOne>(plane, io).run().bytes())
+          << plane.width << " x " << plane.height << ", trial " << trial;
+    }
   }
 }
 

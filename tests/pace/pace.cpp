@@ -23,18 +23,31 @@ double seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-constexpr double kWindowSeconds = 1;                  // of one sample
-constexpr double kPerPlaneSample = 2e-8;              // of a plane that has to be gone through
+constexpr double kWindowSeconds = 1;       // of one sample
+constexpr double kPerPlaneSample = 2e-8;   // of a plane that has to be gone through, ...
+constexpr double kPerDecidingByte = 2e-3;  // ... or of bytes that cannot decide so many samples
 constexpr double kPerSample = 2e-6, kPerByte = 2e-6;  // of all others
 constexpr double kPerMeshSample = 8e-6;               // whatever the stream: sorting, quadrics
+
+/// Whether tiers or flat areas of a whole plane are marked, whatever decides them.
+bool marksSamples(std::span<const uint8_t> stream) {
+  const Result<ParsedHeader> parsed = readHeader(stream);
+  if (!parsed.ok()) return false;
+  const StreamHeader& header = parsed->header;
+  return header.layers.flat_bytes > 0 || (header.geometry && !header.geometry->priorities.none()) ||
+         (header.texture && !header.texture->priorities.none());
+}
 
 /// Runs calls and keeps the first that is too slow.
 class Watch {
  public:
-  Watch(size_t bytes, double slow) : bytes_(static_cast<double>(bytes)), slow_(slow) {}
+  Watch(std::span<const uint8_t> stream, double slow)
+      : bytes_(static_cast<double>(stream.size())), marks_(marksSamples(stream)), slow_(slow) {}
 
   void window(const char* name, double plane, const std::function<void()>& call) {
-    check(name, call, kWindowSeconds + kPerPlaneSample * plane);
+    const double whole = kPerPlaneSample * plane;
+    check(name, call,
+          kWindowSeconds + (marks_ ? whole : std::min(whole, kPerDecidingByte * bytes_)));
   }
   /// samples: that the call is asked for.
   void all(const char* name, double samples, const std::function<void()>& call,
@@ -55,7 +68,9 @@ class Watch {
     found_ = sentence;
   }
 
-  double bytes_, slow_;
+  double bytes_;
+  bool marks_;
+  double slow_;
   std::string found_;
 };
 
@@ -166,7 +181,7 @@ double slowness() {
 }
 
 std::string slowCall(std::span<const uint8_t> stream, double slow) {
-  Watch watch(stream.size(), slow);
+  Watch watch(stream, slow);
   tks_decoder* decoder = nullptr;
   watch.all("opening", 0,
             [&] { tks_open(stream.data(), stream.size(), nullptr, &decoder, nullptr, 0); });

@@ -69,6 +69,44 @@ TEST(Pace, OfCorrectionsBeforeAWindow) {
   }
 }
 
+/// A window of a plane of 2^28 samples whose mask, bridges, drawing or stored samples are a few
+/// bytes for all of it.
+TEST(Pace, OfOneCodewordForAWholePlane) {
+  const double slow = slowness();
+  const Bytes few(20, 0);
+  const auto expectInTime = [&](const StreamHeader& header, const char* what) {
+    for (const Bytes& codeword : {few, kNearlyOnes})
+      EXPECT_EQ(slowCall(streamOf(header, codeword), slow), "") << what;
+  };
+  StreamHeader masked = heightsOf(1 << 14);
+  masked.layers.validity_bytes = few.size();
+  masked.layers.has_nodata = 1;
+  expectInTime(masked, "a mask");
+  masked.layers.bridge = 254;
+  expectInTime(masked, "bridges");
+  StreamHeader direct = heightsOf(1 << 14);
+  direct.geometry->planes = GeometryHeader::kDirectPlanes;
+  expectInTime(direct, "stored heights");
+  direct.geometry->drawn = true;
+  expectInTime(direct, "drawn heights");
+  StreamHeader texture;
+  TextureHeader& t = texture.texture.emplace();
+  t.width = t.height = 1 << 14;
+  t.channels = 2;
+  t.planes = 30;
+  t.alpha_bytes = few.size();
+  t.hidden = 1;
+  t.bridge = 254;
+  expectInTime(texture, "bridges of a cut-out");
+  t = {};
+  t.width = t.height = 1 << 14;
+  t.channels = 1;
+  t.planes = kDrawnPlanes;
+  expectInTime(texture, "a drawn texture");
+  t.stored = true;
+  expectInTime(texture, "a stored texture");
+}
+
 class SlowStreams : public testing::TestWithParam<uint64_t> {};
 
 TEST_P(SlowStreams, TakeTheirTime) {

@@ -75,6 +75,7 @@ struct Called {
   std::function<void(Desk&)> after = [](Desk&) {};   ///< what shows that it has done its work
   bool has_sentence = true;
   bool may_be_lost = false;  ///< the decoder may say that it takes no more
+  bool remembers = true;     ///< it may leave something to the next call
 };
 
 inline const char* sentenceOf(const Desk& desk) {
@@ -116,7 +117,9 @@ inline bool failsAt(uint64_t number, const Called& called, Prefix stream, const 
     EXPECT_STREQ(sentenceOf(desk), "Not enough memory.");
   }
   EXPECT_EQ(desk.given(), blank);
-  expectGoesOn(called, desk, wanted);
+  // Whole calls take most of the time, and those of encoders start from nothing.
+  constexpr uint64_t kSometimes = 25;
+  if (called.remembers || number % kSometimes == 0) expectGoesOn(called, desk, wanted);
   return true;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "texture_wavelet/drawn/drawn_decoder.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include "codec/drawing/drawing_decoding.hpp"
@@ -28,28 +27,36 @@ DrawnColours overlayColours(const Texels& format) {
 }
 
 /// Every 2^level-th texel is a grid of its own: no vertex needs one of a finer level.
-Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword, int level) {
-  const std::vector<Level> levels = levelsOf(header.width, header.height, level);
+Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword,
+                   const View& view) {
+  const std::vector<Level> levels = levelsOf(header.width, header.height, view.level);
   Texels texels = formatOf(header);
-  const Extent extent = View{level, {}}.extentIn(header.extent());
+  const Extent grid = View{view.level, {}}.extentIn(header.extent());
+  const Extent extent = view.extentIn(header.extent());
   texels.width = extent.width;
   texels.height = extent.height;
-  std::vector<DrawnIndex> indices(extent.samples(), kNoIndex);
+  ZeroedArray<KeptIndex> kept(grid.samples());
+  const std::span<KeptIndex> indices(kept.data(), kept.size());
   DrawnColours colours(texels);
   ColourDecoding io(codeword);
-  DrawingPass(PlaneView<DrawnIndex>(indices, extent), colours, io).run(levels);
-  texels.samples.resize(extent.samples() * header.channels);
-  fillDrawn(levels, indices, colours, texels);
+  DrawingPass(PlaneView<KeptIndex>(indices, grid), nullptr, colours, io).run(levels);
+  if (view.window) {
+    fillDrawn(levels, indices, colours, grid, *view.window, texels);
+  } else {
+    texels.samples.resize(extent.samples() * header.channels);
+    fillDrawn(levels, indices, colours, texels);
+  }
   return texels;
 }
 
 DrawnOverlay decodeOverlay(const TextureHeader& header, std::span<const uint8_t> codeword) {
-  DrawnOverlay overlay{{}, overlayColours(formatOf(header))};
-  overlay.indices.assign(header.extent().samples(), kNoIndex);
+  DrawnOverlay overlay{ZeroedArray<KeptIndex>(header.extent().samples()), 1,
+                       overlayColours(formatOf(header))};
+  const PlaneView<KeptIndex> plane({overlay.indices.data(), overlay.indices.size()},
+                                   header.extent());
   ColourDecoding io(codeword);
-  DrawingPass(PlaneView<DrawnIndex>(overlay.indices, header.extent()), overlay.colours, io)
-      .run(levelsOf(header.width, header.height));
-  std::replace(overlay.indices.begin(), overlay.indices.end(), kNoIndex, kSeeThrough);
+  overlay.step =
+      DrawingPass(plane, nullptr, overlay.colours, io).run(levelsOf(header.width, header.height));
   return overlay;
 }
 

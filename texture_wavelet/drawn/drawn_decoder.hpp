@@ -4,23 +4,32 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "base/texels.hpp"
 #include "base/view.hpp"
+#include "base/zeroed_array.hpp"
 #include "bitstream/stream/texture_header.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 
 namespace tetrakis::inline drawn {
 
-/// Decodes the texels at multiples of 2^level alone. codeword: any prefix of the track of a texture
-/// with header.drawn(). Safe on any bytes.
-Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword, int level);
+/// Decodes what a view shows. Of a level only its texels are decoded; for a window all are, but
+/// only those that it needs get colours. codeword: any prefix of the track of a texture with
+/// header.drawn(). Safe on any bytes.
+Texels decodeDrawn(const TextureHeader& header, std::span<const uint8_t> codeword,
+                   const View& view);
 
 /// What lies over a photograph.
 struct DrawnOverlay {
-  std::vector<DrawnIndex> indices;  ///< of every texel; kSeeThrough where nothing is known
+  ZeroedArray<KeptIndex> indices;  ///< of every texel
+  uint32_t step = 1;               ///< those that are known lie at its multiples
   DrawnColours colours;
+
+  /// Where nothing is known nothing is shown.
+  bool covers(size_t texel) const {
+    const DrawnIndex index = indices[texel];
+    return index != kNoIndex && index != kSeeThrough;
+  }
 };
 
 /// The format of a texture, without samples.

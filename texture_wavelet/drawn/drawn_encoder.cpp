@@ -69,10 +69,10 @@ bool mayFit(const NumberedColours& image, const Texels& texels, uint64_t bytes) 
 }
 
 /// Codes the image into what `io` ends with.
-void draw(const Texels& texels, std::vector<DrawnIndex>& indices, DrawnColours& colours,
+void draw(const Texels& texels, std::vector<KeptIndex>& indices, DrawnColours& colours,
           ColourEncoding& io) {
-  const PlaneView<DrawnIndex> plane(indices, {texels.width, texels.height});
-  DrawingPass(plane, colours, io).run(levelsOf(texels.width, texels.height));
+  const PlaneView<KeptIndex> plane(indices, {texels.width, texels.height});
+  DrawingPass(plane, nullptr, colours, io).run(levelsOf(texels.width, texels.height));
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ std::optional<EncodedTexture> encodeDrawn(const Texels& texels, uint64_t most) {
   const std::optional<NumberedColours> image = number(texels, {});
   if (!image) return {};
   if (!looksDrawn(*image, texels.width) && !mayFit(*image, texels, most)) return {};
-  std::vector<DrawnIndex> indices(image->numbers.size(), kNoIndex);
+  std::vector<KeptIndex> indices(image->numbers.size());
   DrawnColours colours(texels);
   const std::vector<Level> levels = levelsOf(texels.width, texels.height);
   DrawnError error(texels, levels);
@@ -102,7 +102,7 @@ std::optional<EncodedTexture> encodeDrawn(const Texels& texels, uint64_t most) {
 std::vector<uint8_t> encodeOverlay(const Texels& texels, Mask photograph) {
   const std::optional<NumberedColours> image = number(texels, photograph.bytes());
   assert(image.has_value());
-  std::vector<DrawnIndex> indices(image->numbers.size(), kNoIndex);
+  std::vector<KeptIndex> indices(image->numbers.size());
   DrawnColours colours(texels);
   colours.add(greyOf(texels));
   ColourEncoding io(*image, colours.size(), {});

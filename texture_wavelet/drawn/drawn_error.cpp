@@ -14,7 +14,7 @@ namespace {
 
 /// Fills the unknown texels and returns their squared error.
 template <size_t kChannels>
-uint64_t squaresOfUnknown(std::span<const Level> levels, std::span<const DrawnIndex> indices,
+uint64_t squaresOfUnknown(std::span<const Level> levels, std::span<const KeptIndex> indices,
                           const Texels& original, Texels& shown) {
   const DrawnColour grey = greyOf(shown);
   const uint16_t *const truth = original.samples.data(), *const seen = shown.samples.data();
@@ -26,13 +26,14 @@ uint64_t squaresOfUnknown(std::span<const Level> levels, std::span<const DrawnIn
       squares += off * off;
     }
   };
-  for (const Level& level : levels) Interpolation<kChannels>(level, grey, shown).run(known, filled);
+  const DrawnPart whole{shown.extent(), {0, 0, shown.width, shown.height}, shown.samples.data()};
+  for (const Level& level : levels) Interpolation<kChannels>(level, grey, whole).run(known, filled);
   return squares;
 }
 
 }  // namespace
 
-double DrawnError::squares(std::span<const DrawnIndex> indices) {
+double DrawnError::squares(std::span<const KeptIndex> indices) {
   std::copy(original_.samples.begin(), original_.samples.end(), shown_.samples.begin());
   uint64_t squares = 0;
   withChannels(original_.channels, [&]<size_t kChannels>() {

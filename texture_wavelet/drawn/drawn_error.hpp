@@ -20,7 +20,7 @@ class DrawnError {
 
   /// The squared error of all samples when texels with an index show what they are, and fillDrawn()
   /// gives the others their colours.
-  double squares(std::span<const DrawnIndex> indices);
+  double squares(std::span<const KeptIndex> indices);
 
  private:
   const Texels& original_;

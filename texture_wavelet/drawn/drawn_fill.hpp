@@ -5,6 +5,7 @@
 #include <span>
 
 #include "base/texels.hpp"
+#include "base/view.hpp"
 #include "lattice/levels.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 
@@ -16,7 +17,11 @@ DrawnColour greyOf(const Texels& format);
 /// Writes the samples of all texels; the format of texels and the size of its samples are set.
 /// levels: those of the grid, coarse to fine. indices: width * height, row by row. A texel without
 /// one is the mean of the coarser vertices next to it; a root, grey.
-void fillDrawn(std::span<const Level> levels, std::span<const DrawnIndex> indices,
+void fillDrawn(std::span<const Level> levels, std::span<const KeptIndex> indices,
                const DrawnColours& colours, Texels& texels);
+
+/// The same of a window of an image; texels: its own, whose samples become those.
+void fillDrawn(std::span<const Level> levels, std::span<const KeptIndex> indices,
+               const DrawnColours& colours, Extent whole, const Window& window, Texels& texels);
 
 }  // namespace tetrakis::inline drawn

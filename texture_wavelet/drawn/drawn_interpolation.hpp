@@ -8,17 +8,27 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "base/view.hpp"
 #include "lattice/levels.hpp"
 #include "lattice/stencil.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 
 namespace tetrakis::inline drawn {
 
-/// Gives texels of one level of an image their colours, in place. Coarser levels are filled.
+/// An image, of which the colours of a part are wanted.
+struct DrawnPart {
+  Extent extent;  ///< of the image
+  Window shown;   ///< the part
+  uint16_t*
+      samples;  ///< of the whole image, interleaved, of which those that the part needs are set
+};
+
+/// Gives texels of one level of an image their colours, in place, as far as a part of the image
+/// needs them. Coarser levels are filled.
 template <size_t kChannels>
 class Interpolation {
  public:
-  Interpolation(const Level& level, const DrawnColour& grey, Texels& image)
+  Interpolation(const Level& level, const DrawnColour& grey, const DrawnPart& image)
       : level_(level), grey_(grey), image_(image) {}
 
   /// known(texel): true keeps the texel as it is. filled(texel) is called for each of the others.
@@ -32,11 +42,12 @@ class Interpolation {
       });
       return;
     }
-    const Stencil stencil = stencilOf(level_.kind, level_.step, image_.width);
+    const Stencil stencil = stencilOf(level_.kind, level_.step, image_.extent.width);
     std::array<ptrdiff_t, kTaps> taps{};  // in locals, which stay in registers
     for (size_t i = 0; i < kTaps; ++i)
       taps[i] = stencil.linear[i] * static_cast<ptrdiff_t>(kChannels);
-    const uint32_t step = level_.step, width = image_.width, height = image_.height;
+    const uint32_t step = level_.step;
+    const auto [width, height] = image_.extent;
     forEachTexel([&, taps](uint32_t x, uint32_t y, size_t texel, uint16_t* to) {
       if (known(texel)) return;
       if (x >= step && y >= step && x + step < width && y + step < height) {
@@ -55,13 +66,11 @@ class Interpolation {
 
   template <class Visit>
   void forEachTexel(const Visit& visit) {
-    for (uint32_t row = 0; row < level_.rows; ++row) {
-      const uint32_t y = level_.y(row), pitch = level_.pitch(), first = level_.firstX(row);
-      const size_t line = size_t{y} * image_.width;
-      uint16_t* const samples = image_.samples.data() + line * kChannels;
-      const uint32_t end = first + level_.columns[row % 2] * pitch;
-      for (uint32_t x = first; x < end; x += pitch) visit(x, y, line + x, samples + x * kChannels);
-    }
+    const Window needed = neededOf(level_, image_.shown, image_.extent);
+    forEachVertex(level_, needed, [&](uint32_t x, uint32_t y) {
+      const size_t texel = size_t{y} * image_.extent.width + x;
+      visit(x, y, texel, image_.samples + texel * kChannels);
+    });
   }
 
   void fillAtBorder(uint32_t x, uint32_t y, const Stencil& stencil, uint16_t* to) const {
@@ -69,7 +78,7 @@ class Interpolation {
     uint32_t count = 0;
     for (size_t tap = 0; tap < kTaps; ++tap) {
       const int64_t nx = int64_t{x} + stencil.dx[tap], ny = int64_t{y} + stencil.dy[tap];
-      if (nx < 0 || ny < 0 || nx >= image_.width || ny >= image_.height) continue;
+      if (nx < 0 || ny < 0 || nx >= image_.extent.width || ny >= image_.extent.height) continue;
       const uint16_t* from = to + stencil.linear[tap] * static_cast<ptrdiff_t>(kChannels);
       for (size_t c = 0; c < kChannels; ++c) sums[c] += from[c];
       ++count;
@@ -80,7 +89,7 @@ class Interpolation {
 
   const Level& level_;
   const DrawnColour& grey_;
-  Texels& image_;
+  const DrawnPart& image_;
 };
 
 /// Calls visit.operator()<channels>().

@@ -19,7 +19,7 @@ std::shared_ptr<ColourPrefixes> prefixesOf(const TextureHeader& header,
                                            std::span<const uint8_t> codeword,
                                            DrawnColours colours) {
   const std::vector<Level> levels = levelsOf(header.width, header.height);
-  return std::make_shared<ColourPrefixes>(codeword, header.extent(), Mask(), levels,
+  return std::make_shared<ColourPrefixes>(codeword, header.extent(), nullptr, levels,
                                           std::move(colours));
 }
 
@@ -41,9 +41,9 @@ std::function<DrawnOverlay(uint64_t bytes)> prefixesOfOverlay(const TextureHeade
                                                               std::span<const uint8_t> codeword) {
   const auto prefixes = prefixesOf(header, codeword, overlayColours(formatOf(header)));
   return [prefixes](uint64_t bytes) {
-    const std::span<const DrawnIndex> known = prefixes->indicesAfter(bytes);
-    DrawnOverlay overlay{{known.begin(), known.end()}, prefixes->list()};
-    std::replace(overlay.indices.begin(), overlay.indices.end(), kNoIndex, kSeeThrough);
+    const std::span<const KeptIndex> known = prefixes->indicesAfter(bytes);
+    DrawnOverlay overlay{ZeroedArray<KeptIndex>(known.size()), 1, prefixes->list()};
+    std::copy(known.begin(), known.end(), overlay.indices.begin());
     return overlay;
   };
 }

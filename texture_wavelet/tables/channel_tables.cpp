@@ -14,7 +14,7 @@ ChannelTables channelTablesOf(const TextureHeader& header) {
   if (!header.tables.present) return tables;
   const auto* bytes = reinterpret_cast<const uint8_t*>(header.tables.code.data());
   DecisionDecoding io(std::span(bytes, header.tables.code.size()));
-  ValueTablePass<DecisionDecoding> pass(io, header.sampleBits());
+  ValueTablePass<DecisionDecoding<>> pass(io, header.sampleBits());
   for (uint32_t c = 0; c < header.colourPlanes(); ++c) {
     std::vector<uint32_t> words(header.tables.values[c]);
     pass.run(words);

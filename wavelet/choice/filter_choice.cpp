@@ -26,12 +26,11 @@ using Filters = std::array<uint8_t, WaveletSpec::kChoices>;
 
 constexpr auto kS = static_cast<uint8_t>(FilterId::kShort);
 constexpr auto kM = static_cast<uint8_t>(FilterId::kSixTap);
-constexpr auto kO = static_cast<uint8_t>(FilterId::kOrthogonal);
 constexpr auto kQ = static_cast<uint8_t>(FilterId::kQuiet);
 constexpr auto kL = static_cast<uint8_t>(FilterId::kLong);
 constexpr auto kN = static_cast<uint8_t>(FilterId::kSmooth);
 constexpr std::array<Filters, 6> kLossyChoices = {
-    {{kL, kL, kL}, {kL, kL, kO}, {kL, kO, kO}, {kO, kO, kO}, {kS, kS, kS}, {kN, kN, kN}}};
+    {{kL, kL, kL}, {kL, kL, kQ}, {kL, kQ, kQ}, {kQ, kQ, kQ}, {kS, kS, kS}, {kN, kN, kN}}};
 
 /// Filters for the last bit, and by how much the estimate of their bits counts more because of what
 /// prefixes are worth (docs/EXPERIMENTS.md, "Cuts of lossless streams"). The estimate makes
@@ -43,14 +42,14 @@ struct LosslessChoice {
 constexpr std::array<LosslessChoice, 4> kLosslessHeights = {
     {{{kM, kM, kM}, 1.004}, {{kL, kL, kL}, 1}, {{kS, kS, kS}, 1.02}, {{kN, kN, kN}, 1.02}}};
 
-/// Coarse levels of images have a filter that is nearly orthogonal, as those of lossy streams are.
+/// Coarse levels of images have a filter that is nearly orthogonal, as in lossy streams.
 constexpr std::array<LosslessChoice, 4> kLosslessImages = {
     {{{kL, kQ, kQ}, 1}, {{kL, kL, kQ}, 1.045}, {{kM, kM, kM}, 1.08}, {{kS, kS, kS}, 1.115}}};
 
 constexpr double kSignificant =
     0.1;  // share of the other details that the step T leaves above itself
 constexpr int kMostFractionBits = 4;
-constexpr int kGrowingBits = 20;  // with more, the low bands of kOrthogonal and kQuiet pass 2^30
+constexpr int kGrowingBits = 20;  // with more, the low bands of kQuiet pass 2^30
 
 /// Doubling low bands after level 2 in the place of level 4 halves the roundings of levels 3 and 4,
 /// and takes 1/16 of a bit a sample. That is worth it where few bits are lossless, because then
@@ -163,7 +162,7 @@ Choice chooseLossy(const std::vector<PlanePart>& parts, int bits, const RateTarg
   Choice best;
   float usual = 0, finer = 0;
   for (const Filters& filters : kLossyChoices) {
-    if (filters.back() == kO && bits > kGrowingBits) continue;
+    if (filters.back() == kQ && bits > kGrowingBits) continue;
     const WaveletHeader header =
         headerWith(filters, std::clamp(20 - bits, 0, kMostFractionBits), bits);
     std::vector<float> details;

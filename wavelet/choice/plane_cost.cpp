@@ -25,7 +25,7 @@ double forEachRow(const PlaneLayout& layout, size_t index, std::span<const int32
                   const Take& take) {
   const Pyramid& pyramid = layout.pyramid();
   const Subband& band = layout.subbands()[index];
-  const bool all_exist = pyramid.valid().all(), none_held = pyramid.held().none();
+  const bool all_exist = pyramid.allExist(), none_held = pyramid.held().none();
   std::vector<uint8_t> coded(all_exist && none_held ? 0 : band.width, 1);
   uint32_t rows = 0;
   for (uint32_t y = 0; y < band.height; ++y) {
@@ -33,8 +33,8 @@ double forEachRow(const PlaneLayout& layout, size_t index, std::span<const int32
     ++rows;
     const size_t line = size_t{band.planeRow(y)} * pyramid.plane().width;
     if (!all_exist) {
-      const uint8_t* const valid = pyramid.valid().from(line);
-      for (uint32_t x = 0; x < band.width; ++x) coded[x] = valid[band.sampleColumn(x)];
+      for (uint32_t x = 0; x < band.width; ++x)
+        coded[x] = pyramid.exists(band.sampleColumn(x), band.planeRow(y));
     }
     if (!none_held) {
       const uint16_t* const numbers = pyramid.held().numbers.data() + line;

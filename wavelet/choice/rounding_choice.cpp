@@ -78,23 +78,22 @@ class CodedPart {
   std::array<double, 2> squares(double coefficient_error) {
     const uint64_t bytes = bytesAt(track_.points, coefficient_error * coded_);
     const TrackState& state = growing_->decode(std::span(track_.codeword).first(bytes));
-    return {squaresWith(state, {unroundedBits(track_.planes), false}),
-            squaresWith(state, {0, true})};
+    return {squaresWith(state, unroundedBits(track_.planes)), squaresWith(state, 0)};
   }
 
  private:
-  double squaresWith(const TrackState& state, Precision precision) const {
-    const std::vector<int32_t> areas = withFractions(part_.area_values, precision.fraction_bits);
+  double squaresWith(const TrackState& state, int fraction_bits) const {
+    const std::vector<int32_t> areas = withFractions(part_.area_values, fraction_bits);
     const PlaneLayout layout(spec_, Pyramid(part_.extent, part_.valid, {part_.held, areas}));
     ViewSynthesis synthesis(spec_, layout.pyramid(), {});
     synthesis.allocate();
     for (size_t i = 0; i < bands_.size(); ++i)
-      synthesis.put(state.bands[i], precision.fraction_bits, bands_[i]);
-    std::vector<int32_t> shown = synthesis.run(1, precision.rounds);
+      synthesis.put(state.bands[i], fraction_bits, bands_[i]);
+    std::vector<int32_t> shown = synthesis.run(1);
     clearUnmarked(std::span(shown), part_.valid);
     double squares = 0;
     for (size_t i = 0; i < shown.size(); ++i) {
-      const double error = std::ldexp(shown[i], -precision.fraction_bits) - part_.values[i];
+      const double error = std::ldexp(shown[i], -fraction_bits) - part_.values[i];
       squares += error * error;
     }
     return squares;

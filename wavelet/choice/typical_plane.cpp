@@ -80,7 +80,7 @@ std::vector<TypicalPlane::Shown> TypicalPlane::shown(double step) const {
       for (uint32_t y = 0; y < band.height; ++y)
         requantise(std::span(values).subspan(pyramid.indexOf(band, y), band.width), own);
     }
-    inverseWavelet(specOf(part.wavelet), pyramid, values, {.rounds = false});
+    inverseWavelet(specOf(part.wavelet), pyramid, values);
     all.push_back({part.samples, std::move(values), part.wavelet.fraction_bits});
   }
   return all;

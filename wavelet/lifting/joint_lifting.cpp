@@ -8,8 +8,6 @@ namespace tetrakis::inline lifting {
 
 namespace {
 
-constexpr uint32_t kFraction = (1 << kJointPlaces) - 1;
-
 /// Gives values so many more binary places.
 void widen(std::span<const int32_t> values, int places, std::span<int32_t> out) {
   assert(values.size() == out.size());
@@ -62,12 +60,12 @@ void JointLifting::orderHalves(uint32_t row) {
 /// d += [Px (c + Py a) + Py b]
 void JointLifting::centres(uint32_t row) {
   const std::span<int32_t> c = halves_.room(true, block_.extent.width);
-  widen(half(row, false), kJointPlaces - placesIn(), c);
+  widen(half(row, false), kJointPlaces, c);
   addColumns({row, false, true}, Direction::kAnalysis, c);
   sums_.assign(half(row, true).size(), 0);
   addRow(true, kJointPlaces);
   addColumns({row, true, true}, Direction::kAnalysis, sums_);
-  round({row, true});
+  addRounded(kJointPlaces, half(row, true));
 }
 
 /// b += [Px a + Uy d]
@@ -75,9 +73,9 @@ void JointLifting::rightSides(uint32_t row) {
   const auto low = half(row, false);
   std::copy(low.begin(), low.end(), halves_.room(true, block_.extent.width).begin());
   sums_.assign(half(row, true).size(), 0);
-  addRow(true, placesIn());
+  addRow(true, 0);
   addColumns({row, true, false}, Direction::kAnalysis, sums_);
-  round({row, true});
+  addRounded(kJointPlaces, half(row, true));
 }
 
 /// c += [Py a + Ux d]
@@ -87,48 +85,18 @@ void JointLifting::lowerSides(uint32_t row) {
   sums_.assign(half(row, false).size(), 0);
   addRow(false, 0);
   addColumns({row, false, true}, Direction::kAnalysis, sums_);
-  round({row, false});
+  addRounded(kJointPlaces, half(row, false));
 }
 
-/// Ux (b - Uy d) + Uy c
-void JointLifting::sumCorners(uint32_t row) {
+/// a += [Ux (b - Uy d) + Uy c]
+void JointLifting::corners(uint32_t row) {
   const std::span<int32_t> b = halves_.room(false, block_.extent.width);
   widen(half(row, true), kJointPlaces, b);
   addColumns({row, true, false}, Direction::kSynthesis, b);
   sums_.assign(half(row, false).size(), 0);
   addRow(false, kJointPlaces);
   addColumns({row, false, false}, Direction::kAnalysis, sums_);
-}
-
-/// a += [Ux (b - Uy d) + Uy c]
-void JointLifting::corners(uint32_t row) {
-  sumCorners(row);
-  if (!block_.fractions_out) return roundCorners(row);
-  const bool analyses = direction_ == Direction::kAnalysis;
-  const std::span<int32_t> a = half(row, false);
-  const int shift = kJointPlaces - placesIn();
-  for (size_t i = 0; i < a.size(); ++i) {
-    const auto value = static_cast<uint32_t>(a[i]), sum = static_cast<uint32_t>(sums_[i]);
-    a[i] = analyses ? static_cast<int32_t>((value << shift) + sum)
-                    : static_cast<int32_t>(value - sum) >> shift;
-  }
-}
-
-void JointLifting::findFractions(uint32_t first_row, uint32_t end_row, std::span<uint8_t> low) {
-  const size_t columns = half(0, false).size();
-  for (uint32_t row = first_row; row < end_row; ++row) {
-    if (row % 2 != 0) continue;
-    sumCorners(row);
-    uint8_t* const to = low.data() + row / 2 * columns;
-    for (size_t i = 0; i < columns; ++i)
-      to[i] = static_cast<uint8_t>((fractionAt({row, false}, i) + static_cast<uint32_t>(sums_[i])) &
-                                   kFraction);
-  }
-}
-
-uint32_t JointLifting::fractionAt(HalfRow of, size_t index) const {
-  if (!block_.fractions_in) return 0;
-  return block_.fractions[size_t{of.row} * block_.extent.width + 2 * index + of.high];
+  roundCorners(row);
 }
 
 std::span<int32_t> JointLifting::half(uint32_t row, bool high) const {
@@ -150,21 +118,13 @@ void JointLifting::addRow(bool predicts, int places) {
 /// Adds what a step along the columns makes of whole numbers, or takes it off.
 void JointLifting::addColumns(const Columns& of, Direction direction,
                               std::span<int32_t> sums) const {
-  const LiftingRule rule = ruleOf(of.predicts, of.predicts ? placesIn() : 0, direction);
+  const LiftingRule rule = ruleOf(of.predicts, 0, direction);
   const Rows<int32_t> rows{half(0, of.high).data(), block_.pitch, block_.extent.height,
                            static_cast<uint32_t>(sums.size())};
   liftStep(sums.data(), rows.sources(of.row, rule.step.pairs), rule, sums.size());
 }
 
-/// Adds the brackets to values, or takes them off, rounded to whole numbers.
-void JointLifting::round(HalfRow of) const {
-  const std::span<int32_t> target = half(of.row, of.high);
-  if (block_.fractions_in) return roundFractions(of, 0);
-  addRounded(kJointPlaces, target);
-}
-
 void JointLifting::roundCorners(uint32_t row) const {
-  if (block_.fractions_in) return roundFractions({row, false}, block_.doubled ? 1 : 0);
   const std::span<int32_t> a = half(row, false);
   if (!block_.doubled) return addRounded(kJointPlaces, a);
   if (direction_ == Direction::kAnalysis) doubleValues(a);
@@ -172,8 +132,7 @@ void JointLifting::roundCorners(uint32_t row) const {
   if (direction_ == Direction::kSynthesis) halveValues(a);
 }
 
-/// Where samples are whole numbers: adds the brackets, or takes them off, rounded at a binary
-/// place.
+/// Adds the brackets, or takes them off, rounded at a binary place.
 void JointLifting::addRounded(int places, std::span<int32_t> target) const {
   const uint32_t half = 1u << (places - 1);
   const uint32_t sign = direction_ == Direction::kAnalysis ? 0 : ~0u;  // -c is ~c + 1
@@ -181,31 +140,6 @@ void JointLifting::addRounded(int places, std::span<int32_t> target) const {
     const auto sum = static_cast<int32_t>(static_cast<uint32_t>(sums_[i]) + half) >> places;
     target[i] = static_cast<int32_t>(static_cast<uint32_t>(target[i]) +
                                      (static_cast<uint32_t>(sum) ^ sign) - sign);
-  }
-}
-
-/// Where samples have fractions, that is n + r with a whole number n and r sixteenths: the analysis
-/// makes of each a whole coefficient n + [r + s], where s is the sum of the brackets and [ ]
-/// rounds, or 2 n + [2 (r + s)] if the level doubles its low band. The synthesis finds n again,
-/// because decoders know r (findFractions()) and s before they come to the sample.
-void JointLifting::roundFractions(HalfRow of, int doublings) const {
-  const int places = kJointPlaces - doublings;
-  const std::span<int32_t> target = half(of.row, of.high);
-  const auto moved = [places](uint32_t sixteenths) {
-    const uint32_t half = 1u << (places - 1);
-    return static_cast<int32_t>(sixteenths + half) >> places;
-  };
-  for (size_t i = 0; i < target.size(); ++i) {
-    const auto value = static_cast<uint32_t>(target[i]), sum = static_cast<uint32_t>(sums_[i]);
-    if (direction_ == Direction::kAnalysis) {
-      target[i] = moved(value + sum);
-      continue;
-    }
-    const uint32_t fraction = fractionAt(of, i);
-    const uint32_t left = value - static_cast<uint32_t>(moved(sum + fraction));
-    const int32_t n =
-        doublings > 0 ? halved(static_cast<int32_t>(left)) : static_cast<int32_t>(left);
-    target[i] = static_cast<int32_t>((static_cast<uint32_t>(n) << kJointPlaces) + fraction);
   }
 }
 

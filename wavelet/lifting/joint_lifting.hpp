@@ -12,11 +12,6 @@
 // Each line reads what the lines before it have left, so that the lines undo each other backwards.
 // In the brackets values have kJointPlaces binary places, to which every product of P or U is
 // rounded; the sum is rounded to a whole number. Without roundings that is the separable transform.
-//
-// A level may leave a unrounded, with kJointPlaces binary places, to the next (it *carries* the
-// fractions): a = a + (...). The next level splits numbers n + r of which the inverse knows the
-// fraction r before it knows n, because it is that of (...), which b, c and d make. Its brackets
-// count r, and rounding them rounds everything that the coefficient has come through.
 #pragma once
 
 #include <array>
@@ -39,14 +34,9 @@ bool liftsJointly(FilterId id);
 /// low half of each row lies before the high half.
 struct JointBlock {
   int32_t* first;
-  size_t pitch;               ///< from one row to the next, in values
-  Extent extent;              ///< two samples or more in each direction
-  bool doubled;               ///< a becomes 2 a + [2 (...)]: coarser levels then round half as much
-  bool fractions_in = false;  ///< samples have kJointPlaces binary places; what is coded has none
-  bool fractions_out = false;  ///< a has them
-  /// With fractions_in, the synthesis needs the fractions of the samples, row by row, in their
-  /// order.
-  std::span<const uint8_t> fractions = {};
+  size_t pitch;   ///< from one row to the next, in values
+  Extent extent;  ///< two samples or more in each direction
+  bool doubled;   ///< a becomes 2 a + [2 (...)]: coarser levels then round half as much
 };
 
 /// What analysis does, in this order; synthesis does it backwards.
@@ -65,10 +55,6 @@ class JointLifting {
 
   void run(JointStep step, uint32_t first_row, uint32_t end_row);
 
-  /// What fractions the low band of a level has that carries them, for some of its rows: of the
-  /// coefficients of the block, before the synthesis.
-  void findFractions(uint32_t first_row, uint32_t end_row, std::span<uint8_t> low);
-
   static std::array<JointStep, 4> steps(Direction direction);
 
  private:
@@ -77,29 +63,19 @@ class JointLifting {
     uint32_t row;
     bool high, predicts;
   };
-  /// The values of a row at low or at high places.
-  struct HalfRow {
-    uint32_t row;
-    bool high;
-  };
 
   void orderHalves(uint32_t row);
   void centres(uint32_t row);
   void rightSides(uint32_t row);
   void lowerSides(uint32_t row);
   void corners(uint32_t row);
-  void sumCorners(uint32_t row);
 
-  int placesIn() const { return block_.fractions_in ? kJointPlaces : 0; }
-  uint32_t fractionAt(HalfRow of, size_t index) const;
   std::span<int32_t> half(uint32_t row, bool high) const;
   LiftingRule ruleOf(bool predicts, int places, Direction direction) const;
   void addRow(bool predicts, int places);
   void addColumns(const Columns& of, Direction direction, std::span<int32_t> sums) const;
-  void round(HalfRow of) const;
   void roundCorners(uint32_t row) const;
   void addRounded(int places, std::span<int32_t> target) const;
-  void roundFractions(HalfRow of, int doublings) const;
 
   JointBlock block_;
   LiftingFilter filter_;

@@ -27,6 +27,10 @@ TETRAKIS_AVX2 inline __m256i load(const int32_t* from) {
   return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
 }
 
+TETRAKIS_AVX2 inline void store(__m256i values, int32_t* to) {
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), values);
+}
+
 /// Each weight in all places, 32 bits for sums that wrap, 16 bits for exact ones; and what every
 /// sum starts with.
 struct Constants {
@@ -75,6 +79,9 @@ TETRAKIS_AVX2 inline __m256i exactChange(const LiftingSources& from, const Const
   return _mm256_add_epi32(_mm256_sll_epi32(high_sum, left), _mm256_sra_epi32(low_sum, shift));
 }
 
+/// count: kLanes or more. The last vector ends with the last target, and so begins with targets of
+/// the one before where these do not fill whole vectors; it is worked out while they are as they
+/// were.
 template <size_t kPairs, bool kWide>
 TETRAKIS_AVX2 void lift(int32_t* target, const LiftingSources& sources, const LiftingRule& rule,
                         size_t count) {
@@ -83,12 +90,16 @@ TETRAKIS_AVX2 void lift(int32_t* target, const LiftingSources& sources, const Li
   const __m128i shift = _mm_cvtsi32_si128(rule.shift);
   // -c is ~c + 1.
   const __m256i sign = _mm256_set1_epi32(rule.direction == Direction::kAnalysis ? 0 : -1);
-  for (size_t j = 0; j < count; j += kLanes) {
+  const auto lifted = [&](size_t j) TETRAKIS_AVX2 {
     const __m256i change = kWide ? exactChange<kPairs>(from, constants, shift, j)
                                  : wrappedChange<kPairs>(from, constants, shift, j);
     const __m256i value = _mm256_add_epi32(load(target + j), _mm256_xor_si256(change, sign));
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(target + j), _mm256_sub_epi32(value, sign));
-  }
+    return _mm256_sub_epi32(value, sign);
+  };
+  const size_t last = count - kLanes;
+  const __m256i end = lifted(last);
+  for (size_t j = 0; j < last; j += kLanes) store(lifted(j), target + j);
+  store(end, target + last);
 }
 
 template <bool kWide>
@@ -111,11 +122,10 @@ void liftPairs(int32_t* target, const LiftingSources& sources, const LiftingRule
 size_t liftStepVectors(int32_t* target, const LiftingSources& sources, const LiftingRule& rule,
                        size_t count) {
   static const bool supported = __builtin_cpu_supports("avx2");
-  if (!supported) return 0;
-  const size_t whole = count - count % kLanes;
-  rule.wide ? liftPairs<true>(target, sources, rule, whole)
-            : liftPairs<false>(target, sources, rule, whole);
-  return whole;
+  if (!supported || count < kLanes) return 0;
+  rule.wide ? liftPairs<true>(target, sources, rule, count)
+            : liftPairs<false>(target, sources, rule, count);
+  return count;
 }
 
 }  // namespace tetrakis::inline lifting

@@ -18,15 +18,8 @@
 namespace tetrakis::inline lifting {
 
 /// Which filter of the menu. The numbers stand in stream headers.
-enum class FilterId : uint8_t {
-  kShort = 0,
-  kSixTap = 1,
-  kOrthogonal = 2,
-  kLong = 3,
-  kQuiet = 4,
-  kSmooth = 5
-};
-inline constexpr int kFilters = 6;
+enum class FilterId : uint8_t { kShort = 0, kSixTap = 1, kQuiet = 2, kLong = 3, kSmooth = 4 };
+inline constexpr int kFilters = 5;
 
 inline constexpr size_t kMaxPairs = 5;
 

@@ -13,10 +13,10 @@ PlaneSynthesis::PlaneSynthesis(const WaveletSpec& spec, const Pyramid& pyramid, 
   assert(level >= 0 && level <= pyramid.levels());
 }
 
-/// The mask of what the finest level puts together, or the fractions of carried low bands; of each
-/// row or column that is lifted, its halves and their masks, on every thread.
+/// The mask of what the finest level puts together; of each row or column that is lifted, its
+/// halves and their masks, on every thread.
 uint64_t PlaneSynthesis::workBytes(uint32_t threads, bool masked) const {
-  return (masked ? coefficients() : coefficients() / 2) +
+  return (masked ? coefficients() : 0) +
          kLiftingBytes * pyramid_->plane().width * std::max(threads, 1u);
 }
 
@@ -26,7 +26,7 @@ std::span<int32_t> PlaneSynthesis::row(const Subband& subband, uint32_t row) {
 }
 
 void PlaneSynthesis::put(const Band& band, int fraction_bits, const BandPart& part) {
-  if (!needs(part) || part.shape().empty()) return;
+  if (!needs(part) || !band.hasCells()) return;
   assert(values_.size() == coefficients());
   const Subband& subband = pyramid_->subbands()[part.subband];
   const Reconstruction values(band, fraction_bits);
@@ -34,11 +34,19 @@ void PlaneSynthesis::put(const Band& band, int fraction_bits, const BandPart& pa
     values.row(y, row(subband, part.row + y).subspan(part.column, part.columns).data());
 }
 
-std::vector<int32_t> PlaneSynthesis::run(uint32_t threads, bool rounds) {
-  inverseWavelet(spec_, *pyramid_, values_, {level_, rounds, threads});
+std::vector<int32_t> PlaneSynthesis::run(uint32_t threads) {
+  inverseWavelet(spec_, *pyramid_, values_, {level_, threads});
   normalise();
   values_.resize(thin(*pyramid_, level_, std::span(values_)));
   return std::move(values_);
+}
+
+std::vector<int32_t> PlaneSynthesis::run(uint32_t threads, SynthesisMemory& memory) {
+  if (memory.coefficients != values_) {
+    memory.coefficients = values_;
+    memory.samples = run(threads);
+  }
+  return memory.samples;
 }
 
 /// Takes the gain of the finer levels out of the low band.

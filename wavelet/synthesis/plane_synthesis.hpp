@@ -17,6 +17,11 @@
 
 namespace tetrakis::inline synthesis {
 
+/// What run() leaves to that of the same plane with other coefficients. It is empty at first.
+struct SynthesisMemory {
+  std::vector<int32_t> coefficients, samples;
+};
+
 /// The functions are those of ViewSynthesis (view_synthesis.hpp), which says what they do.
 class PlaneSynthesis {
  public:
@@ -35,7 +40,9 @@ class PlaneSynthesis {
     return lies_in_low ? subband.height : 0;
   }
   std::span<int32_t> row(const Subband& subband, uint32_t row);
-  std::vector<int32_t> run(uint32_t threads, bool rounds);
+  std::vector<int32_t> run(uint32_t threads);
+  /// The same in no time where the coefficients are those of the call before.
+  std::vector<int32_t> run(uint32_t threads, SynthesisMemory& memory);
 
  private:
   void normalise();

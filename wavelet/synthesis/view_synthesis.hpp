@@ -57,10 +57,14 @@ class ViewSynthesis {
     return std::visit([&](auto& kernel) { return kernel.row(subband, row); }, kernel_);
   }
 
-  /// Returns the samples of the view, row by row. Those that do not exist may be anything. rounds:
-  /// as in inverseWavelet(). Called once, at the end.
-  std::vector<int32_t> run(uint32_t threads, bool rounds) {
-    return std::visit([&](auto& kernel) { return kernel.run(threads, rounds); }, kernel_);
+  /// Returns the samples of the view, row by row. Those that do not exist may be anything. Called
+  /// once, at the end.
+  std::vector<int32_t> run(uint32_t threads) {
+    return std::visit([&](auto& kernel) { return kernel.run(threads); }, kernel_);
+  }
+  /// memory: of this plane; no view is a window.
+  std::vector<int32_t> run(uint32_t threads, SynthesisMemory& memory) {
+    return std::get<PlaneSynthesis>(kernel_).run(threads, memory);
   }
 
  private:

@@ -11,14 +11,6 @@
 
 namespace tetrakis::inline synthesis {
 
-namespace {
-
-/// How far around a value of a low band the coefficients lie that make its fraction, in places of
-/// the low band.
-constexpr uint32_t kFractionReach = kMaxPairs;
-
-}  // namespace
-
 /// A sample needs the places within the filter's reach; what the block's own ends do to the filter
 /// stays outside of `needed`. Where the block ends with the plane both are mirrored alike.
 WindowSynthesis::Axis WindowSynthesis::axisOf(Range needed, bool splits, uint32_t size,
@@ -35,7 +27,6 @@ WindowSynthesis::WindowSynthesis(const WaveletSpec& spec, const Pyramid& pyramid
     : spec_(spec),
       pyramid_(&pyramid),
       window_(window),
-      carried_(carriedTo(spec, pyramid)),
       ll_x_{window.x, window.x + window.width},
       ll_y_{window.y, window.y + window.height} {
   assert(window.isInside(pyramid.plane()));
@@ -48,24 +39,6 @@ WindowSynthesis::WindowSynthesis(const WaveletSpec& spec, const Pyramid& pyramid
     ll_x_ = block.x.low;
     ll_y_ = block.y.low;
     levels_.push_back(std::move(block));
-  }
-  reachFractions();
-}
-
-/// The fractions of the samples in the block of a level are made of finer coefficients, beyond the
-/// finer blocks: these grow.
-void WindowSynthesis::reachFractions() {
-  const auto around = [](const Axis& coarser, uint32_t size) {
-    const uint32_t begin =
-        2 * (coarser.block.begin - std::min(coarser.block.begin, kFractionReach));
-    const uint32_t end = std::min(size, 2 * (coarser.block.end + kFractionReach));
-    return Axis{{begin, end}, {begin / 2, (end + 1) / 2}, {begin / 2, end / 2}};
-  };
-  for (int level = carried_ - 1; level >= 1; --level) {
-    const Extent whole = pyramid_->low(level - 1).extent;
-    Level& grown = levels_[static_cast<size_t>(level - 1)];
-    grown.x = around(at(level + 1).x, whole.width);
-    grown.y = around(at(level + 1).y, whole.height);
   }
 }
 
@@ -81,8 +54,7 @@ uint64_t WindowSynthesis::coefficients() const {
 }
 
 /// The largest part that run() takes out of a block for the next level, or for the window; the mask
-/// of the largest block, or the smaller fractions of carried low bands; of each row or column that
-/// is lifted, its halves and their masks.
+/// of the largest block; of each row or column that is lifted, its halves and their masks.
 uint64_t WindowSynthesis::workBytes(uint32_t, bool masked) const {
   constexpr uint64_t kAround = 1024;  // what a filter reaches beyond a row, and more
   uint64_t largest_block = 0, largest_part = window_.extent().samples();
@@ -91,7 +63,7 @@ uint64_t WindowSynthesis::workBytes(uint32_t, bool masked) const {
     largest_part = std::max<uint64_t>(largest_part, level.low().extent().samples());
   }
   return sizeof(int32_t) * largest_part + kLiftingBytes * (window_.width + kAround) +
-         (masked || carried_ > 0 ? largest_block : 0);
+         (masked ? largest_block : 0);
 }
 
 WindowSynthesis::Target WindowSynthesis::targetOf(const Subband& subband) const {
@@ -115,7 +87,7 @@ bool WindowSynthesis::needs(const BandPart& part) const {
 }
 
 void WindowSynthesis::put(const Band& band, int fraction_bits, const BandPart& part) {
-  if (!needs(part)) return;
+  if (!needs(part) || !band.hasCells()) return;
   const Subband& subband = pyramid_->subbands()[part.subband];
   const Target target = targetOf(subband);
   const Reconstruction values(band, fraction_bits);
@@ -139,14 +111,9 @@ std::span<int32_t> WindowSynthesis::row(const Subband& subband, uint32_t row) {
   return {valuesOf(subband) + target.index(target.rows.begin + row), target.columns.size()};
 }
 
-/// The part of the low band of a level that the levels above it work out.
-Window WindowSynthesis::lowOf(int level) const {
-  return level < carried_ ? at(level + 1).block() : at(level).low();
-}
-
 void WindowSynthesis::copyLow(const std::vector<int32_t>& low, int number) {
   Level& level = levels_[static_cast<size_t>(number - 1)];
-  const Window part = lowOf(number);
+  const Window part = level.low();
   const size_t width = level.x.block.size();
   const size_t pitch = level.y.split() ? 2 * width : width;
   assert(low.size() == part.extent().samples() && part.x >= level.x.low.begin);
@@ -156,32 +123,12 @@ void WindowSynthesis::copyLow(const std::vector<int32_t>& low, int number) {
     std::copy_n(low.data() + row * part.width, part.width, first + row * pitch);
 }
 
-/// [l]: of the low band of level l, as far as the block of level l + 1 reaches.
-std::vector<std::vector<uint8_t>> WindowSynthesis::findFractions() {
-  std::vector<std::vector<uint8_t>> found(static_cast<size_t>(std::max(carried_, 1)));
-  for (int number = 1; number < carried_; ++number) {
-    Level& level = levels_[static_cast<size_t>(number - 1)];
-    const std::vector<uint8_t> low =
-        LevelTransform(spec_, number, Direction::kSynthesis)
-            .lowFractions(level.split(),
-                          {number > 1, true, found[static_cast<size_t>(number - 1)]});
-    Window wanted = at(number + 1).block();
-    wanted.x -= level.x.low.begin;
-    wanted.y -= level.y.low.begin;
-    found[static_cast<size_t>(number)] =
-        slice(std::span<const uint8_t>(low), level.low().extent(), {0, wanted});
-  }
-  return found;
-}
-
 std::vector<uint8_t> WindowSynthesis::maskOf(int level) const {
-  if (pyramid_->valid().all()) return {};
+  if (pyramid_->allExist()) return {};
   return pyramid_->splitMask(level - 1, at(level).block());
 }
 
-std::vector<int32_t> WindowSynthesis::run(uint32_t, bool rounds) {
-  const bool carries = rounds && carried_ > 0;
-  const auto fractions = carries ? findFractions() : std::vector<std::vector<uint8_t>>();
+std::vector<int32_t> WindowSynthesis::run(uint32_t) {
   std::vector<int32_t> low = std::move(ll_);
   std::optional<HeldLadder> ladder;
   if (!pyramid_->held().none()) ladder.emplace(spec_, *pyramid_);
@@ -196,11 +143,9 @@ std::vector<int32_t> WindowSynthesis::run(uint32_t, bool rounds) {
     SplitBlock whole = level.split();
     whole.existing = mask;
     whole.held = held ? &*held : nullptr;
-    Carrying carrying{carries && number > 1 && number <= carried_, carries && number < carried_};
-    if (carrying.in) carrying.fractions = fractions[static_cast<size_t>(number - 1)];
-    LevelTransform(spec_, number, Direction::kSynthesis).run(whole, carrying);
+    LevelTransform(spec_, number, Direction::kSynthesis).run(whole);
     // What the next finer level wants of it, or the window.
-    Window wanted = number > 1 ? lowOf(number - 1) : window_;
+    Window wanted = number > 1 ? at(number - 1).low() : window_;
     wanted.x -= block.x;
     wanted.y -= block.y;
     low = slice(std::span<const int32_t>(level.values), block.extent(), {0, wanted});

@@ -30,7 +30,7 @@ class WindowSynthesis {
   uint32_t rows(const Subband& subband) const;
   std::span<int32_t> row(const Subband& subband, uint32_t row);
   /// Works on the calling thread alone.
-  std::vector<int32_t> run(uint32_t threads, bool rounds);
+  std::vector<int32_t> run(uint32_t threads);
 
  private:
   /// Half-open.
@@ -70,16 +70,12 @@ class WindowSynthesis {
   const Level& at(int level) const { return levels_[static_cast<size_t>(level - 1)]; }
   Target targetOf(const Subband& subband) const;
   int32_t* valuesOf(const Subband& subband);
-  void reachFractions();
   void copyLow(const std::vector<int32_t>& low, int level);
   std::vector<uint8_t> maskOf(int level) const;
-  std::vector<std::vector<uint8_t>> findFractions();
-  Window lowOf(int level) const;
 
   WaveletSpec spec_;
   const Pyramid* pyramid_;
   Window window_;
-  int carried_;                ///< carriedTo()
   std::vector<Level> levels_;  ///< [l - 1]: what level l works on
   Range ll_x_, ll_y_;
   std::vector<int32_t> ll_;

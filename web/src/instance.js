@@ -11,14 +11,17 @@ export const MESSAGE_BYTES = 400;
 /** A module counts its memory by 32 bits: of more bytes malloc would see the lower bits only. */
 const ADDRESSES = 2 ** 32;
 
+/** A page has 64 kB; so many make 1 MB. */
+const LEAST_PAGES = 16;
+
 /** What a module imports: a notice that memory grew, and an exit that only an abort calls. */
-function importsOf(module, given) {
+function importsOf(module, given, grown) {
   const imports = {};
   for (const {module: space, name} of WebAssembly.Module.imports(module)) {
     const abort = () => {
       throw new WebAssembly.RuntimeError(`aborted in ${name}`);
     };
-    const known = given[name] ?? (name.startsWith('emscripten_notify') ? () => {} : abort);
+    const known = given[name] ?? (name.startsWith('emscripten_notify') ? grown : abort);
     (imports[space] ??= {})[name] = known;
   }
   return imports;
@@ -40,8 +43,19 @@ export function failureOf(error, exhausted) {
 export class Instance {
   /** given: functions that the module imports. */
   constructor(module, given = {}) {
-    this.calls = new WebAssembly.Instance(module, importsOf(module, given)).exports;
+    const imports = importsOf(module, given, () => this.#growAhead());
+    this.calls = new WebAssembly.Instance(module, imports).exports;
     this.calls._initialize?.();
+  }
+  /**
+   * Modules grow by the pages that one allocation lacks. Engines collect garbage each time, which
+   * takes more than what the memory is for: so an eighth more comes along.
+   */
+  #growAhead() {
+    const {memory} = this.calls;
+    try {
+      memory.grow(Math.max(LEAST_PAGES, memory.buffer.byteLength / 2 ** 19));
+    } catch {}  // what the module has asked for is there
   }
   /**
    * Anew at each use: growing memory detaches the old buffer. Addresses above 2 GiB, which

@@ -6,6 +6,8 @@ import {MESSAGE_BYTES, SAMPLES} from './instance.js';
 /** Magic, version, profile, level and a varint: these tell how many bytes the header takes. */
 const MOST_BEFORE_BODY = 17;
 const BUDGET_MESH = 1;
+/** Texels that become RGBA at a time: the module has no memory for all of them beside a texture. */
+const TEXELS = 2 ** 18;
 
 /**
  * A stream that is open, as far as its bytes have come. It decodes on from where it was when more
@@ -167,15 +169,20 @@ export class Opened {
   }
   rgba(info) {
     const {instance} = this, count = info.textureWidth * info.textureHeight;
-    const bytes = count * info.textureChannels * SAMPLES[info.textureSample].BYTES_PER_ELEMENT;
-    return instance.with(bytes, (texels) => {
+    const texelBytes = info.textureChannels * SAMPLES[info.textureSample].BYTES_PER_ELEMENT;
+    const bytes = count * texelBytes, rgba = new Uint8ClampedArray(4 * count);
+    instance.with(bytes, (texels) => {
       this.check(instance.calls.tks_decode_texture(this.decoder, texels, bytes));
-      return instance.with(4 * count, (out) => {
-        instance.calls.web_rgba(texels, out, count, info.textureChannels, info.textureSample,
-          Number(info.textureOpaque), info.textureWhiteLevel);
-        return instance.copy(Uint8ClampedArray, out, 4 * count);
+      instance.with(4 * TEXELS, (out) => {
+        for (let first = 0; first < count; first += TEXELS) {
+          const some = Math.min(TEXELS, count - first);
+          instance.calls.web_rgba(texels + first * texelBytes, out, some, info.textureChannels,
+            info.textureSample, Number(info.textureOpaque), info.textureWhiteLevel);
+          rgba.set(instance.view(Uint8ClampedArray, out, 4 * some), 4 * first);
+        }
       });
     });
+    return rgba;
   }
 
   /** tks_mesh at `out`: two counts, three addresses. */

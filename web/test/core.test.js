@@ -582,6 +582,26 @@ test('a decoder that goes on gives what one that begins anew gives, forth and ba
   }
 });
 
+test('memory of a module grows in few pieces', async () => {
+  const {Instance} = await import('../src/instance.js');
+  const instance = new Instance(await compiled()), sizes = new Set();
+  for (let i = 0; i < 1000; ++i) {
+    instance.allocate(2 ** 16);
+    sizes.add(instance.calls.memory.buffer.byteLength);
+  }
+  assert.ok(Math.max(...sizes) > 1000 * 2 ** 16 && sizes.size < 30, `${sizes.size} sizes`);
+});
+
+test('a texture that becomes RGBA in pieces is whole', async () => {
+  const width = 700, height = 400;
+  const data = new Uint8ClampedArray(4 * width * height)
+    .map((_, i) => (i % 4 === 3 ? 255 : (i >> 2) % width + (i & 3) * 40));
+  const terrain = await open(await encode({texture: {data, width, height}}));
+  const {texture} = await terrain.decode();
+  assert.deepEqual(texture.data, data);
+  terrain.dispose();
+});
+
 test('bytes that came in many pieces are given to the decoder at once', async (t) => {
   const {Decoder} = await import('../src/stream_decoder.js');
   const {Opened} = await import('../src/opened.js');

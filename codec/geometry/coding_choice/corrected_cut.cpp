@@ -115,9 +115,11 @@ Corrected correct(const HeightSteps& steps, const DecodedGeometry& decoded, int3
 DecodedGeometry CorrectedCut::decoded(uint64_t bytes) {
   const auto longer = known_.upper_bound(bytes);
   TrackMemory memory = longer == known_.begin() ? TrackMemory() : std::prev(longer)->second;
-  DecodedGeometry geometry = decodeCoefficients(
-      header_, {std::span(coefficients_.codeword).first(bytes)},
-      {steps_.valid, flat_.held(), steps_.lifting(header_.extent()).valid}, {}, {1, &memory});
+  DecodedGeometry geometry =
+      decodeCoefficients(header_, {std::span(coefficients_.codeword).first(bytes)},
+                         {sharedBits(steps_.valid, header_.extent()), flat_.held(),
+                          sharedBits(steps_.lifting(header_.extent()).valid, header_.extent())},
+                         {}, {1, &memory});
   known_[bytes] = std::move(memory);
   return geometry;
 }

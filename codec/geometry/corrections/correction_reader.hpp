@@ -9,6 +9,8 @@
 
 namespace tetrakis::inline corrections {
 
+/// Decoder: a RangeDecoder, or what stands in its place.
+template <class Decoder = RangeDecoder>
 class CorrectionReader {
  public:
   /// codeword: any prefix of one; outlives the reader.
@@ -19,9 +21,10 @@ class CorrectionReader {
   bool high(AdaptiveBit& model, int32_t, int) { return decoder_.decode(model); }
   bool low(int32_t, int) { return decoder_.decodeEven(); }
   bool stopped() const { return decoder_.exhausted(); }
+  const Decoder& decoder() const { return decoder_; }
 
  private:
-  RangeDecoder decoder_;
+  Decoder decoder_;
 };
 
 }  // namespace tetrakis::inline corrections

@@ -13,12 +13,13 @@
 
 namespace tetrakis::inline drawn_heights {
 
-/// Decodes the vertices at multiples of 2^level alone. codeword: any prefix of that of a geometry
-/// with header.drawn. valid: of the whole plane; empty: all are valid. Safe on any bytes.
+/// Decodes what a view shows. Of a level only its vertices are decoded; for a window all are, but
+/// only those that it needs get heights. codeword: any prefix of that of a geometry with
+/// header.drawn. valid: of the whole plane. Safe on any bytes.
 DecodedGeometry decodeDrawnHeights(const GeometryHeader& header, std::span<const uint8_t> codeword,
-                                   const std::vector<uint8_t>& valid, int level);
+                                   const SharedBits& valid, const View& view);
 
-/// What a surface shows. valid: of its plane, as above.
-DecodedGeometry decodedHeights(const DrawnSurface& surface, std::vector<uint8_t> valid);
+/// What a surface shows.
+DecodedGeometry decodedHeights(const DrawnSurface& surface);
 
 }  // namespace tetrakis::inline drawn_heights

@@ -40,7 +40,8 @@ std::optional<NumberedSteps> number(const PlaneView<const int32_t>& heights) {
 }
 
 double squaredError(const PlaneView<const int32_t>& heights, const DrawnSurface& surface) {
-  const std::vector<int32_t> shown = surface.heights();
+  std::vector<int32_t> shown(surface.extent.samples());
+  surface.fill(shown.data());
   const double unit = portable::exp2(-DrawnSurface::kFractionBits);
   double squares = 0;
   for (size_t i = 0; i < shown.size(); ++i) {
@@ -57,13 +58,15 @@ std::optional<EncodedTrack> encodeDrawnHeights(const PlaneView<const int32_t>& h
   const std::optional<NumberedSteps> numbered = number(heights);
   if (!numbered) return {};
   const Extent extent = heights.extent();
-  std::vector<DrawnIndex> indices(extent.samples(), kNoIndex);
-  const PlaneView<DrawnIndex> plane(indices, extent, heights.valid);
+  std::vector<KeptIndex> indices(extent.samples());
+  const PlaneView<KeptIndex> plane(indices, extent);
+  const SharedBits valid = sharedBits(heights.valid, extent);
   const std::vector<Level> levels = levelsOf(heights.width, heights.height);
   DrawnSteps steps;
-  const DrawnSurface surface{plane, steps, levels};
+  const DrawnSurface surface{indices, extent, valid.get(),
+                             steps,   levels, {0, 0, extent.width, extent.height}};
   DrawingEncoding<int32_t> io(*numbered, 0, [&] { return squaredError(heights, surface); });
-  DrawingPass(plane, steps, io).run(levels);
+  DrawingPass(plane, valid.get(), steps, io).run(levels);
   return io.finishTrack(GeometryHeader::kDirectPlanes);
 }
 

@@ -17,14 +17,16 @@ using HeightPrefixes = DrawingPrefixes<DrawnSteps, int32_t>;
 
 std::function<DecodedGeometry(uint64_t bytes)> prefixesOfDrawing(const GeometryHeader& header,
                                                                  std::span<const uint8_t> codeword,
-                                                                 std::vector<uint8_t> valid) {
+                                                                 Mask valid) {
   const Extent extent = header.extent();
+  const SharedBits marks = sharedBits(valid, extent);
   std::vector<Level> levels = levelsOf(extent.width, extent.height);
   const auto prefixes =
-      std::make_shared<HeightPrefixes>(codeword, extent, valid, levels, DrawnSteps());
-  return [=, levels = std::move(levels), valid = std::move(valid)](uint64_t bytes) {
-    const PlaneView<const DrawnIndex> plane(prefixes->indicesAfter(bytes), extent, valid);
-    return decodedHeights({plane, prefixes->list(), levels}, valid);
+      std::make_shared<HeightPrefixes>(codeword, extent, marks.get(), levels, DrawnSteps());
+  const Window whole{0, 0, extent.width, extent.height};
+  return [=, levels = std::move(levels)](uint64_t bytes) {
+    return decodedHeights(
+        {prefixes->indicesAfter(bytes), extent, marks.get(), prefixes->list(), levels, whole});
   };
 }
 

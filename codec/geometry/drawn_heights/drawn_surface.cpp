@@ -19,11 +19,11 @@ int32_t meanOf(int64_t sum, int n) {
 /// The heights of coarser vertices, looked at from those of one level.
 class Around {
  public:
-  Around(const Level& level, const PlaneView<const DrawnIndex>& plane, const int32_t* heights)
-      : extent_(plane.extent()), valid_(plane.valid), heights_(heights) {
+  Around(const Level& level, const DrawnSurface& surface, const int32_t* heights)
+      : extent_(surface.extent), valid_(surface.valid), heights_(heights) {
     if (level.kind == LevelKind::kRoots) return;
     roots_ = false;
-    stencil_ = stencilOf(level.kind, level.step, plane.width);
+    stencil_ = stencilOf(level.kind, level.step, extent_.width);
     step_ = level.step;
   }
 
@@ -34,7 +34,7 @@ class Around {
     const ptrdiff_t* const to = stencil_.linear.data();
     const bool inside =
         x >= step_ && y >= step_ && x + step_ < extent_.width && y + step_ < extent_.height;
-    if (inside && valid_.all())
+    if (inside && valid_ == nullptr)
       return meanOf(int64_t{at[to[0]]} + at[to[1]] + at[to[2]] + at[to[3]], kTaps);
     int64_t sum = 0, sum_of_valid = 0;
     int n = 0, n_valid = 0;
@@ -44,7 +44,8 @@ class Around {
       const int32_t height = at[to[tap]];
       sum += height;
       ++n;
-      if (!valid_[static_cast<size_t>(static_cast<ptrdiff_t>(vertex) + to[tap])]) continue;
+      if (valid_ != nullptr && !valid_->at(static_cast<uint32_t>(nx), static_cast<uint32_t>(ny)))
+        continue;
       sum_of_valid += height;
       ++n_valid;
     }
@@ -55,42 +56,36 @@ class Around {
   static constexpr int kTaps = Stencil::kRingSize[0];
 
   Extent extent_;
-  Mask valid_;
+  const BitPlane* valid_;
   const int32_t* heights_;
   bool roots_ = true;
   Stencil stencil_{};
   uint32_t step_ = 0;
 };
 
-/// Calls see(vertex, mean) for all vertices, coarse to fine; mean() is what those around make it.
-void forEachVertex(const DrawnSurface& surface, const int32_t* heights, const auto& see) {
-  for (const Level& level : surface.levels) {
-    const Around around(level, surface.indices, heights);
-    for (uint32_t row = 0; row < level.rows; ++row) {
-      const uint32_t y = level.y(row);
-      uint32_t x = level.firstX(row);
-      for (uint32_t i = 0; i < level.columns[row % 2]; ++i, x += level.pitch())
-        see(size_t{y} * surface.indices.width + x, [&] { return around.mean(x, y); });
-    }
+}  // namespace
+
+void DrawnSurface::fill(int32_t* heights) const {
+  for (const Level& level : levels) {
+    const Around around(level, *this, heights);
+    forEachVertex(level, neededOf(level, shown, extent), [&](uint32_t x, uint32_t y) {
+      const size_t vertex = size_t{y} * extent.width + x;
+      const DrawnIndex index = indices[vertex];
+      heights[vertex] = index != kNoIndex ? steps[index] << kFractionBits : around.mean(x, y);
+    });
   }
 }
 
-}  // namespace
-
-std::vector<int32_t> DrawnSurface::heights() const {
-  std::vector<int32_t> heights(indices.extent().samples());
-  forEachVertex(*this, heights.data(), [&](size_t vertex, const auto& mean) {
-    const DrawnIndex index = indices.data[vertex];
-    heights[vertex] = index != kNoIndex ? steps[index] << kFractionBits : mean();
-  });
-  return heights;
-}
-
-std::vector<uint8_t> DrawnSurface::significant(const std::vector<int32_t>& heights) const {
-  std::vector<uint8_t> marks(heights.size());
-  forEachVertex(*this, heights.data(), [&](size_t vertex, const auto& mean) {
-    marks[vertex] = indices.data[vertex] != kNoIndex && heights[vertex] != mean();
-  });
+std::vector<uint8_t> DrawnSurface::significant(const int32_t* heights) const {
+  std::vector<uint8_t> marks(shown.extent().samples());
+  for (const Level& level : levels) {
+    const Around around(level, *this, heights);
+    forEachVertex(level, shown, [&](uint32_t x, uint32_t y) {
+      const size_t vertex = size_t{y} * extent.width + x;
+      marks[size_t{y - shown.y} * shown.width + x - shown.x] =
+          indices[vertex] != kNoIndex && heights[vertex] != around.mean(x, y);
+    });
+  }
   return marks;
 }
 

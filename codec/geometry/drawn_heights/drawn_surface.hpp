@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/bit_plane.hpp"
 #include "base/plane.hpp"
 #include "codec/geometry/drawn_heights/drawn_steps.hpp"
 #include "lattice/levels.hpp"
@@ -14,19 +15,25 @@ namespace tetrakis::inline drawn_heights {
 
 /// The surface of heights of which some vertices have the index of a step.
 struct DrawnSurface {
-  PlaneView<const DrawnIndex> indices;  ///< with the mask of valid samples
+  std::span<const KeptIndex> indices;  ///< of each sample of the grid
+  Extent extent;                       ///< of the grid
+  const BitPlane* valid;               ///< null: all samples are
   const DrawnSteps& steps;
   std::span<const Level> levels;  ///< those of the grid, coarse to fine
+  Window shown;                   ///< the part that is wanted
 
-  /// heights() are in units of 2^-kFractionBits steps.
+  /// Heights are in units of 2^-kFractionBits steps.
   static constexpr int kFractionBits = 4;
 
-  /// A vertex without an index becomes the mean of the coarser vertices next to it: of those that
-  /// are valid, or if none is, of all. A root is 0. Voids get such a height as well.
-  std::vector<int32_t> heights() const;
+  bool isWhole() const { return shown.extent() == extent; }
 
-  /// 1 where a step is another than the height that its vertex would have without one.
-  std::vector<uint8_t> significant(const std::vector<int32_t>& heights) const;
+  /// Writes the heights of the part, and those that they depend on, where they lie in a grid of
+  /// heights. A vertex without an index becomes the mean of the coarser vertices next to it: of
+  /// those that are valid, or if none is, of all. A root is 0. Voids get such a height as well.
+  void fill(int32_t* heights) const;
+
+  /// Of the part, 1 where a step is another than the height that its vertex would have without one.
+  std::vector<uint8_t> significant(const int32_t* heights) const;
 };
 
 }  // namespace tetrakis::inline drawn_heights

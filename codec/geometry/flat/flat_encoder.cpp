@@ -76,7 +76,7 @@ FlatAreas FlatFinder::areas(const FlatShape& shape, const Window& window) const 
   assert(shape.least > 0 && window.isInside(extent()));
   if (none()) return {};
   std::vector<uint8_t> flat = marked(shape.least, window);
-  if (shape.reach > 0) flat = opened(std::move(flat), window.extent(), shape.reach);
+  if (shape.reach > 0) flat = opened(flat, window.extent(), shape.reach);
   NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, window.extent()));
   if (numbered.count == 0) return {};
   FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
@@ -92,12 +92,13 @@ FlatAreas FlatFinder::areas(const FlatShape& shape, const Window& window) const 
 
 std::vector<uint8_t> encodeFlatAreas(const FlatAreas& areas, Extent plane, Mask valid) {
   assert(!areas.empty() && areas.numbers.size() == plane.samples());
-  std::vector<uint8_t> flat(plane.samples()), known(plane.samples());
+  std::vector<uint8_t> flat(plane.samples());
   std::transform(areas.numbers.begin(), areas.numbers.end(), flat.begin(),
                  [](uint16_t number) { return static_cast<uint8_t>(number != 0); });
   DecisionEncoding io;
-  FlatMaskIo<DecisionEncoding> mask_io(io, valid, flat.data());
-  ValidityPass<FlatMaskIo<DecisionEncoding>>({known, plane}, mask_io).run();
+  const SharedBits valid_bits = sharedBits(valid, plane);
+  FlatMaskIo<DecisionEncoding> mask_io(io, valid_bits.get(), flat.data());
+  ValidityPass<FlatMaskIo<DecisionEncoding>>(plane, mask_io).run();
   std::vector<int32_t> heights = areas.heights;
   FlatHeightsPass<DecisionEncoding>(io).run(heights);
   std::vector<uint8_t> codeword = io.finish();

@@ -19,20 +19,25 @@
 
 namespace tetrakis::inline flat {
 
-/// The mask's side of a decision. Io: as below.
+/// The mask's side of a decision. Io: as below, and
+///   uint32_t run(AdaptiveBit&, bool answer, uint32_t most)   as of ValidityPass
 template <class Io>
 class FlatMaskIo {
  public:
   /// flat: what the encoder knows; the decoder ignores it.
-  FlatMaskIo(Io& io, Mask valid, const uint8_t* flat) : io_(io), valid_(valid), flat_(flat) {}
+  FlatMaskIo(Io& io, const BitPlane* valid, const uint8_t* flat)
+      : io_(io), valid_(valid), flat_(flat) {}
+  uint64_t asked(const SampleLine& line) const { return marksOf(valid_, line); }
   bool bit(AdaptiveBit& model, size_t sample) {
-    return valid_[sample] && io_.decide(model, flat_ != nullptr && flat_[sample] != 0);
+    return io_.decide(model, flat_ != nullptr && flat_[sample] != 0);
   }
+  uint32_t run(AdaptiveBit& model, bool flat, uint32_t most) { return io_.run(model, flat, most); }
   bool stopped() const { return io_.stopped(); }
+  uint64_t otherwise(uint64_t, uint64_t majority) const { return majority; }
 
  private:
   Io& io_;
-  Mask valid_;
+  const BitPlane* valid_;  ///< null: all are
   const uint8_t* flat_;
 };
 

@@ -9,7 +9,7 @@ namespace tetrakis::inline values {
 ValueTable decodeValueTable(std::span<const uint8_t> codeword, uint32_t values) {
   ValueTable table{std::vector<uint32_t>(values)};
   DecisionDecoding io(codeword);
-  ValueTablePass<DecisionDecoding>(io, kWordBits).run(table.words);
+  ValueTablePass<DecisionDecoding<>>(io, kWordBits).run(table.words);
   if (io.stopped()) return {};
   return table;
 }

@@ -32,7 +32,8 @@ void compareAllPrefixes(Extent extent, const std::vector<uint8_t>& valid) {
   const auto shown = prefixesOfDrawing(header, codeword, valid);
   const auto compare = [&](uint64_t bytes) {
     const DecodedGeometry of_encoder = shown(bytes);
-    const DecodedGeometry decoded = decodeDrawnHeights(header, codeword.first(bytes), valid, 0);
+    const DecodedGeometry decoded =
+        decodeDrawnHeights(header, codeword.first(bytes), sharedBits(valid, header.extent()), {});
     ASSERT_EQ(of_encoder.heights, decoded.heights) << bytes << " of " << codeword.size();
     ASSERT_EQ(of_encoder.significant, decoded.significant) << bytes;
     ASSERT_EQ(of_encoder.valid, decoded.valid) << bytes;

@@ -53,13 +53,14 @@ TEST(FlatAreas, ComeBackAndNoPrefixShowsOthers) {
         if (areas.heights.empty()) continue;
         const auto count = static_cast<uint32_t>(areas.heights.size());
         const std::vector<uint8_t> codeword = encodeFlatAreas(areas, size.extent(), valid);
-        const FlatAreas decoded = decodeFlatAreas(codeword, size.extent(), valid, count);
+        const SharedBits bits = sharedBits(valid, size.extent());
+        const FlatAreas decoded = decodeFlatAreas(codeword, size.extent(), bits, count);
         ASSERT_EQ(decoded.numbers, areas.numbers) << size << ", " << shape;
         ASSERT_EQ(decoded.heights, areas.heights) << size << ", " << shape;
-        EXPECT_TRUE(decodeFlatAreas(codeword, size.extent(), valid, count + 1).empty());
+        EXPECT_TRUE(decodeFlatAreas(codeword, size.extent(), bits, count + 1).empty());
         for (size_t bytes = 0; bytes < codeword.size(); bytes += 1 + codeword.size() / 20) {
           const FlatAreas some =
-              decodeFlatAreas(std::span(codeword).first(bytes), size.extent(), valid, count);
+              decodeFlatAreas(std::span(codeword).first(bytes), size.extent(), bits, count);
           ASSERT_TRUE(some.empty() || some.heights == areas.heights) << size << ", " << bytes;
         }
       }

@@ -46,8 +46,9 @@ Coded encode(const Plane& heights, const Size& size, int bits, Purpose purpose) 
   return encode(heights, size, chooseWavelet({heights, size.extent()}, bits, purpose));
 }
 
-DecodedGeometry decode(const Coded& coded, std::vector<uint8_t> valid = {}) {
-  return decodeCoefficients(coded.header, {coded.track.codeword}, std::move(valid));
+DecodedGeometry decode(const Coded& coded, const std::vector<uint8_t>& valid = {}) {
+  return decodeCoefficients(coded.header, {coded.track.codeword},
+                            {sharedBits(valid, coded.header.extent())});
 }
 
 Plane waves(const Size& size, double amplitude) {
@@ -227,7 +228,8 @@ TEST(GeometryTrack, AnyBytesAndHeadersDecode) {
     for (uint8_t& byte : bytes) byte = static_cast<uint8_t>(random());
     std::vector<uint8_t> valid;
     if (run % 2 == 0) valid = validity(VoidShape::kSpeckle, header.width, header.height);
-    const DecodedGeometry decoded = decodeCoefficients(header, {bytes}, valid);
+    const DecodedGeometry decoded =
+        decodeCoefficients(header, {bytes}, {sharedBits(valid, header.extent())});
     EXPECT_EQ(decoded.heights.size(), size_t{header.width} * header.height);
     EXPECT_EQ(decoded.significant.size(), decoded.heights.size());
   }

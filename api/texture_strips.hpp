@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// A texture whose tracks are remembered is decoded in strips, a few rows at a time: their planes of
+// coefficients fit in caches, and a large image takes no plane of its size beside its texels.
+#pragma once
+
+#include <vector>
+
+#include "api/decoder.hpp"
+
+namespace tetrakis::inline api {
+
+/// The strips of a view of the texture, from above; the view itself where it is decoded at once.
+std::vector<View> textureStrips(const tks_decoder& decoder, const View& view);
+
+}  // namespace tetrakis::inline api

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// What heights look like behind each prefix of their corrections, for encoders that look at many:
+// all samples are corrected once.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
+
+namespace tetrakis::inline geometry {
+
+/// Returns what gives the same as decodeHeights() of the first bytes of the track behind
+/// coefficients that are whole: so many bytes of the corrections, 1 or more. track: the only one of
+/// the heights, which have corrections, as an encoder wrote it; it and the headers outlive the
+/// result. It begins its work at the first call.
+std::function<DecodedHeights(uint64_t bytes)> prefixesOfCorrections(const GeometryHeader& header,
+                                                                    const GeometryLayers& layers,
+                                                                    std::span<const uint8_t> track);
+
+}  // namespace tetrakis::inline geometry

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Samples that have a relative step, row by row, one for each that exists.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "base/plane.hpp"
+#include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/corrections/correction_coder.hpp"
+#include "codec/geometry/relative/relative_prediction.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
+#include "codec/geometry/steps/restore.hpp"
+
+namespace tetrakis::inline relative {
+
+/// What such samples are restored from.
+struct RelativeHeights {
+  const GeometryHeader& header;  ///< base and step
+  const RelativeSteps& relative;
+  PlaneView<const int32_t> plane;  ///< in units of 2^-fraction_bits steps
+  int fraction_bits;
+};
+
+/// How many multiples the sample lies beside the predicted one, to the side of the height, modulo
+/// 2^32.
+inline int32_t multiplesBeside(const RelativePrediction& prediction, double sample, double step) {
+  constexpr double kFarthest = 1 << 30;
+  const double steps = (sample - prediction.origin) / step;
+  if (std::isnan(steps)) return 0;
+  const double number = std::round(std::clamp(steps, -kFarthest, kFarthest));
+  const auto whole = static_cast<uint32_t>(static_cast<int32_t>(number));
+  const uint32_t beside = whole - static_cast<uint32_t>(prediction.nearest);
+  return static_cast<int32_t>(prediction.above ? 0u - beside : beside);
+}
+
+/// T: of the samples. Io: as of CorrectionCoder. exact(i): sample i, or anything in decoders.
+/// take(i, sample): takes these one after the other, up to the first undecided one.
+template <class T, class Io, class ExactSample, class TakeSample>
+void codeRelativeRows(const RelativeHeights& of, Io& io, const ExactSample& exact,
+                      const TakeSample& take) {
+  const auto& [header, relative, heights, fraction_bits] = of;
+  const uint32_t width = heights.width;
+  KnownMultiples known(width, relative);
+  CorrectionCoder<Io> multiples(width, kMultipleHints, io), rests(width, kRestHints, io);
+  for (uint32_t y = 0; y < heights.height; ++y) {
+    known.nextRow();
+    multiples.nextRow();
+    rests.nextRow();
+    for (uint32_t x = 0; x < width; ++x) {
+      const size_t i = size_t{y} * width + x;
+      if (!heights.valid[i]) continue;
+      const int32_t q = wholeStep(heights.data[i], fraction_bits);
+      const auto near = static_cast<double>(restore<T>(header.base, header.step, q));
+      const RelativePrediction prediction = known.predict(x, near);
+      const T truth = exact(i);
+      const int32_t beside =
+          multiples.code(x, prediction.multiple_hint,
+                         multiplesBeside(prediction, static_cast<double>(truth), relative.step));
+      if (io.stopped()) return;
+      const RoundedMultiple<T> rounded(prediction, prediction.number(beside), relative.step);
+      const int32_t rest = rests.code(x, rounded.rest_hint, rounded.restOf(truth));
+      if (io.stopped()) return;
+      const T sample = rounded.sample(rest);
+      known.put(x, rounded.multiple, rest, static_cast<double>(sample));
+      take(i, sample);
+    }
+  }
+}
+
+}  // namespace tetrakis::inline relative
