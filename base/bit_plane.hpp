@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A BitPlane holds one bit a sample, 64 samples in a word: what is to be found out of all samples
-// of a plane is found out by operations on words.
+// A BitPlane holds one bit a sample, 64 samples in a word, so that one operation on a word counts,
+// joins or moves the marks of 64 samples.
 #pragma once
 
 #include <bit>
@@ -29,7 +29,7 @@ inline uint64_t bitsOf(const uint8_t* eight) {
   return ((bytes & 0x0101010101010101) * 0x0102040810204080) >> 56;
 }
 
-/// The other way round.
+/// The inverse of bitsOf(): the lowest eight bits become a byte each, 0 or 1.
 inline void putBits(uint64_t bits, uint8_t* eight) {
   const uint64_t apart = ((bits & 0xff) * 0x0101010101010101) & 0x8040201008040201;
   const uint64_t bytes = ((apart + 0x7f7f7f7f7f7f7f7f) >> 7) & 0x0101010101010101;
@@ -76,7 +76,7 @@ class BitPlane {
   /// The bits of a word that are samples.
   uint64_t existing(uint32_t word) const { return lowBits(extent_.width - kWordBits * word); }
 
-  /// Marks what is not marked.
+  /// Marks the samples that are not marked, and unmarks the others.
   void invert() {
     for (uint32_t y = 0; y < extent_.height; ++y)
       for (uint32_t k = 0; k < words_; ++k) row(y)[k] = ~row(y)[k] & existing(k);

@@ -14,7 +14,7 @@
 
 namespace tetrakis::inline lattice {
 
-/// What vertices are in their square, by whether their column and their row are odd.
+/// Whether the column (x) and the row (y) of a vertex are odd (1) or even (0), in steps.
 struct Parity {
   uint32_t x, y;
 

@@ -13,7 +13,7 @@
 
 namespace tetrakis::inline lattice {
 
-/// Vertices of one level whose columns are alike odd or even, and their rows too.
+/// The neighbours of all vertices of one parity: where they lie, and where their marks are.
 struct RowKind {
   static constexpr size_t kNear = Stencil::kRingSize[0], kCausal = 2, kRing = Stencil::kRingSize[1],
                           kTaps = kNear + kCausal + kRing;
@@ -40,11 +40,11 @@ struct RowKind {
   }
 };
 
-/// What is known around one vertex.
+/// The neighbours of one vertex, as the contexts of masks count them.
 struct Around {
-  unsigned near = 0, causal = 0;  ///< bit patterns
-  unsigned ring = 0;              ///< how many
-  bool majority = true;           ///< what most of near are
+  unsigned near = 0, causal = 0;  ///< a bit for each neighbour: 1 is valid
+  unsigned ring = 0;              ///< how many neighbours of the ring are valid
+  bool majority = true;           ///< whether most of the near neighbours are valid
 };
 
 class RowSurroundings {

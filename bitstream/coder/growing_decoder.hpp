@@ -12,7 +12,7 @@
 
 namespace tetrakis::inline coder {
 
-/// In the place of a RangeDecoder.
+/// Has the functions of a RangeDecoder that passes call.
 class GrowingDecoder {
  public:
   /// codeword: all of it, as an encoder wrote it; outlives the decoder.

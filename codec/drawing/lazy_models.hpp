@@ -19,8 +19,7 @@ class LazyModels {
  public:
   /// count: a multiple of kTogether.
   explicit LazyModels(size_t count)
-      : room_(std::make_unique_for_overwrite<std::byte[]>(count * sizeof(AdaptiveBit))),
-        made_(count / kTogether) {
+      : room_(new std::byte[count * sizeof(AdaptiveBit)]), made_(count / kTogether) {
     assert(count % kTogether == 0);
   }
 

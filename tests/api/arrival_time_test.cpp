@@ -79,10 +79,16 @@ double secondsOf(const ManyPackets& packets, const Arrive& arrive) {
   return least;
 }
 
+/// Four times the packets take four times as long, and where time goes with their square sixteen
+/// times. Other work on the machine may disturb a trial, hardly three.
 void expectProportion(uint32_t count, bool indexed, const Arrive& arrive) {
-  const double few = secondsOf(manyPackets(count, indexed), arrive);
-  const double many = secondsOf(manyPackets(4 * count, indexed), arrive);
-  EXPECT_LT(many, 9 * few + 0.01) << few;
+  double least = 16;
+  for (int trial = 0; trial < 3 && least > 9; ++trial) {
+    const double few = secondsOf(manyPackets(count, indexed), arrive);
+    const double many = secondsOf(manyPackets(4 * count, indexed), arrive);
+    least = std::min(least, many / (few + 0.001));
+  }
+  EXPECT_LE(least, 9);
 }
 
 void putPacket(Stream& stream, const ManyPackets& packets, size_t i) {

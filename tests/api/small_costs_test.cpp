@@ -84,8 +84,8 @@ std::vector<std::pair<std::string, tks_encode_options>> targets() {
           {"within 0.5", within(0.5)}};
 }
 
-/// In units of an ordinary terrain, whose time was measured a moment ago. Where that is too much, a
-/// disturbed machine gets another two chances.
+/// The time of an encoding in units of an ordinary terrain, whose time was measured a moment ago.
+/// Where it is `most` or more, other work may have disturbed it: it is measured up to twice again.
 double costOf(const SmallInput& input, const tks_encode_options& options, double ordinary,
               double most) {
   const Raster* const heights = input.heights ? &*input.heights : nullptr;

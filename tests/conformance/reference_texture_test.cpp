@@ -37,14 +37,14 @@ TEST(Reference, AgreesOnTexturesOfAllShapes) {
 /// Drawings whole, cut and damaged.
 TEST(Reference, AgreesOnDrawnTextures) {
   constexpr uint32_t kSizes[][2] = {{9, 2}, {1, 60}, {33, 33}, {64, 21}};
-  for (uint32_t trial = 0; trial < 32; ++trial) {
-    const auto& size = kSizes[trial % 4];
+  for (uint32_t trial = 0; trial < 16; ++trial) {
+    const auto& size = kSizes[(trial + trial / 4) % 4];
     const samples::Recipe recipe{
-        Pattern::kSteps, size[0], size[1], 1 + trial / 4 % 4, trial < 16 ? TKS_U8 : TKS_U16, trial};
+        Pattern::kSteps, size[0], size[1], 1 + trial % 4, trial < 8 ? TKS_U8 : TKS_U16, trial};
     SCOPED_TRACE(nameOf(recipe));
     const Raster image = make(recipe);
     Bytes stream = encode(nullptr, &image, lossless());
-    expectAgreementOnPrefixes(stream, 40);
+    expectAgreementOnPrefixes(stream, 30);
     const auto header = static_cast<size_t>(Stream(stream).info().header_bytes);
     for (uint32_t k = 0; k < 12 && stream.size() > header; ++k) {
       const uint32_t h = samples::hash(trial, k, 31);

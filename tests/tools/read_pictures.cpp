@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// read_pictures: reads files as `tetrakis encode` does, without encoding them, which takes a hundred
-// times as long. A line of standard input, "texture NAME" or "heights NAME", asks for a file;
-// t.tif gets its samples. A line of standard output answers: the status (0 if the file was read)
-// and a sentence.
+// read_pictures: reads files as `tetrakis encode` does, without encoding them, which takes a
+// hundred times as long. A line of standard input, "texture NAME" or "heights NAME", asks for a
+// file; t.tif gets its samples. A line of standard output answers: the status (0 if the file was
+// read) and a sentence.
 #include <iostream>
 
 #include "tools/files/files.hpp"

@@ -47,7 +47,7 @@ class Interpolation {
     for (size_t i = 0; i < kTaps; ++i)
       taps[i] = stencil.linear[i] * static_cast<ptrdiff_t>(kChannels);
     const uint32_t step = level_.step;
-    const auto [width, height] = image_.extent;
+    const uint32_t width = image_.extent.width, height = image_.extent.height;
     forEachTexel([&, taps](uint32_t x, uint32_t y, size_t texel, uint16_t* to) {
       if (known(texel)) return;
       if (x >= step && y >= step && x + step < width && y + step < height) {

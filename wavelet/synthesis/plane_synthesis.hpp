@@ -41,7 +41,8 @@ class PlaneSynthesis {
   }
   std::span<int32_t> row(const Subband& subband, uint32_t row);
   std::vector<int32_t> run(uint32_t threads);
-  /// The same in no time where the coefficients are those of the call before.
+  /// Returns what memory holds, where the coefficients are those of the call that filled it; else
+  /// fills it.
   std::vector<int32_t> run(uint32_t threads, SynthesisMemory& memory);
 
  private:

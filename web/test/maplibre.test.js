@@ -215,7 +215,7 @@ test('refining ends: the map is idle, without the source, removed, never idle', 
     const map = new Drawing(name === 'without' ? {} : {dem: source.heights}, draws);
     const refining = source.refine(map);
     if (name === 'removed') setTimeout(() => map.fire('remove'), 50);
-    const late = new Promise((_, reject) => setTimeout(reject, 9000, new Error(name)).unref());
+    const late = new Promise((_, reject) => setTimeout(reject, 30000, new Error(name)).unref());
     await Promise.race([refining, late]);
     assert.equal(map.refreshed, name === 'without' ? 0 : 1);
     assert.ok(source.terrain.loaded.bytes === input.length, name);

@@ -109,8 +109,8 @@ double degreesIn(double radians) {
 }
 
 double epsgAngle(uint16_t code) {
-  constexpr uint16_t kDegree = 9102;
-  if (code == kDegree) return 1;
+  constexpr uint16_t kDegreeCode = 9102;
+  if (code == kDegreeCode) return 1;
   const auto unit = databaseUnit(code, "angular");
   return unit ? degreesIn(unit->metres) : 0;
 }
