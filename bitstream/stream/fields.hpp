@@ -8,6 +8,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -40,7 +41,7 @@ class FieldWriter {
   void zigzag(const char*, int64_t& value, int64_t) {
     put((static_cast<uint64_t>(value) << 1) ^ static_cast<uint64_t>(value >> 63));
   }
-  void f64(const char*, double& value) {
+  void f64(const char*, double& value, bool = false) {
     const auto bits = std::bit_cast<uint64_t>(value);
     const int zeros = std::countr_zero(bits) / 8;
     bytes.push_back(static_cast<uint8_t>(8 - zeros));
@@ -65,7 +66,7 @@ class FieldWriter {
   }
   /// Behind the last part that visit() asks for.
   void endParts() {}
-  /// Fails if a part is missing, or there is one too many.
+  /// Of readers: fails unless that holds.
   void require(const char*, bool) {}
   bool ok() const { return true; }
   void put(uint64_t value) {
@@ -109,12 +110,15 @@ class FieldReader {
       value = signed_raw;
     }
   }
-  void f64(const char* name, double& value) {
+  /// No NaN; infinite only where that is allowed.
+  void f64(const char* name, double& value, bool infinite = false) {
     int size = 0;
     accept(name, next(), 0, 8, size);
     uint64_t bits = 0;
     for (int i = 8 - size; i < 8; ++i) bits |= uint64_t{next()} << (8 * i);
-    if (ok()) value = std::bit_cast<double>(bits);
+    const auto read = std::bit_cast<double>(bits);
+    require(name, infinite ? !std::isnan(read) : std::isfinite(read));
+    if (ok()) value = read;
   }
   void text(const char* name, std::string& value) {
     const uint64_t size = take();
@@ -140,8 +144,8 @@ class FieldReader {
     return true;
   }
   void endParts() { skipPartsBefore(UINT64_MAX); }
-  void require(const char* part, bool holds) {
-    if (!holds) fail(part, "is missing, or should be");
+  void require(const char* name, bool holds) {
+    if (!holds) fail(name, "is missing or out of range, or should not be there");
   }
   /// A varint that fails where fewer bytes would do.
   template <class T>

@@ -47,6 +47,7 @@ struct GeometryHeader {
     v.u8("coding", coding, 0, static_cast<uint64_t>(Coding::kWavelet));
     v.f64("base", base);
     v.f64("step", step);
+    v.require("step", step > 0);
     if (coding != Coding::kWavelet) planes = kDirectPlanes;
     drawn = coding == Coding::kDrawn;
     const bool lifted =
@@ -132,8 +133,8 @@ struct GeometryLayers {
       part.varint("lifted_bytes", lifted_bytes, 0, UINT64_MAX >> 1);
       part.varint("validity_after", validity_after, 0, UINT64_MAX >> 1);
     });
-    has_nodata =
-        v.part(PartKind::kNodata, has_nodata > 0, [&](auto& part) { part.f64("nodata", nodata); });
+    has_nodata = v.part(PartKind::kNodata, has_nodata > 0,
+                        [&](auto& part) { part.f64("nodata", nodata, true); });
     v.part(PartKind::kValueTable, table_bytes > 0, [&](auto& part) { visitTable(part); });
     v.part(PartKind::kFlatAreas, flat_bytes > 0, [&](auto& part) {
       part.varint("flat_bytes", flat_bytes, 1, UINT64_MAX >> 1);
@@ -183,6 +184,7 @@ struct GeometryLayers {
       v.varint("correction_step", correction_step, 1, kMaxCorrectionStep);
     if (corrections == CorrectionKind::kRelative) {
       v.f64("relative_step", relative.step);
+      v.require("relative_step", relative.step > 0);
       v.u8("relative_quarters", relative.quarters, 1, 4);
     }
     if (corrections == CorrectionKind::kFacets) v.u8("facet_unit", facet_unit, 1, 254);
@@ -201,6 +203,7 @@ struct GeometryLayers {
       v.varint("knot_gap", gap, i > 0 ? 1 : 0, table_values - 1u - before.place);
       v.zigzag("knot_rise", rise, 2 * kMostRise);
       knot = {before.place + gap, before.rise + rise};
+      v.require("the rise of a knot", -kMostRise <= knot.rise && knot.rise <= kMostRise);
       before = knot;
     }
   }

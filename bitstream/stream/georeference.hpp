@@ -61,6 +61,7 @@ struct Placement {
     v.u8("transform", form, 0, basis.has_heights ? 5 : 4);
     has_transform = form != TransformForm::kNone;
     if (has_transform) visitTransform(v, form, basis);
+    v.require("transform", isSound(transform));
     v.u8("registration", registration, 0, 2);
     v.text("geo_keys", geo_keys);
   }

@@ -34,9 +34,11 @@ struct Metadata {
   template <class V>
   void visit(V& v) {
     v.f64("scale", scale);
+    v.require("scale", scale != 0);
     v.f64("offset", offset);
     v.f64("spacing_x", spacing_x);
     v.f64("spacing_y", spacing_y);
+    v.require("spacing", spacing_x >= 0 && spacing_y >= 0);
     v.text("unit", unit);
     v.text("vertical_datum", vertical_datum);
     v.text("crs", crs);

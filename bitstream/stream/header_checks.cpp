@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bitstream/stream/header_checks.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <initializer_list>
 
 namespace tetrakis::inline stream {
 
@@ -21,18 +18,9 @@ bool holds(uint8_t sample, double value) {
 Status checkCorrections(const GeometryLayers& layers, uint8_t sample) {
   const CorrectionKind kind = layers.corrections;
   if (layers.table_bytes > 0 && kind != CorrectionKind::kNone && kind != CorrectionKind::kSamples)
-    return {TKS_CORRUPT, "Corrupt stream: its heights have corrections of an unknown kind."};
-  if (kind == CorrectionKind::kRelative &&
-      !(std::isfinite(layers.relative.step) && layers.relative.step > 0)) {
-    return {TKS_CORRUPT, "Corrupt stream: the relative step of its heights is out of range."};
-  }
+    return {TKS_CORRUPT, "Corrupt stream: its heights have a table beside corrections of steps."};
   if (kind == CorrectionKind::kFacets && sample != TKS_F32)
     return {TKS_CORRUPT, "Corrupt stream: its heights have facets but are no floats."};
-  const bool steep =
-      std::any_of(layers.table_knots.begin(), layers.table_knots.end(),
-                  [](const TableKnot& k) { return std::abs(k.rise) > GeometryLayers::kMostRise; });
-  if (steep)
-    return {TKS_CORRUPT, "Corrupt stream: a knot of its table of values lies too far off."};
   return {};
 }
 
@@ -46,8 +34,8 @@ Status checkVoids(const GeometryLayers& layers, uint8_t sample) {
       !(layers.has_nodata && holds(sample, layers.nodata))) {
     return {TKS_CORRUPT, "Corrupt stream: integer heights have voids but no value for them."};
   }
-  if (std::isnan(layers.nodata) || (integer && std::isinf(layers.nodata)))
-    return {TKS_CORRUPT, "Corrupt stream: the nodata value is no number."};
+  if (integer && std::isinf(layers.nodata))
+    return {TKS_CORRUPT, "Corrupt stream: the nodata value of its integer heights is infinite."};
   return {};
 }
 
@@ -60,17 +48,6 @@ Status checkLayers(const StreamHeader& header) {
     return {TKS_CORRUPT, "Corrupt stream: so large a height field has no flat areas."};
   }
   return checkVoids(layers, heights.sample);
-}
-
-Status checkRegions(const StreamHeader& header) {
-  const auto sound = [](const RegionHeader& r) {
-    return r.side_log2 == 0 || r.side_log2 >= kLeastRegionLog2;
-  };
-  if ((!header.geometry || sound(header.geometry->regions)) &&
-      (!header.texture || sound(header.texture->regions))) {
-    return {};
-  }
-  return {TKS_CORRUPT, "Corrupt stream: its regions are smaller than 16 samples."};
 }
 
 /// Heights that are drawn or stored are one track, whose samples nothing else holds.
@@ -91,32 +68,6 @@ Status checkDirect(const StreamHeader& header) {
   return {TKS_CORRUPT, "Corrupt stream: stored heights have corrections or a table."};
 }
 
-Status checkNumbers(const StreamHeader& header) {
-  const auto finite = [](std::initializer_list<double> values) {
-    return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
-  };
-  if (header.geometry) {
-    const GeometryHeader& g = *header.geometry;
-    if (!finite({g.base, g.step, g.max_error}) || g.step <= 0) {
-      return {TKS_CORRUPT,
-              "Corrupt stream: base, step or largest error of the heights is out of range."};
-    }
-  }
-  const Metadata& m = header.metadata;
-  if (!finite({m.scale, m.offset, m.spacing_x, m.spacing_y}) || m.scale == 0 || m.spacing_x < 0 ||
-      m.spacing_y < 0) {
-    return {TKS_CORRUPT,
-            "Corrupt stream: scale, offset or spacing of the heights is out of range."};
-  }
-  return {};
-}
-
-Status checkGeoreference(const StreamHeader& header) {
-  const Georeference& g = header.georeference;
-  if (isSound(g.heights.transform) && isSound(g.texture.transform)) return {};
-  return {TKS_CORRUPT, "Corrupt stream: a number of its geotransforms is out of range."};
-}
-
 /// A texture that is drawn or stored is one track of all its channels.
 Status checkTexture(const StreamHeader& header) {
   if (!header.texture) return {};
@@ -124,9 +75,6 @@ Status checkTexture(const StreamHeader& header) {
   const Extent shown = t.shown();
   if (shown.width > kMaxTextureSide || shown.height > kMaxTextureSide)
     return {TKS_CORRUPT, "Corrupt stream: its texture has more than 32768 columns or rows."};
-  if (t.sample != TKS_U8 && t.sample != TKS_U16) {
-    return {TKS_CORRUPT, "Corrupt stream: the texture's sample type is neither u8 nor u16."};
-  }
   if ((t.opaque || t.alpha_bytes > 0) && (t.channels % 2 == 1 || (t.opaque && t.alpha_bytes > 0)))
     return {TKS_CORRUPT,
             "Corrupt stream: the texture has no channel that is what it is said to be."};
@@ -168,10 +116,7 @@ Status checkComponents(const StreamHeader& header) {
 
 Status checkMeaning(const StreamHeader& header) {
   if (Status components = checkComponents(header); !components.ok()) return components;
-  if (Status numbers = checkNumbers(header); !numbers.ok()) return numbers;
-  if (Status place = checkGeoreference(header); !place.ok()) return place;
   if (Status layers = checkLayers(header); !layers.ok()) return layers;
-  if (Status regions = checkRegions(header); !regions.ok()) return regions;
   if (Status direct = checkDirect(header); !direct.ok()) return direct;
   if (Status priorities = checkPriorities(header); !priorities.ok()) return priorities;
   return checkTexture(header);

@@ -110,6 +110,7 @@ struct TextureHeader {
   void visit(V& v, Extent domain) {
     v.u8("channels", channels, 1, 4);
     v.u8("sample", sample, 0, TKS_U16);
+    v.require("sample", sample != TKS_I8);
     Coding coding = this->coding();
     v.u8("coding", coding, 0, static_cast<uint64_t>(Coding::kWavelet));
     if (coding != Coding::kWavelet) planes = kDrawnPlanes;
