@@ -39,11 +39,9 @@ Transform Places::readTransform(Reader& in, int form) const {
 }
 
 void Places::skipMetadata(Reader& in) {
-  const double scale = in.f64(), offset = in.f64();
+  const double scale = in.f64();
+  in.f64();  // offset
   const double spacingX = in.f64(), spacingY = in.f64();
-  for (const double v : {scale, offset, spacingX, spacingY}) {
-    if (!std::isfinite(v)) in.fail(Outcome::kCorrupt);
-  }
   if (scale == 0 || spacingX < 0 || spacingY < 0) in.fail(Outcome::kCorrupt);
   skipTexts(in, 3);
   spacing_ = {0, spacingX, 0, 0, 0, -spacingY};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -39,10 +40,12 @@ class Reader {
     for (int i = 0; i < count; ++i) value |= uint64_t{byte()} << (8 * i);
     return value;
   }
-  double f64() {
+  double f64(bool infinite = false) {
     const int size = u8(0, 8);
     const uint64_t high = littleEndian(size);
-    return std::bit_cast<double>(size == 0 ? 0 : high << (64 - 8 * size));
+    const auto value = std::bit_cast<double>(size == 0 ? 0 : high << (64 - 8 * size));
+    if (std::isnan(value) || (std::isinf(value) && !infinite)) fail(Outcome::kCorrupt);
+    return value;
   }
 
   /// FORMAT 2: "seven bits a byte, low bits first, bit 7 set while more follow, at most 64 bits".

@@ -125,6 +125,7 @@ struct Stream {
   Layers layers;
   std::optional<TextureHeader> texture;
   std::vector<Component> components;
+  bool suits = true;                   ///< what the parts of the header say fits together
   std::array<Codewords, 2> codewords;  ///< by role
 };
 
