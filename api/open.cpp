@@ -53,8 +53,9 @@ Status checkSizes(const StreamHeader& header, const tks_limits& limits) {
 /// regions need, may have some at the end as well.)
 tks_index indexOf(const StreamHeader& header) {
   if (header.index.empty()) return TKS_INDEX_NONE;
-  std::array<uint32_t, kRoles> last{};
+  std::array<uint32_t, kComponents> last{};
   for (const IndexEntry& entry : header.index) {
+    if (entry.packet.component == Component::kOther) continue;
     const uint32_t track = entry.packet.track;
     uint32_t& before = last[static_cast<size_t>(entry.packet.component)];
     if (track > 0 && track < before) return TKS_INDEX_PACKETS;

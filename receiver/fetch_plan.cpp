@@ -62,8 +62,7 @@ Result<std::vector<size_t>> orderFor(const StreamHeader& header,
 }
 
 uint64_t planBytes(const StreamHeader& header) {
-  uint64_t tracks = 0;
-  tracks += trackCounts(header).all();
+  const uint64_t tracks = trackCounts(header).all();
   constexpr uint64_t kTrack = sizeof(Region) + 2 * sizeof(double) + 96;  // in a map
   constexpr uint64_t kPiece = sizeof(Piece) + 2 * sizeof(uint64_t) + 2 * sizeof(uint32_t) +
                               2 * sizeof(RankedRange) + sizeof(FetchRange);

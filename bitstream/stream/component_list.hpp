@@ -71,12 +71,12 @@ void visitKnown(V& v, StreamHeader& header, const ListedComponent& one) {
     header.geometry->visit(v, one.domain.grid);
     header.layers.visit(v);
     header.geometry->visitBound(v);
+    v.endParts(header.geometry->later_parts);
   } else {
     if (!header.texture) header.texture.emplace();
     header.texture->regions.side_log2 = one.region_log2;
     header.texture->visit(v, one.domain.grid);
   }
-  v.endParts();
 }
 
 template <class V>

@@ -50,9 +50,10 @@ FieldReader FieldReader::openPart() {
   return body;
 }
 
-void FieldReader::skipPartsBefore(uint64_t kind) {
-  while (ok() && at_ < bytes_.size() && nextKind() < kind) {
+void FieldReader::skipPartsBefore(std::optional<uint64_t> kind) {
+  while (ok() && at_ < bytes_.size() && (!kind || nextKind() < *kind)) {
     const std::optional<uint64_t> before = last_kind_;
+    const size_t begin = at_;
     openPart();
     if (last_kind_ == before) fail("part", "stands twice");
     if (ok() && *last_kind_ < kMaySkip) {
@@ -60,6 +61,8 @@ void FieldReader::skipPartsBefore(uint64_t kind) {
           Status(TKS_UNSUPPORTED, "The stream has a part of kind " + std::to_string(*last_kind_) +
                                       " that this decoder does not know.");
     }
+    const auto part = bytes_.subspan(begin, at_ - begin);
+    skipped_.append(part.begin(), part.end());
   }
 }
 

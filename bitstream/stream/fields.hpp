@@ -3,8 +3,8 @@
 // visitors. Numbers are little endian; a varint is LEB128 (7 bits a byte, low bits first), and a
 // double goes without its low zero bytes, which round numbers have many of: u8 n, n high bytes. A
 // structure may end with parts: kind, length, and as many bytes. Kinds rise, so that visit() asks
-// for each in its turn; a part that is not asked for is skipped, or refused if its kind is below
-// kMaySkip.
+// for each in its turn; a part that is not asked for is skipped, and kept as bytes, or refused if
+// its kind is below kMaySkip.
 #pragma once
 
 #include <bit>
@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/status.hpp"
@@ -64,8 +65,8 @@ class FieldWriter {
     bytes.insert(bytes.end(), body.bytes.begin(), body.bytes.end());
     return true;
   }
-  /// Behind the last part that visit() asks for.
-  void endParts() {}
+  /// Behind the last part that visit() asks for. later: parts that a reader skipped, as they were.
+  void endParts(std::string& later) { rest(later); }
   /// Of readers: fails unless that holds.
   void require(const char*, bool) {}
   bool ok() const { return true; }
@@ -143,7 +144,10 @@ class FieldReader {
     if (!body.ok()) status_ = body.status_;
     return true;
   }
-  void endParts() { skipPartsBefore(UINT64_MAX); }
+  void endParts(std::string& later) {
+    skipPartsBefore({});
+    later = std::move(skipped_);
+  }
   void require(const char* name, bool holds) {
     if (!holds) fail(name, "is missing or out of range, or should not be there");
   }
@@ -171,7 +175,8 @@ class FieldReader {
   uint64_t nextKind();
   /// Takes the next part: kinds shall not fall.
   FieldReader openPart();
-  void skipPartsBefore(uint64_t kind);
+  /// Those of lower kinds, or all.
+  void skipPartsBefore(std::optional<uint64_t> kind);
   template <class T>
   void accept(const char* name, uint64_t raw, uint64_t low, uint64_t high, T& value) {
     if (isWithin(name, raw, low, high)) value = static_cast<T>(raw);
@@ -183,6 +188,7 @@ class FieldReader {
   size_t origin_;
   size_t at_ = 0;
   std::optional<uint64_t> last_kind_;  ///< of the parts that were taken
+  std::string skipped_;                ///< parts, with kinds and lengths
   bool starved_ = false;
   Status status_;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/plane.hpp"
@@ -38,6 +39,7 @@ struct GeometryHeader {
   WaveletHeader wavelet;
   PriorityHeader priorities;
   RegionHeader regions;
+  std::string later_parts;  ///< of kinds that are not known and inform, as they were read
 
   /// domain: the lines that are shown.
   template <class V>

@@ -91,7 +91,7 @@ void visitBody(V& v, StreamHeader& header) {
   };
   positions(kHeightPositions, header.height_positions);
   positions(kTexturePositions, header.texture_positions);
-  v.endParts();
+  v.endParts(header.later_parts);
 }
 
 Status needMore(size_t bytes) {

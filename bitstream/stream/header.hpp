@@ -84,6 +84,7 @@ struct StreamHeader {
   std::vector<IndexEntry> index;  ///< of all packets, ahead of time
   /// GroundPositions as bytes; empty: none. No status depends on them.
   std::string height_positions, texture_positions;
+  std::string later_parts;  ///< of kinds that are not known and inform, as they were read
   /// In the stream's order: of a header that was read. Of one that is made heights come before the
   /// texture, unless their order is stated here.
   std::vector<ListedComponent> components;

@@ -93,7 +93,8 @@ struct TextureHeader {
   uint64_t overlay_bytes = 0;
   /// The reach of bridges over texels that are hidden or drawn over (wavelet/bridges.hpp); 0: none.
   uint8_t bridge = 0;
-  bool stored = false;  ///< sample by sample, without a transform
+  bool stored = false;      ///< sample by sample, without a transform
+  std::string later_parts;  ///< of kinds that are not known and inform, as they were read
 
   Extent extent() const { return {width, height}; }
   Extent shown() const { return repeats.none() ? extent() : repeats.shown; }
@@ -133,7 +134,7 @@ struct TextureHeader {
         v.part(PartKind::kColours, !direct(), [&](auto& part) { visitColours(part); });
     v.require("colours", coloured == (coding == Coding::kWavelet));
     visitOthers(v);
-    v.endParts();
+    v.endParts(later_parts);
   }
   bool drawn() const { return direct() && !stored; }
   /// The texture was coded without a transform: drawn or stored.

@@ -339,6 +339,14 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"refused_component", "heights by wavelet, levels of several filters"},
     {"refused_long_head", "heights by wavelet, levels of several filters"},
     {"refused_varint", "heights by wavelet, levels of several filters"},
+    {"list_other_9x9", "heights by wavelet, levels of several filters"},
+    {"list_second_9x9", "heights by wavelet, levels of several filters"},
+    {"list_five_11x7",
+     "heights by wavelet, levels of several filters, regions of heights, texture by wavelet"},
+    {"list_index_11x7",
+     "heights by wavelet, index, levels of several filters, regions of heights, texture by "
+     "wavelet"},
+    {"part_of_heights_9x9", "heights by wavelet, levels of several filters"},
 };
 
 }  // namespace

@@ -47,5 +47,7 @@ std::vector<VectorCase> roundedCases();
 std::vector<VectorCase> drawnCases();
 // refused_cases.cpp
 std::vector<VectorCase> unusualAndRefusedCases();
+// list_cases.cpp
+std::vector<VectorCase> listCases();
 
 }  // namespace tetrakis::conformance

@@ -26,6 +26,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : placedCases()) all.push_back(std::move(next));
   for (VectorCase& next : craftedCases()) all.push_back(std::move(next));
   for (VectorCase& next : unusualAndRefusedCases()) all.push_back(std::move(next));
+  for (VectorCase& next : listCases()) all.push_back(std::move(next));
   for (VectorCase& next : damagedCases()) all.push_back(std::move(next));
   return all;
 }

@@ -32,7 +32,7 @@ class Parts {
     readNext();
     return true;
   }
-  void end() { skipBefore(UINT64_MAX); }
+  void end() { skipBefore({}); }
 
  private:
   struct Part {
@@ -50,8 +50,8 @@ class Parts {
   }
   /// A kind stands once, unless it is asked for again; one below 64 that is not asked for is not
   /// known.
-  void skipBefore(uint64_t kind) {
-    while (next_ && next_->kind < kind) {
+  void skipBefore(std::optional<uint64_t> kind) {
+    while (next_ && (!kind || next_->kind < *kind)) {
       if (last_ == next_->kind) in_.fail(Outcome::kCorrupt);
       if (next_->kind < 64) in_.fail(Outcome::kUnsupported);
       last_ = next_->kind;

@@ -228,12 +228,12 @@ TEST(Fields, DoublesComeBackBitForBit) {
     writer.f64("value", written);
     EXPECT_EQ(writer.bytes.size(), size) << value;
     FieldReader reader(writer.bytes);
-    reader.f64("value", read);
+    reader.f64("value", read, true);
     EXPECT_TRUE(reader.ok());
     EXPECT_EQ(reader.position(), writer.bytes.size());
     EXPECT_EQ(std::bit_cast<uint64_t>(read), std::bit_cast<uint64_t>(value));
     FieldReader starved(std::span(writer.bytes).first(size - 1));
-    starved.f64("value", read);
+    starved.f64("value", read, true);
     EXPECT_TRUE(starved.starved());
   }
   const std::vector<uint8_t> long_one = {8, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f}, too_long(10, 9);

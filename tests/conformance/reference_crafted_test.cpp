@@ -3,6 +3,7 @@
 // and payloads are damaged, and sound ones are joined that were not made for each other.
 #include <utility>
 
+#include "conformance/samples/header_parts.hpp"
 #include "tests/conformance/agreement.hpp"
 
 namespace tetrakis::test {
@@ -89,30 +90,9 @@ TEST(Reference, AgreesOnDamagedPayloads) {
   }
 }
 
-constexpr size_t kBodyBytes = 7;  // where the length of the header's body stands
-
-/// Where fields of the only component lie (docs/FORMAT.md, section 2).
-struct Places {
-  size_t planes, wavelet;
-
-  explicit Places(const Bytes& stream) {
-    size_t at = kBodyBytes;
-    const auto skipVarint = [&] {
-      while (stream[at++] >= 128) {
-      }
-    };
-    skipVarint();  // body_bytes
-    const bool geometry = stream[at++] & 1;
-    skipVarint();                              // payload_bytes
-    if (stream[at++] & 2) at += 4;             // lossless, payload_crc
-    for (int i = 0; i < 3; ++i) skipVarint();  // triangles, width, height
-    planes = at + (geometry ? 1 : 2);
-    wavelet = planes + 1 + (geometry ? 1 : 0);
-    for (int i = 0; geometry && i < 3; ++i) wavelet += 1 + stream[wavelet];  // f64
-  }
-};
-
-constexpr size_t kFractionBits = 3;  // behind Places::wavelet
+constexpr uint64_t kWavelet = 0;     // kind of the part of a component
+constexpr size_t kFilters = 1;       // in that part, behind the number of bit-planes
+constexpr size_t kFractionBits = 4;  // likewise
 
 // A narrow range and a budget make the encoder work between the integers.
 TEST(Reference, AgreesOnFractionsOfSteps) {
@@ -121,32 +101,9 @@ TEST(Reference, AgreesOnFractionsOfSteps) {
     const Raster heights = make({Pattern::kRidges, 40, 31, 1, sample, 7});
     SCOPED_TRACE(bytes);
     const Bytes stream = encode(&heights, nullptr, budget(bytes));
-    ASSERT_GT(stream[Places(stream).wavelet + kFractionBits], 0);
+    ASSERT_GT(componentOfStream(stream).find(kWavelet)->bytes[kFractionBits], 0);
     expectAgreementOnPrefixes(stream);
   }
-}
-
-/// The number that begins at stream[at]; `at` moves behind it.
-uint64_t takeVarint(const Bytes& stream, size_t& at) {
-  uint64_t value = 0;
-  for (int shift = 0;; shift += 7) {
-    value |= uint64_t{stream[at] & 0x7fu} << shift;
-    if (stream[at++] < 128) return value;
-  }
-}
-
-Bytes varintOf(uint64_t value) {
-  Bytes bytes;
-  for (; value >= 128; value >>= 7) bytes.push_back(static_cast<uint8_t>(value | 128));
-  bytes.push_back(static_cast<uint8_t>(value));
-  return bytes;
-}
-
-Bytes replaced(const Bytes& stream, size_t begin, size_t end, const Bytes& by) {
-  Bytes out(stream.begin(), stream.begin() + static_cast<ptrdiff_t>(begin));
-  out.insert(out.end(), by.begin(), by.end());
-  out.insert(out.end(), stream.begin() + static_cast<ptrdiff_t>(end), stream.end());
-  return out;
 }
 
 /// The stream of one component with other filters, fraction bits, sample bits and roundings than it
@@ -156,23 +113,17 @@ Bytes withAnyWavelet(const Bytes& stream, uint32_t trial) {
   constexpr uint8_t kSampleBits[] = {0, 16, 17, 20, 21, 32};
   constexpr uint64_t kRoundedBytes[] = {0, 50, 250, 1 << 20};
   const uint32_t h = samples::hash(trial, 0, 21);
-  Bytes fields;
-  for (uint32_t i = 0; i < 3; ++i) fields.push_back(h >> (2 * i) & 3);
+  HeaderParts component = componentOfStream(stream);
+  Bytes& fields = component.find(kWavelet)->bytes;
+  fields.resize(kFilters);
+  for (uint32_t i = 0; i < 3; ++i) fields.push_back(static_cast<uint8_t>((h >> (2 * i) & 7) % 5));
   fields.push_back(kFractions[(h >> 8) % 5]);
   fields.push_back(kSampleBits[(h >> 16) % 6]);
   if (fields[kFractionBits] == 0) {
     fields.push_back(static_cast<uint8_t>((h >> 20) % 5));
-    for (const uint8_t byte : varintOf(kRoundedBytes[h >> 30])) fields.push_back(byte);
+    putVarint(kRoundedBytes[h >> 30], fields);
   }
-  const size_t begin = Places(stream).wavelet;
-  size_t end = begin + kFractionBits + 2;
-  if (stream[begin + kFractionBits] == 0) takeVarint(stream, ++end);
-  Bytes out = replaced(stream, begin, end, fields);
-  size_t body_end = kBodyBytes;
-  const uint64_t body = takeVarint(stream, body_end);
-  out = replaced(out, kBodyBytes, body_end, varintOf(body + out.size() - stream.size()));
-  sealHeader(out);
-  return out;
+  return withComponent(stream, component);
 }
 
 TEST(Reference, AgreesOnAllWavelets) {
@@ -202,15 +153,15 @@ TEST(Reference, AgreesOnManyLevels) {
 /// The header of a stream of one component, made to announce `planes`, and one packet of
 /// `codeword`.
 Bytes withCodeword(const Bytes& stream, uint8_t planes, const Bytes& codeword) {
-  const size_t start = Stream(stream).info().header_bytes;
-  Bytes out(stream.begin(), stream.begin() + static_cast<ptrdiff_t>(start));
-  out[Places(stream).planes] = planes;
-  sealHeader(out);
-  uint64_t head = codeword.size() << 2 | (stream[start] & 1);
-  for (; head >= 128; head >>= 7) out.push_back(static_cast<uint8_t>(head % 128 + 128));
-  out.insert(out.end(), {static_cast<uint8_t>(head), 0});
+  HeaderParts component = componentOfStream(stream);
+  component.find(kWavelet)->bytes[0] = planes;
+  Bytes out = withComponent(stream, component);
+  const size_t size = out.size();
+  out.resize(Stream(out).info().header_bytes);
+  putVarint(codeword.size() << 2, out);
+  out.push_back(0);  // quality
   out.insert(out.end(), codeword.begin(), codeword.end());
-  out.resize(std::min(out.size(), stream.size()));  // as far as payload_bytes
+  out.resize(std::min(out.size(), size));  // as far as payload_bytes
   return out;
 }
 

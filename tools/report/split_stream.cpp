@@ -41,6 +41,7 @@ Split SplitStream::most() const {
 Split SplitStream::shipped(uint64_t payload) const {
   Split split;
   for (const PacketHead& head : payload_.heads) {
+    if (head.component == Component::kOther) continue;
     const uint64_t taken = std::min(head.length, payload - split.total());
     (head.component == Component::kGeometry ? split.heights : split.texture) += taken;
   }
