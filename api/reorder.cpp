@@ -106,19 +106,21 @@ class ErrorLeft {
 /// The index in that order, with what is left of the errors after each packet.
 std::vector<IndexEntry> reorderedIndex(const std::vector<IndexEntry>& index,
                                        const std::vector<size_t>& order) {
-  std::array<std::vector<IndexEntry>, kRoles> entries;
+  std::array<std::vector<IndexEntry>, kComponents> entries;
   std::vector<size_t> places;  // among those of the component
   for (const IndexEntry& entry : index) {
+    places.push_back(0);
+    if (entry.packet.component == Component::kOther) continue;
     std::vector<IndexEntry>& of = entries[static_cast<size_t>(entry.packet.component)];
-    places.push_back(of.size());
+    places.back() = of.size();
     of.push_back(entry);
   }
-  std::array<ErrorLeft, kRoles> left = {ErrorLeft(entries[0]), ErrorLeft(entries[1]),
-                                        ErrorLeft(entries[2])};
+  std::array<ErrorLeft, kComponents> left = {ErrorLeft(entries[0]), ErrorLeft(entries[1])};
   std::vector<IndexEntry> reordered;
   for (const size_t i : order) {
     reordered.push_back(index[i]);
     PacketHead& packet = reordered.back().packet;
+    if (packet.component == Component::kOther) continue;  // these keep their order
     packet.quality = left[static_cast<size_t>(packet.component)].take(places[i]);
   }
   return reordered;

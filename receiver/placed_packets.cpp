@@ -77,17 +77,22 @@ Result<std::vector<PlacedPacket>> placedPackets(const StreamHeader& header, uint
   std::vector<TrackCosts> costs;
   costs.reserve(sightings.size());
   for (const WeightedSighting& s : sightings) costs.emplace_back(header, s.sighting);
+  const TrackCounts counts = trackCounts(header);
   WorthInOrder in_order(header);
   CorrectionsLast last;
   std::vector<PlacedPacket> packets;
   packets.reserve(header.index.size());
   for (const IndexedPacket& packet : IndexedPackets(header, begin)) {
     const PacketHead& head = packet.entry.packet;
+    if (head.component == Component::kOther && counts.of(head).tracks > 0) {
+      packets.push_back(
+          {packet.number, packet.begin, packet.end, {}, false});  // worth nothing here
+      continue;
+    }
     const bool is_correction = isCorrection(header, head);
     const double slope = is_correction ? 1 : slopeOf(packet.entry.slope);
     PacketWorth worth{0, 0, slope};
     for (size_t i = 0; i < costs.size(); ++i) {
-      if (head.component == Component::kOther) break;  // worth nothing to whoever does not know it
       if (!costs[i].holds(head))
         return Status(TKS_CORRUPT, "Corrupt stream: its index names a track that there is not.");
       const double here = slope * sightings[i].weight * costs[i].at(head);

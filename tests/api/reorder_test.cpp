@@ -2,8 +2,9 @@
 // tks_reorder: the same packets in the order that serves cameras.
 #include <cmath>
 
-#include "conformance/samples/header_seal.hpp"
+#include "conformance/samples/header_parts.hpp"
 #include "tests/support/indexed_terrain.hpp"
+#include "tests/support/later_stream.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -35,6 +36,54 @@ TEST(Reorder, HoldsTheSamePacketsAndServesTheCamera) {
   EXPECT_LT(errorIn(image, a.texture(), corner), 0.4 * errorIn(image, b.texture(), corner));
   for (size_t n = static_cast<size_t>(whole.info().header_bytes); n < order.size(); n += 97)
     EXPECT_EQ(Stream(Prefix(order).first(n)).status(), TKS_OK);
+}
+
+/// The heads of packets of components that are not known.
+std::vector<PacketHead> unknownHeads(const Bytes& bytes) {
+  const ParsedHeader parsed = *readHeader(bytes);
+  std::vector<PacketHead> heads =
+      demultiplex(Prefix(bytes).subspan(parsed.bytes), parsed.bytes, trackCounts(parsed.header))
+          ->heads;
+  std::erase_if(heads, [](const PacketHead& h) { return h.component != Component::kOther; });
+  return heads;
+}
+
+/// What nobody knows yet stays what it is: domains, components, parts.
+TEST(Reorder, KeepsWhatNobodyKnows) {
+  const IndexedTerrain terrain;
+  const Domain sphere{9, {0, 0}, "sphere"};
+  Bytes bytes =
+      LaterStream(terrain.bytes, {unknown(5, sphere, 3, "what"), known(Component::kTexture),
+                                  unknown(6, sphere, 0, "later")})
+          .make()
+          .later;
+  HeaderParts body = bodyOf(bytes);
+  for (HeaderPart& part : body.parts) {
+    if (part.kind != kComponentKind || part.bytes[0] > 1) continue;
+    HeaderParts component = componentOf(part.bytes);
+    component.add(99, {4, 5, 6});
+    part.bytes = component.bytes();
+  }
+  body.add(100, {1, 2, 3});
+  body.add(70000, {});
+  bytes = withBody(bytes, body);
+  Stream stream(bytes);
+  const Bytes order = reordered(stream, mapOf(70, 75, 110, 115));
+  ASSERT_EQ(order.size(), bytes.size());
+  EXPECT_NE(order, bytes);
+  Stream whole(order);
+  EXPECT_EQ(tks_verify(whole.get()), TKS_OK) << tks_message(whole.get());
+  EXPECT_TRUE(whole.heights() == stream.heights());
+  EXPECT_TRUE(whole.texture() == stream.texture());
+  EXPECT_TRUE(unknownHeads(order) == unknownHeads(bytes));
+  constexpr uint64_t kIndexKind = 70;
+  HeaderParts after = bodyOf(order);
+  ASSERT_EQ(after.parts.size(), body.parts.size());
+  for (size_t i = 0; i < after.parts.size(); ++i) {
+    EXPECT_EQ(after.parts[i].kind, body.parts[i].kind);
+    if (after.parts[i].kind != kIndexKind)
+      EXPECT_EQ(after.parts[i].bytes, body.parts[i].bytes) << i;
+  }
 }
 
 /// The stated error is that of the packets which are there now.

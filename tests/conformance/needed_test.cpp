@@ -5,6 +5,7 @@
 #include <random>
 
 #include "tests/support/indexed_terrain.hpp"
+#include "tests/support/later_stream.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -98,6 +99,23 @@ TEST(NeededRanges, OfWindowsAreEnoughHoweverTheStreamIsCoded) {
     expectWindows(both, TKS_PART_TEXTURE, 180, 150);
     expectWindows(encodeRegions(&floats, nullptr, options), TKS_PART_HEIGHTS, 150, 131);
   }
+}
+
+/// Packets of components that nobody knows yet are never needed.
+TEST(NeededRanges, LeaveOutWhatNobodyKnows) {
+  const IndexedTerrain terrain;
+  const Domain sphere{9, {0, 0}, "sphere"};
+  const Bytes bytes =
+      LaterStream(terrain.bytes, {unknown(5, sphere, 3, ""), known(Component::kTexture),
+                                  unknown(6, sphere, 0, "later"), known(Component::kGeometry)})
+          .make()
+          .later;
+  EXPECT_EQ(Stream(bytes).info().index, Stream(terrain.bytes).info().index);
+  expectWindows(bytes, TKS_PART_HEIGHTS, 90, 70);
+  expectWindows(bytes, TKS_PART_TEXTURE, 61, 75);
+  EXPECT_LT(expectEnough(bytes, TKS_PART_HEIGHTS, nullptr), bytes.size());
+  EXPECT_EQ(expectEnough(terrain.bytes, TKS_PART_TEXTURE, nullptr),
+            expectEnough(bytes, TKS_PART_TEXTURE, nullptr));
 }
 
 TEST(NeededRanges, LieTogetherWhereTheIndexIsForWindows) {

@@ -1,95 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Streams of later versions: components and parts that this decoder does not know stand among those
 // that it does. It passes over them, at every prefix, and so does the reference decoder.
-#include <algorithm>
-#include <utility>
+#include <iterator>
 #include <vector>
 
-#include "bitstream/stream/header.hpp"
 #include "conformance/samples/header_parts.hpp"
 #include "tests/conformance/agreement.hpp"
+#include "tests/support/later_stream.hpp"
 
 namespace tetrakis::test {
 namespace {
-
-/// A stream, and a stream of more that holds the same.
-struct Among {
-  Bytes plain, later;
-  /// Of each number of bytes of `later`: bytes of `plain` that hold as much.
-  std::vector<size_t> as_much;
-};
-
-ListedComponent unknown(uint8_t kind, const Domain& domain, uint8_t region_log2,
-                        const std::string& rest) {
-  return {Component::kOther, kind, domain, region_log2, rest};
-}
-
-/// Makes a stream of later components out of one packet after another.
-class LaterStream {
- public:
-  LaterStream(const Bytes& plain, std::vector<ListedComponent> components) : plain_(plain) {
-    ParsedHeader parsed = *readHeader(plain);
-    counts_ = trackCounts(parsed.header);
-    begin_ = parsed.bytes;
-    header_ = std::move(parsed.header);
-    header_.components = std::move(components);
-    header_.index.clear();
-    header_.payload_crc.reset();
-    later_counts_ = trackCounts(header_);
-  }
-
-  Among make() {
-    const Demultiplexed packets = *demultiplex(Prefix(plain_).subspan(begin_), begin_, counts_);
-    size_t at = begin_;
-    for (const PacketHead& head : packets.heads) {
-      putUnknown(at);
-      const size_t payload = at + headBytes(head, counts_).size();
-      putKnown(head, Prefix(plain_).subspan(payload, head.length), at, payload);
-      at = payload + head.length;
-    }
-    putUnknown(at);
-    header_.payload_bytes = payload_.size();
-    Among among{plain_, writeHeader(header_), {}};
-    among.as_much.assign(among.later.size(), 0);
-    among.as_much.insert(among.as_much.end(), as_much_.begin(), as_much_.end());
-    among.as_much.push_back(plain_.size());
-    among.later.insert(among.later.end(), payload_.begin(), payload_.end());
-    return among;
-  }
-
- private:
-  /// Bytes of which a prefix that ends before one of them holds `at` bytes of the plain stream.
-  void put(Prefix bytes, size_t at) {
-    payload_.insert(payload_.end(), bytes.begin(), bytes.end());
-    as_much_.insert(as_much_.end(), bytes.size(), at);
-  }
-  void putKnown(PacketHead head, Prefix bytes, size_t at, size_t payload) {
-    head.number = 0;
-    while (later_counts_.componentOf(head.number) != head.component) ++head.number;
-    put(headBytes(head, later_counts_), at);
-    payload_.insert(payload_.end(), bytes.begin(), bytes.end());
-    for (size_t i = 0; i < bytes.size(); ++i) as_much_.push_back(i == 0 ? at : payload + i);
-  }
-  /// A packet of each component that is not known, of any track.
-  void putUnknown(size_t at) {
-    for (uint8_t number = 0; number < header_.components.size(); ++number) {
-      if (later_counts_.componentOf(number) != Component::kOther) continue;
-      const uint32_t h = samples::hash(static_cast<uint32_t>(at), number, 31);
-      PacketHead head{h % 4 + 1,  0,      static_cast<uint8_t>(h >> 8),
-                      h % 3 == 0, number, Component::kOther};
-      if (header_.components[number].region_log2 > 0) head.track = h;
-      put(headBytes(head, later_counts_), at);
-      put(Bytes(head.length, static_cast<uint8_t>(h >> 16)), at);
-    }
-  }
-
-  const Bytes& plain_;
-  StreamHeader header_;
-  size_t begin_ = 0;
-  TrackCounts counts_, later_counts_;
-  Bytes payload_;
-  std::vector<size_t> as_much_;
-};
 
 /// Every prefix of `later` decodes to what as much of the plain stream decodes to.
 void expectPassesOver(const Among& among) {
@@ -107,12 +27,6 @@ void expectPassesOver(const Among& among) {
     ASSERT_EQ(later.info().heights_rmse, plain.info().heights_rmse);
     ASSERT_EQ(later.info().texture_psnr, plain.info().texture_psnr);
   }
-}
-
-ListedComponent known(Component component) {
-  ListedComponent one;
-  one.component = component;
-  return one;
 }
 
 TEST(ReferenceList, PassesOverComponentsThatNobodyKnows) {
