@@ -119,8 +119,10 @@ std::vector<VectorCase> refusedHeaders() {
   };
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   refuse("scale", "a scale of NaN", [](StreamHeader& h) { h.metadata.scale = kNaN; });
-  refuse("max_error", "a largest error of NaN",
-         [](StreamHeader& h) { h.geometry->max_error = kNaN; });
+  refuse("max_error", "a largest error of NaN", [](StreamHeader& h) {
+    h.geometry->exact = 1;  // so that there is a bound
+    h.geometry->max_error = kNaN;
+  });
   refuse("planes", "more bit-planes of heights than there may be",
          [](StreamHeader& h) { h.geometry->planes = 64; });
   refuse("sample", "heights of a type that there is not",

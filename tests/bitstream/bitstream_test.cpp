@@ -285,11 +285,14 @@ TEST(Header, RefusesNumbersThatAreNone) {
     change(header);
     return readHeader(writeHeader(header)).ok();
   };
-  EXPECT_TRUE(opens([](StreamHeader&) {}));
+  EXPECT_TRUE(opens([](StreamHeader& h) { h.geometry->exact = 1; }));
   for (const double wrong : {kInfinity, -kInfinity, std::nan("")}) {
     EXPECT_FALSE(opens([&](StreamHeader& h) { h.geometry->base = wrong; }));
     EXPECT_FALSE(opens([&](StreamHeader& h) { h.geometry->step = wrong; }));
-    EXPECT_FALSE(opens([&](StreamHeader& h) { h.geometry->max_error = wrong; }));
+    EXPECT_FALSE(opens([&](StreamHeader& h) {
+      h.geometry->exact = 1;  // so that there is a bound
+      h.geometry->max_error = wrong;
+    }));
     EXPECT_FALSE(opens([&](StreamHeader& h) { h.metadata.scale = wrong; }));
     EXPECT_FALSE(opens([&](StreamHeader& h) { h.metadata.offset = wrong; }));
     EXPECT_FALSE(opens([&](StreamHeader& h) { h.metadata.spacing_x = wrong; }));
