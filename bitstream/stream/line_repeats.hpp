@@ -68,8 +68,8 @@ struct LineMaps {
 /// The map that a header describes. Safe on any code.
 LineMaps lineMapsOf(const LineRepeats& repeats);
 
-/// The part of a header that says which lines of the plane that is shown are coded. Returns how many
-/// are.
+/// The part of a header that says which lines of the plane that is shown are coded. Returns how
+/// many are.
 template <class V>
 Extent visitLines(V& v, uint64_t kind, Extent shown, LineRepeats& repeats) {
   if (!v.part(kind, !repeats.none(), [&](auto& part) { part.rest(repeats.code); })) return shown;
