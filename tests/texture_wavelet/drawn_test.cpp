@@ -262,8 +262,8 @@ Texels slopeOfPairs() {
 
 std::vector<uint8_t> fieldsOf(TextureHeader header) {
   FieldWriter writer;
-  header.visit(writer);
-  header.regions.visit(writer);
+  header.visit(writer, header.shown());
+  writer.put(header.regions.side_log2);
   return writer.bytes;
 }
 
