@@ -20,7 +20,6 @@ namespace detail {
 
 inline HostileStream sealed(const std::string& name, StreamHeader header, bool sent = false) {
   std::vector<uint8_t> payload;
-  const uint8_t component = header.geometry ? 0 : 1;
   // A packet of three bytes, of an unsplit component.
   if (sent) payload = {uint8_t{3 << 2}, 90, 0xa5, 0x5a, 0x33};
   header.payload_bytes = payload.size();
