@@ -190,7 +190,7 @@ TEST_F(PositionsTest, OfAnotherFormAreNone) {
   const Bytes stream = encode(false);
   const std::string known(positions_.begin(), positions_.end());
   for (const Bytes& bytes : {withPositions(stream, known + "x"), withPositions(stream, ""),
-                             withPositions(stream, known.substr(1))}) {
+                             withPositions(stream, known.substr(0, known.size() - 1))}) {
     Stream decoder(bytes);
     EXPECT_EQ(decoder.info().positions, nullptr);
     const tks_pixel pixel = {TKS_PART_HEIGHTS, 1, 1};

@@ -103,19 +103,22 @@ TEST(NeededRanges, OfWindowsAreEnoughHoweverTheStreamIsCoded) {
 
 /// Packets of components that nobody knows yet are never needed.
 TEST(NeededRanges, LeaveOutWhatNobodyKnows) {
-  const IndexedTerrain terrain;
+  const samples::Raster heights = ridges(201, 170, TKS_I16),
+                        image = samples::make({samples::Pattern::kRidges, 180, 150, 3, TKS_U8});
+  const Bytes plain = encodeRegions(&heights, &image, lossless());
   const Domain sphere{9, {0, 0}, "sphere"};
   const Bytes bytes =
-      LaterStream(terrain.bytes, {unknown(5, sphere, 3, ""), known(Component::kTexture),
-                                  unknown(6, sphere, 0, "later"), known(Component::kGeometry)})
+      LaterStream(plain, {unknown(5, sphere, 3, ""), known(Component::kTexture),
+                          unknown(6, sphere, 0, "later"), known(Component::kGeometry)})
           .make()
           .later;
-  EXPECT_EQ(Stream(bytes).info().index, Stream(terrain.bytes).info().index);
-  expectWindows(bytes, TKS_PART_HEIGHTS, 90, 70);
-  expectWindows(bytes, TKS_PART_TEXTURE, 61, 75);
-  EXPECT_LT(expectEnough(bytes, TKS_PART_HEIGHTS, nullptr), bytes.size());
-  EXPECT_EQ(expectEnough(terrain.bytes, TKS_PART_TEXTURE, nullptr),
-            expectEnough(bytes, TKS_PART_TEXTURE, nullptr));
+  EXPECT_EQ(Stream(bytes).info().index, Stream(plain).info().index);
+  expectWindows(bytes, TKS_PART_HEIGHTS, 201, 170);
+  expectWindows(bytes, TKS_PART_TEXTURE, 180, 150);
+  // The numbers of four components may make a head a byte longer than those of two.
+  const uint64_t heads = Stream(plain).info().packets;
+  for (const tks_part part : {TKS_PART_HEIGHTS, TKS_PART_TEXTURE})
+    EXPECT_LE(expectEnough(bytes, part, nullptr), expectEnough(plain, part, nullptr) + heads);
 }
 
 TEST(NeededRanges, LieTogetherWhereTheIndexIsForWindows) {
