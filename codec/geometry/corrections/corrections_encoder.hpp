@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes the corrections of heights.
+// The encoder of a codeword of corrections (corrections_pass.hpp).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Restores the samples of facets.
+// The decoder of facets (facet_coder.hpp): restores samples from a codeword and decoded heights.
 #pragma once
 
 #include <cstdint>

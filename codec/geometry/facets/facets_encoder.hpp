@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes what restores the samples of facets.
+// The encoder of facets (facet_coder.hpp): codes what restores the samples behind a cut.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Restores samples that have a relative step.
+// The decoder of samples that have a relative step (relative_pass.hpp).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codeword to table of values.
+// The decoder of a table of values: from its codeword to the sorted values.
 #pragma once
 
 #include <cstdint>

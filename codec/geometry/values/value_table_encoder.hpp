@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Table of values to codeword.
+// The encoder of a table of values: from the sorted values to its codeword.
 #pragma once
 
 #include <cstdint>
