@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder's side of stored heights: the samples as they are, where no coder takes fewer bytes.
+// This file writes the samples of heights as they are, where no coder takes fewer bytes.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoder of a codeword of corrections (corrections_pass.hpp): one small integer for each
-// sample.
+// This file decodes a codeword of corrections (corrections_pass.hpp) into one small integer for
+// each sample.
 #pragma once
 
 #include <cstddef>

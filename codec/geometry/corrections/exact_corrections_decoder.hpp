@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoder of exact corrections (exact_corrections.hpp), which make decoded heights whole steps
-// again.
+// This file decodes exact corrections (exact_corrections.hpp), which make decoded heights whole
+// steps again.
 #pragma once
 
 #include <cstdint>

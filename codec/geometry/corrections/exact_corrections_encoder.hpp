@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder of exact corrections (exact_corrections.hpp), which make decoded heights whole steps
+// This file codes exact corrections (exact_corrections.hpp), which make decoded heights whole steps
 // again.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder of facets (facet_coder.hpp): codes what restores the samples behind a cut.
+// This file codes the difference between decoded heights and samples of facets (facet_coder.hpp).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoder of a table of values: from its codeword to the sorted values.
+// This file decodes a table of values from its codeword.
 #pragma once
 
 #include <cstdint>

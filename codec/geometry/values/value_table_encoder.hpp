@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder of a table of values: from the sorted values to its codeword.
+// This file codes a table of values as a codeword.
 #pragma once
 
 #include <cstdint>
