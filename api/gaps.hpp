@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What counts for a view of a decoder whose bytes have gaps: only the tracks that the view needs
-// have to be there. So a view whose tracks are complete is decoded as it would be of the complete
-// stream. Decoders without gaps get everything as it is.
+// headerFor() and heightTracksFor() say which tracks count for a view of a decoder whose bytes have
+// gaps: only those that the view needs have to be there. A view whose tracks are complete is
+// decoded as it would be from the complete stream. Corrections of a region are left out while
+// coefficients are missing somewhere, because they belong to other heights. A decoder without gaps
+// uses all tracks.
 #pragma once
 
 #include "api/decoder.hpp"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an encoder promises it proves before anybody sees the stream.
+// prove() decodes a finished stream through the public interface and compares it with the input:
+// the byte budget, the largest error, and every bit where the stream calls itself lossless. No
+// caller gets a stream that breaks a promise.
 #pragma once
 
 #include <cstdint>

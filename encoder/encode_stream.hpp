@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file goes the whole way from inputs to a stream: it quantises, codes, orders the packets,
-// meets the target and writes. Every stage takes a value and returns the next one.
+// encodeStream() turns heights, a texture or both into a stream that meets the target of the
+// options. It quantises, codes, orders the packets, keeps the packets that the target needs, and
+// writes. Every stage takes a value and returns the next one, so that a stage can be tried again in
+// another way.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file finds samples that lie so far from all others that they are no heights, though they are
-// not the declared nodata value.
+// findOutliers() finds samples that lie so far from all others that they cannot be heights, though
+// the file does not declare their value as nodata. Coded as heights they would cost most of the
+// bytes.
 #pragma once
 
 #include "tetrakis/tetrakis.h"

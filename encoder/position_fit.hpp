@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fits polynomials to the longitudes and latitudes of a raster, in as few bytes as a tolerance
-// allows. Maps are nearly similar to a plane that touches the sphere where they do, so that a few
-// terms suffice; how far off they are is counted in columns and rows.
+// fitPositions() fits polynomials to the longitudes and latitudes of a raster, in as few bytes as a
+// tolerance allows, so that a receiver without a library of projections knows where the raster
+// lies. Maps are nearly similar to a plane that touches the sphere where they do, so that a few
+// terms suffice; the error of the fit is counted in columns and rows.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an encoder's caller is told of its progress, and how the caller ends it.
+// ToldProgress tells the caller of an encoding how much of the work is done, and ends the work when
+// the caller's answer asks for it.
 #pragma once
 
 #include <chrono>

@@ -11,6 +11,10 @@
 //   overhanging  Squares begin at a power of two that covers the shorter side, in a row along the
 //                longer one. Those at the border are whole and reach over it, so that every
 //                triangle has two halves (codec/mesh/topology/lattice.hpp).
+//
+// There is a class for each rule, because they number vertices differently: a mask needs no
+// numbers, while a mesh needs dense numbers of the cells of a level, hidden vertices included, so
+// that a window of ancestors is found by adding an offset.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The levels of the 4-8 lattice over a W x H grid, clipped at its border (border_rule.hpp). Masks
-// and corrections are coded in this order. Levels are counted from 1 here and in the thesis,
-// because the roots are level 0; meshes, whose roots are no level, count from 0.
+// and drawings are coded in this order. Levels are counted from 1 here and in the thesis, because
+// the roots are level 0; meshes, whose roots are no level, count from 0.
 //
 // One 4-8 subdivision of squares of side 2s (s = 2^(depth-1) ... 1) inserts two levels
 // (thesis 3.2):

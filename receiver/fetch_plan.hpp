@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which bytes of a stream with a front index help a view most (thesis 1.2.5: a static source, a
-// dynamic view). What a packet is worth is the slope that the index states, times what an error in
-// its region costs in the picture beside what it costs on average in those that the encoder thought
-// of. The server knows nothing of it: it hands out byte ranges.
+// planFetch() names the byte ranges of a stream with a front index that help a view most (thesis
+// 1.2.5: a static source, a dynamic view). The worth of a packet is the slope that the index
+// states, times the cost in the picture of an error in its region, over the mean cost in the
+// pictures that the encoder thought of. Only that quotient passes from the encoder's cameras to the
+// viewer's. The server knows nothing of it: it hands out byte ranges.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A priority map orders the coefficients of a plane over the ground: those of a tile of priority p
-// come p bit-planes earlier than those of priority 0 (as the regions of interest of JPEG 2000 do).
-// Encoders make it of what cameras see; without one all coefficients have priority 0.
+// come p bit-planes earlier than those of priority 0. Encoders make it from the pictures of
+// cameras; without one all coefficients have priority 0. Magnitudes stay as they are, so that
+// neighbours of two priorities can still be compared, as they cannot where magnitudes are shifted
+// (the regions of interest of JPEG 2000). A coefficient has the mean priority of the tiles around
+// it, so coarse levels need no rule of their own.
 #pragma once
 
 #include <algorithm>

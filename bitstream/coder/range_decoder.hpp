@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// This binary range decoder mirrors range_encoder.hpp and adds the tail rule: where bytes are
-// missing, a decision counts only if reading the missing tail as all zeros and as all ones agrees
-// on it.
+// RangeDecoder turns the bytes of a codeword into binary decisions, as range_encoder.hpp turned
+// them into bytes, and adds the tail rule: where bytes are missing, a decision counts only if
+// reading the missing tail as all zeros and as all ones agrees on it. So a cut costs no bytes that
+// end a codeword, and no decision that was paid for is lost.
 #pragma once
 
 #include <bit>

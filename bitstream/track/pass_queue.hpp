@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order of a track's passes: always the one that promises the most. It follows from the norms
-// of the bands, from the priorities of their tiers, and from how many of their coefficients are
-// known to be significant, so it costs no bits, and each pass improves the surface or image by
-// about the same factor as its neighbours.
+// PassQueue gives the order of a track's passes: the next pass is always the pending one of the
+// greatest key, key = log2(norm of the band) + bit-plane + priority of the tier - delay. The delay
+// depends on the kind of pass and on the number of coefficients that are known to be significant.
+// Both sides know all of this, so the order costs no bits, and each pass improves the surface or
+// image by about the same factor as its neighbours.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes the coefficients of a height field and turns them into heights. Integer arithmetic only.
+// decodeCoefficients() decodes the coefficients of a height field and turns them into heights in
+// steps. It uses integers only.
 #pragma once
 
 #include <cstdint>

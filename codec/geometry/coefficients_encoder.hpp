@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file transforms heights in steps and codes their coefficients into the geometry's tracks.
+// encodeCoefficients() transforms heights in steps and codes their coefficients into tracks.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What heights look like behind each prefix of their corrections, for encoders that look at many:
-// all samples are corrected once.
+// prefixesOfCorrections() gives the heights behind each prefix of their corrections, for encoders
+// that measure many prefixes. It corrects all samples once instead of decoding each prefix anew.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes heights from the layers of their tracks: validity, flat areas, coefficients or a
-// drawing with what lies among them, corrections (bitstream/stream/geometry_header.hpp), or stored
-// samples.
+// decodeHeights() decodes heights from the layers of their tracks: validity, flat areas,
+// coefficients or a drawing with the layers among them, corrections
+// (bitstream/stream/geometry_header.hpp), or stored samples.
 #pragma once
 
 #include <cstdint>

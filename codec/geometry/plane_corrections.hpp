@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds the corrections of a plane, or of its regions, to what coefficients or a drawing give.
+// corrected() adds the corrections of a plane, or of its regions, to the heights that coefficients
+// or a drawing give.
 #pragma once
 
 #include <cstdint>

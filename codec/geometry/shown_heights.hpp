@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights of the lines that are coded to those that a view shows (codec/lines/shown_lines.hpp).
+// shownHeights() turns heights of the coded lines into those of a view of all lines
+// (codec/lines/shown_lines.hpp).
 #pragma once
 
 #include "codec/geometry/steps/decoded_heights.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coded mesh of a view: which of its vertices have a significant coefficient.
+// ShownSignificance marks the vertices of a view that have a significant coefficient. They make the
+// coded mesh of that view.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +24,7 @@ class ShownSignificance {
   /// Takes the bands of a track. Called for different tracks at the same time.
   void take(size_t track, const TrackState& state, std::span<const BandPart> parts);
 
-  /// Moves the marks, and how many of the finest levels have none, to the heights of the view.
+  /// Moves the marks to the heights of the view, and the number of finest levels without a mark.
   void giveTo(DecodedGeometry& geometry);
 
  private:

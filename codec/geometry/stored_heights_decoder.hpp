@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes heights that are stored sample by sample, because coding them would take more bytes.
+// decodeStoredHeights() decodes heights that are stored sample by sample, because coding them would
+// take more bytes.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes the tracks of heights apart into their layers (bitstream/stream/geometry_header.hpp).
+// takeApart() splits the tracks of heights into the codewords of their layers, by the lengths that
+// the header states (bitstream/stream/geometry_header.hpp). Encoders join them in
+// encoder/heights/joined_layers.hpp.
 #pragma once
 
 #include <cstdint>

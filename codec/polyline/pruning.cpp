@@ -60,8 +60,8 @@ class Pruning {
     }
   }
 
-  /// The subtree of least slope: of equal ones the smallest, so that more numbers of segments are
-  /// reached.
+  /// Finds the subtree of least slope below node k. Of several with that slope it takes the
+  /// smallest, so that the sequence of polylines has more members.
   void choose(uint32_t k) {
     Part& part = parts_[k];
     part.slope = part.error / part.segments;

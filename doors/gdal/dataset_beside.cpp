@@ -45,7 +45,7 @@ bool Dataset::isBesideOfAnother(char** siblings) {
   PamInitialize();
   const char* const file = BuildPamFilename();
   if (file == nullptr) return false;
-  // As GDAL does, which asks nothing of files that a folder does not have.
+  // GDAL does the same: it does not open a file that the list of the folder lacks.
   const std::string folder = CPLGetPath(source_->name().c_str());
   const bool listed = siblings != nullptr && folder == CPLGetPath(file);
   if (listed && CSLFindString(siblings, CPLGetFilename(file)) < 0) return false;

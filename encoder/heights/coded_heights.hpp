@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coded heights are a component of a stream: the codewords of the mask, the coefficients and the
-// corrections, joined into tracks, and what the header says of them. Such a value is not changed
-// once it is made; heights that are coded in another way are another value.
+// CodedHeights is the heights as a component of a stream: tracks, which join the codewords of the
+// mask, the coefficients and the corrections, and the header that describes them. codeHeights()
+// makes it from quantised heights. A value is not changed once it is made: heights that are coded
+// in another way are another value, so that attempts can be compared.
 #pragma once
 
 #include <cstdint>

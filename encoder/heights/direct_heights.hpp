@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights without coefficients. A drawing of few values, or the samples as they are, takes the
-// place of the coefficients in the track.
+// drawHeights() and storeHeights() code quantised heights without coefficients: as a drawing of few
+// values, or as the samples themselves. The wavelet takes more bytes for heights of few values, and
+// for noise.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Corrections follow the coefficients of coded heights: at the end of the first track, or, of
-// heights in regions, in tracks of their own (bitstream/stream/correction_tracks.hpp).
+// followedBy() appends corrections to coded heights: at the end of the first track or, of heights
+// in regions, as a track for each region (bitstream/stream/correction_tracks.hpp), so that a window
+// needs no corrections of other regions. These tracks come last in the stream, because a correction
+// means nothing for another height than the one it was made for.
 #pragma once
 
 #include "codec/geometry/corrections/correction_parts.hpp"

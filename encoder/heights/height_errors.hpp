@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file decodes prefixes of coded heights, as a decoder would, and measures how far they are
-// from the heights that were coded.
+// squaresOf() and sampleErrorsOf() decode prefixes of coded heights, as a decoder would, and
+// measure how far the decoded samples are from the input. The account of a track only estimates
+// that error.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of an encoding, for the coefficients of its heights.
+// heightOptions() makes the options for the coefficients of heights from the options of an
+// encoding.
 #pragma once
 
 #include <cstdint>

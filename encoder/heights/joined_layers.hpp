@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layers of coded heights are joined here into the codeword of their first track, which
+// joinLayers() joins the layers of heights into the codeword of their first track, which
 // codec/geometry/taken_layers.hpp takes apart again. In front lie the mask of the valid samples and
-// the flat areas; a table of values and a late mask lie among the coefficients; corrections follow.
+// the flat areas; a table of values and a late mask lie among the coefficients, where their bytes
+// take off as much error as the coefficients beside them; corrections follow.
 #pragma once
 
 #include <memory>

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mask of many single holes takes as many bytes as the heights beside it. Where these are bridged
-// the coefficients follow from which samples are lifted, which often are all; so the mask comes
-// late, behind some of the coefficients, and until then voids are shown as the ground that bridges
-// fill them with. Of every prefix half or more are coefficients, and the mask is whole after twice
-// its bytes: neither comes later than twice as late as it could. A budget may bring the mask
-// earlier, but leaves the coefficients a third of its bytes, or else leaves the mask out.
+// lateMaskOf() and placeOfMask() decide whether the mask of valid samples lies behind some of the
+// coefficients, and behind how many. A mask of many single holes takes as many bytes as the
+// heights: half of the samples void at random cost one bit a sample. Where such voids are bridged
+// the coefficients depend only on the samples that are lifted, often all samples. So coefficients
+// can come first, and until the mask is there bridged voids are shown as ground. Half or more of
+// every prefix are coefficients, and the mask is whole after twice its bytes: neither comes later
+// than twice as late as it could. A byte budget may bring the mask earlier, but leaves the
+// coefficients a third of its bytes, or else leaves the mask out.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quantised heights are integer steps together with all that does not depend on how their
-// coefficients are coded: the validity mask, and the corrections that restore samples which no
-// steps show. Every attempt to code the heights starts from such a value and leaves it as it is.
+// QuantisedHeights is the input heights as integer steps, with the layers that do not depend on how
+// the coefficients are coded: the validity mask, a table of values, and the corrections that
+// restore samples which no steps show. quantiseHeights() makes it. Every attempt to code the
+// heights starts from such a value and leaves it as it is.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights and images that were enlarged by copying samples are coded without the columns and rows
-// that repeat the one before them (bitstream/stream/line_repeats.hpp).
+// CodedLines is the part of heights, or of an image, that is coded where columns and rows repeat
+// the one before them: the other lines, and the map of repeats (bitstream/stream/line_repeats.hpp).
+// Rasters that were enlarged by copying samples, or warped to the nearest one, have such lines.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file holds what one encoding is given, and what follows from it for both components.
+// EncodeInputs is the input of one encoding (heights, image, options, priorities) and the lines of
+// both components that are coded. The functions derive from it what both components need alike.
 #pragma once
 
 #include <cstdint>

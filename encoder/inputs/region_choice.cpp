@@ -9,7 +9,7 @@ namespace tetrakis::inline inputs {
 
 namespace {
 
-/// Sides of regions, chosen so that they cost about 1 % of the bytes (docs/ARCHITECTURE.md).
+/// Sides of regions: they cost 1 to 3 % of the bytes (docs/MEASUREMENTS.md, "Windows").
 constexpr int kRegionLog2 = 9;
 /// Sides of regions in streams made for windows: they cost as much again, and a window of 512 takes
 /// a third less.

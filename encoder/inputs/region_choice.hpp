@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a component is coded in regions (bitstream/track/regions.hpp), and in which.
+// chooseRegions() decides whether a component is coded in regions (bitstream/track/regions.hpp),
+// and how large they are, from its size and the caller's options.
 #pragma once
 
 #include "base/plane.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A selection says what a stream will hold: the components as they are coded, and the packets of
-// both in one order.
+// A Selection is the content of a stream before it is written: both coded components, and the
+// packets of both in one order.
 #pragma once
 
 #include <memory>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file says what the header tells of where the inputs lie.
+// georeferenceOf() and positionsOf() make the part of the header that says where heights and
+// texture lie, from the places that the caller gives. A texture over the same ground takes one
+// byte.
 #pragma once
 
 #include <string>

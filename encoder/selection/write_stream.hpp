@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file writes the finished stream: the header, its index, and the packets that fit.
+// writeStream() writes the finished stream of a selection: the header, its index, and the packets
+// that fit the budget.
 #pragma once
 
 #include <cstdint>

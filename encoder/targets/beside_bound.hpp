@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of a texture suits heights within a largest error.
+// textureBesideBound() decides how many bytes a texture gets beside heights that keep a largest
+// error. The caller gives no size for the texture, so it gets the packets that are worth as much as
+// the bytes that bring the heights within their bound.
 #pragma once
 
 #include <cstdint>

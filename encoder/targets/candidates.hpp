@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file takes candidates of both components on their way to a selection: it makes their curves,
-// orders their packets, and makes the attempts that come after the first one.
+// Candidates are the attempts at both components from which a target selects. The functions here
+// give candidates their curves, order their packets, and make the attempts that follow the first
+// one: lossless coding, and stored samples.
 #pragma once
 
 #include <cstdint>

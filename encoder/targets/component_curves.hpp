@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file finds out what the bytes of a coded component take off its errors. It tells rate
-// control how to measure heights and textures.
+// curveOfHeights() and curveOfTexture() find out how far the bytes of a coded component lower its
+// errors. They tell ratecontrol/curves/, which knows no samples, how to decode and measure a
+// prefix.
 #pragma once
 
 #include "encoder/heights/coded_heights.hpp"

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a byte budget comes near the last bit: the last bit-planes of lossy coefficients can take
-// more bytes than it does to have all samples right. This file tries that, for everything and for
-// the heights alone, and keeps it where the budget buys more by it.
+// exactWithinBudget() tries heights and texture to the last bit where a byte budget comes near to
+// it: the last bit-planes of lossy coefficients can take more bytes than exact samples do. It tries
+// both components, then the heights alone, beside the lossy candidates, and holds the pictures of
+// their prefixes against each other: exact heights are taken if the picture is better with the
+// whole budget, by more decibels than it loses with 1/16 to 3/4 of the budget together.
 #pragma once
 
 #include <optional>

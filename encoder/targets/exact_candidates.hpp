@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidates that end exact within a byte budget: ways of one component to its last bit, beside the
-// lossy candidate that a budget is met with first.
+// exactHeights(), exactTexture() and exactWays() make candidates of one component that end exact
+// within a byte budget, to be held against the lossy candidate that the encoder makes first.
 #pragma once
 
 #include <cstdint>

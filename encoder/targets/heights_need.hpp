@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many bytes of heights a PSNR takes.
+// heightsNeed() finds the number of bytes of coded heights that reaches the PSNR of the options.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file finds the packets of the coded components that meet the target of the options. Where
-// the target lies next to the last bit, or where coding does not pay, it codes a component in
-// another way as well and takes the way of fewer bytes.
+// meetTarget() takes the coded components and returns the packets of both that meet the target of
+// the options. Where the target lies next to the last bit, or where coding saves no bytes, it codes
+// a component in another way as well and takes the way of fewer bytes.
 #pragma once
 
 #include <memory>

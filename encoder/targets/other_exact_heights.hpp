@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exact heights within a budget that are coded otherwise than the lossy ones: as drawings, by
-// tables of values, or by what neighbours tell.
+// fewValues() and shortExactHeights() make exact heights for a byte budget by means that lossy
+// heights do not have: drawings, tables of values, and corrections from neighbours.
 #pragma once
 
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A coded texture is a component of a stream: its tracks, and what the header says of them. This
-// file makes such values by all ways there are to code a texture, and measures what a decoder shows
-// of them. None is changed once it is made.
+// CodedTexture is a texture as a component of a stream: its tracks, and the header that describes
+// them. The functions here make such values in each way to code a texture, and measure the texels
+// that a decoder makes of a prefix. A value is not changed once it is made.
 #pragma once
 
 #include <cstdint>

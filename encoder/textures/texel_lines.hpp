@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file finds the columns and rows of an image that repeat the one before them.
+// texelLines() finds the columns and rows of the input image that repeat the one before them, so
+// that only the other lines are coded (encoder/inputs/repeated_lines.hpp).
 #pragma once
 
 #include "encoder/inputs/coded_lines.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The options of an encoding, for its texture.
+// textureOptions() makes the options for coding a texture from the options of an encoding.
 #pragma once
 
 #include "base/texels.hpp"

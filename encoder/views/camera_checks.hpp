@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the cameras of the options have to be before anything looks through them.
+// checkCameras() refuses cameras of the options through which nothing can be seen, before any other
+// function looks through them.
 #pragma once
 
 #include "base/status.hpp"

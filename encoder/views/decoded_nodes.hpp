@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prefixes of both components as decoders show them, for cameras to look at.
+// DecodedNodes decodes some prefixes of both components for the cameras to look at. Each prefix is
+// decoded from where the one before it ended, and to the end of a pass where there is one track, so
+// that nothing has to be taken back. Prefixes that know only coarse levels are given to rays as
+// coarse grids, which takes less time.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What cameras see of prefixes of streams that are not written yet.
+// PrefixErrors measures the error of the cameras' pictures for prefixes of streams that are not
+// written yet, so that two selections can be compared at every size.
 #pragma once
 
 #include <cstdint>

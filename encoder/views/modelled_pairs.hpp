@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The modelled engine: rays look at all pairs of prefixes (ratecontrol/pictures/).
+// modelledErrors() is the modelled engine: rays of the cameras (ratecontrol/pictures/) look at all
+// pairs of a prefix of the heights with a prefix of the texture, and give the error of each
+// picture.
 #pragma once
 
 #include <vector>

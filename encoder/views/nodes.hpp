@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The prefixes of both components whose pairs are looked at.
+// Nodes are the prefixes of both components whose pairs an engine looks at.
 #pragma once
 
 #include <vector>

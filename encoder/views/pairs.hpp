@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What errors of either component cost in pictures: an engine, modelled or rendered, looks at pairs
-// of prefixes of both (thesis 6.3.1).
+// pairErrorsOf() measures the cost of errors of either component in the cameras' pictures: an
+// engine, modelled or rendered, looks at pairs of prefixes of both (thesis 6.3.1). The errors of
+// heights and texture do not add, so neither component can be measured alone.
 #pragma once
 
 #include "encoder/inputs/encode_inputs.hpp"

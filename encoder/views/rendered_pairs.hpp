@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rendered engine: a renderer of the caller's (tks_picture_error) looks at pairs of prefixes.
+// renderedErrors() is the rendered engine: a renderer of the caller's (tks_picture_error) draws
+// every other prefix of either component, and its errors correct those of the modelled engine for
+// all pairs (ratecontrol/allocation/corrected_errors.hpp).
 #pragma once
 
 #include <vector>

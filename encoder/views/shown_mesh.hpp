@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// With a triangle budget viewers see a mesh of the heights, not the heights (thesis 6.1: D(M_i,
-// T_j)): however many bytes these take, a mesh is off by what so few triangles cannot show. So the
-// cameras look at the meshes that decoders will make of prefixes. Told the cameras, those are
-// meshes for them; else meshes for a map.
+// ShownMesh draws the mesh that decoders will make of a prefix as heights of all samples, for the
+// cameras to look at. With a triangle budget viewers see that mesh and not the heights (thesis 6.1:
+// D(M_i, T_j)): an error that the triangles cannot show costs nothing, so bytes that lower it are
+// better spent on the texture. If the caller names cameras the mesh is made for them, else for a
+// map.
 #pragma once
 
 #include <optional>

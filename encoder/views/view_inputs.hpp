@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caller's heights and cameras as rate control has them: metres on the ground.
+// frameOf(), reliefOf() and camerasOf() translate the caller's heights and cameras for rate
+// control, which works in metres on the ground.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marginal analysis (thesis 6.3.2): this file puts the packets of both components into one order.
-// What comes next is what takes the most off the error of the picture per byte, and both slopes are
-// renewed after each step, because errors of heights and of textures do not add. Read backwards,
-// the order gives up first what costs least per byte. It does not depend on any budget.
+// allocate() puts the packets of both components into one order, by marginal analysis (thesis
+// 6.3.2). The next packet is always the one that lowers the error of the picture most per byte, and
+// both slopes are renewed after each step, because errors of heights and of textures do not add.
+// Read backwards, the order gives up first what costs least per byte. It does not depend on any
+// budget.
 #pragma once
 
 #include <array>

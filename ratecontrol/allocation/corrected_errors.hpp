@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of all pairs of prefixes by a model, corrected by some pairs that were measured: what a
-// model says of a picture is off by a factor that changes slowly from pair to pair, so that it
-// suffices to measure every other prefix of either component.
+// correctedErrors() takes the errors that a model gives for all pairs of prefixes and corrects them
+// by the measured errors of some pairs. The error of the model is a factor that changes slowly from
+// pair to pair, so that it suffices to measure every other prefix of either component.
 #pragma once
 
 #include <cstddef>

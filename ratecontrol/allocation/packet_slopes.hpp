@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a byte of each packet is worth, for viewers that choose packets by what they look at: the
-// front index says it (docs/FORMAT.md, section 2).
+// stateSlopes() computes the worth of a byte of each packet, which the front index states
+// (docs/FORMAT.md, section 2), so that viewers can choose packets for the ground that they look at.
 #pragma once
 
 #include <array>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The error of the picture for heights and textures of any quality (thesis 6.3.1: D(M_i, T_j)),
-// from a grid of pairs that an engine has looked at. The two do not add: a texture that is in the
-// wrong place is worth little (figure 6.7), and the grid holds that.
+// PairErrors gives the error of the picture for heights and textures of any quality (thesis 6.3.1:
+// D(M_i, T_j)), from a grid of pairs that an engine has looked at. The two errors do not add: a
+// texture that is in the wrong place is worth little (figure 6.7), and the grid holds that.
 //
 // Between two columns of the grid the logarithm of the error is linear in that of the squared error
-// of the heights. Behind the last one, what the error exceeds that of the original by goes on to
-// fall with the power of the squared error by which it fell before: the last bytes take off errors
-// of fine detail, of which viewers see less. Likewise for rows and textures.
+// of the heights. Behind the last column the error goes on to fall towards that of the original,
+// with the power of the squared error by which it fell before: the last bytes take off errors of
+// fine detail, of which viewers see less. Rows and textures behave likewise.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder's account of a track is kept in the transform domain; a viewer sees samples. The
-// audit decodes prefixes and corrects the account, as often as the size of the track allows.
+// audit() corrects the account that an encoder keeps of a track (bytes and error after each pass)
+// by decoding prefixes, as many as the size of the track allows. The account counts errors of
+// coefficients; a viewer sees samples.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This is how rate control sees a coded component: as codewords with their accounts. Whether they
-// hold heights or texels does not matter here.
+// CodedTracks is a coded component as rate control sees it: codewords with their accounts, whether
+// they hold heights or texels.
 #pragma once
 
 #include <cstdint>

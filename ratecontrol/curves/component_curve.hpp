@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file cuts a coded component into packets and says what their bytes are worth. The account of
-// the tracks is audited and thinned to its hull, and every packet states the quality that it leads
-// to. What the errors of a component are worth beside those of another one is not its business:
+// curveOf() cuts a coded component into packets and computes the worth of their bytes. It audits
+// the account of the tracks, thins it to its hull, and states in every packet the quality that it
+// leads to. Errors of one component beside those of the other are the business of
 // ratecontrol/allocation/pair_errors.hpp.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file thins an operational rate-distortion curve to its lower convex hull, which holds the
-// only points that a marginal analysis ever stops at (thesis 6.3; Y. Shoham, A. Gersho 1988), and
-// divides the bytes between two of them into packets.
+// lowerHull() thins an operational rate-distortion curve to its lower convex hull, which holds the
+// only points at which a marginal analysis ever stops (thesis 6.3; Y. Shoham, A. Gersho 1988), and
+// packetEnds() divides the bytes between two of these points into packets.
 #pragma once
 
 #include <span>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order of the packets of a component that is coded in regions. It is the marginal allocation
-// (thesis 6.3) among the component's tracks, in its own distortion: what is cheap to improve
-// anywhere comes first. Then the packets of a region, and of its neighbours, are strewn over the
-// stream, and who fetches a window by ranges takes hundreds of them, or what lies between. Two
-// coarser orders keep them together. docs/EXPERIMENTS.md has what these take from prefixes.
+// orderTracks() orders the packets of a component that is coded in regions. The finest order is the
+// marginal allocation (thesis 6.3) among the component's tracks, in its own distortion: the
+// cheapest improvement anywhere comes first. Then the packets of a region and of its neighbours are
+// strewn over the stream, and a receiver that fetches a window by ranges takes hundreds of them, or
+// the bytes between. Two coarser orders keep them together; docs/EXPERIMENTS.md has their cost in
+// prefixes.
 #pragma once
 
 #include <vector>

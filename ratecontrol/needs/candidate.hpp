@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A candidate is what an attempt to code a component has made of it. Attempts do not know of each
-// other and change nothing that they are given, so none of them has anything to take back: one
-// function chooses among the candidates.
+// A Candidate is the result of one attempt to code a component, with its curve once that is known.
+// Attempts do not know of each other and change nothing that they are given, so that none of them
+// has anything to take back: fewestBytes() chooses among the candidates.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many bytes of each component a target needs is found here, and the packets that hold them are
-// kept. Nothing is decoded: the callers say what a number of bytes is worth.
+// The functions here find the number of bytes of each component that a target needs, and keep the
+// packets that hold them. They decode nothing: the caller says whether a number of bytes suffices.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of an order of packets fits in a budget of bytes, to which the heads of packets count.
+// The functions here keep the packets of an order that fit in a budget of bytes, to which the heads
+// of packets count, and move packets so that one component ends within it.
 #pragma once
 
 #include <array>

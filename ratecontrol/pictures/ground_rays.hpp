@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where rays meet a height field: the two triangles of every cell, with the diagonals of the
-// tetrakis tiling. Rays pass over blocks of cells that lie below them (maximum_mipmap.hpp).
+// GroundRays finds where rays meet a height field: the two triangles of every cell, with the
+// diagonals of the tetrakis tiling. Rays pass over blocks of cells that lie below them
+// (maximum_mipmap.hpp).
 #pragma once
 
 #include <array>

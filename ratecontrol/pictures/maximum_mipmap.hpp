@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The highest ground of square blocks of cells, level by level: each block of a level covers two by
-// two of the level before. What passes above a block meets none of its cells (A. Tevs, I. Ihrke,
-// H.-P. Seidel 2008: maximum mipmaps for fast, accurate, and scalable dynamic height field
-// rendering).
+// MaximumMipmap holds the highest ground of square blocks of cells, level by level: each block of a
+// level covers two by two blocks of the level before. A ray that passes above a block meets none of
+// its cells (A. Tevs, I. Ihrke, H.-P. Seidel 2008: maximum mipmaps for fast, accurate, and scalable
+// dynamic height field rendering).
 #pragma once
 
 #include <cstddef>

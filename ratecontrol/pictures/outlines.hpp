@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where ground ends before the sky, errors are large and lie at few pixels: points spread over a
-// picture hardly see them. Outlines are therefore followed: some hundred columns of the pictures
-// say where they meet the outlines of the true ground, and how far those of other surfaces have
-// moved. An outline that moves by some pixels shows ground instead of sky or sky instead of ground
-// there.
+// Outlines measures the error of pictures where the ground ends before the sky. Errors there are
+// large and lie at few pixels, which points spread over a picture hardly meet. So some hundred
+// columns of the pictures say where they meet the outlines of the true ground, and how far the
+// outlines of another surface have moved. An outline that moves by some pixels shows ground instead
+// of sky, or sky instead of ground.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the cameras' pictures of other surfaces and textures are from those of the true terrain:
-// inside the ground by points (screen_points.hpp), at its end before the sky by columns
-// (outlines.hpp). The error of a picture is the sum of both.
+// PictureErrors measures how far the cameras' pictures of other surfaces and textures are from
+// those of the true terrain: inside the ground by points (screen_points.hpp), at its end before the
+// sky by columns (outlines.hpp). The error of a picture is the sum of both.
 #pragma once
 
 #include <cstddef>

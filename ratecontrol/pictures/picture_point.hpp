@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// One point of a camera's picture: the ray behind it, the ground that it shows, and what that looks
-// like. A ray finds the ground, so hidden ground counts nothing, near ground much, and a height
-// error moves the texture as far as it does on the screen; the size of a pixel on the ground says
-// which levels of the texture are seen.
+// PicturePoint is one point of a camera's picture: the ray behind it, the ground that the ray
+// meets, and the colour of that ground. A ray finds the ground, so hidden ground counts nothing,
+// near ground much, and a height error moves the texture as far as it does on the screen; the size
+// of a pixel on the ground says which levels of the texture are seen.
 #pragma once
 
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The modelled engine of screen distortion (thesis 6.1 and 6.2): what cameras see of a terrain, at
-// some thousand pixels of their pictures. Averages over these are the squared errors that a
-// renderer would find, to some percent, and the same pixels for all surfaces and textures make
-// their differences much better than that.
+// ScreenPoints is the modelled engine of screen distortion (thesis 6.1 and 6.2): it looks at a
+// terrain at some thousand pixels of the cameras' pictures. Averages over these pixels are the
+// squared errors that a renderer would find, to some percent. The same pixels serve all surfaces
+// and textures, so that the difference of two errors is known much better.
 //
 // A pixel is the mean of four samples, whose errors d1 ... d4 partly cancel: half or less of fine
 // errors remains. Two of the four samples tell how much, as long as all six pairs take turns. The

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A texture as renderers show it: a pyramid of levels, each half the one before, and trilinear
-// filters between their texels.
+// ScreenTexture is a texture as renderers show it: a pyramid of levels, each half the size of the
+// one before, and trilinear filters between their texels.
 #pragma once
 
 #include <array>

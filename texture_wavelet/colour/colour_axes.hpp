@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the axes of colour along which an image is cheapest to code. Encoder only.
+// The functions here find the axes of colour along which an image is cheapest to code: a
+// coefficient c at a step T costs about log2(1 + |c| / T) bits, and the axes are turned by small
+// rotations until the sum of these costs is least. Encoder only.
 #pragma once
 
 #include <cstdint>

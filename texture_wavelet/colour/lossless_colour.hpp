@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the colour transform for an image of which every bit will be coded. Encoder only.
+// The functions here choose the colour transform of an image of which every bit will be coded. They
+// take the axes of lossy streams where these cost about as few bytes as the cheapest ones, because
+// prefixes of a lossless stream are lossy. Encoder only.
 #pragma once
 
 #include <cstdint>

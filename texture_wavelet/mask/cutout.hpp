@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cut-outs are images of which every texel is either opaque or not there: signs, trees, coasts.
-// Encoder only.
+// Their alpha is coded as a mask, exact before the first colour. Hidden colours are coded only in
+// lossless streams, and come back as the mean colour in others. Encoder only.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The values that a channel has, where its type could hold many more: photographs that were
+// ChannelTables hold the values of channels whose type could hold many more: photographs that were
 // stretched over their type, 11 bits in 16, 8 bits times 257. The wavelet then codes the places of
-// samples in a sorted table, and between two places lies what lies between their values.
+// samples in a sorted table, and between two places lies the interpolation of their values, so that
+// cuts stay good though gaps are uneven. The tables stand in the header, so that every prefix has
+// them. Only lossless streams have tables.
 #pragma once
 
 #include <array>

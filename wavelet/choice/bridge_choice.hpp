@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders choose here which voids are bridged (wavelet/bridges.hpp). Holes of single samples cut
-// lifting short, and cost a multiple of what stands in them; a frame of voids is cheaper as it is.
+// chooseBridges() decides which voids are bridged (wavelet/bridges.hpp). Holes of single samples
+// cut lifting short, and cost a multiple of the bytes of the samples in them; a frame of voids is
+// cheaper as it is. Bridges are chosen by the cost of typical parts, at the step of the target and
+// at coarser ones, because prefixes pay as well.
 #pragma once
 
 #include <cstdint>

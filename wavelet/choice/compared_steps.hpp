@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two ways to code one plane are compared at the step of the target and at coarser ones, because
-// every prefix of a stream is a stream. Encoder only.
+// The functions here compare two ways to code one plane, at the step of the target and at coarser
+// steps, because every prefix of a stream is a stream. Encoder only.
 #pragma once
 
 #include <functional>

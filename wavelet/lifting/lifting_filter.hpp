@@ -9,6 +9,16 @@
 // The steps leave the low band in the even samples and the high band in the odd ones. A step adds a
 // rounded number (half up) that the other samples alone determine, so every filter is exactly
 // reversible.
+//
+// Terrain models are sampled finely and want long filters, images short and nearly orthogonal ones,
+// drawn maps the shortest:
+//
+//   kShort        two taps a step (the 5/3)
+//   kSixTap       six taps a step
+//   kLong         ten taps a step, for rough terrain
+//   kOrthogonal   four steps, for images and coarse levels of lossy streams
+//   kQuiet        three steps with weights below 1, which keep roundings small: lossless images
+//   kSmooth       no detail of polynomials up to degree 5, for ground without roughness
 #pragma once
 
 #include <array>

@@ -3,6 +3,10 @@
 // of the whole plane would give there, from the coefficients that reach the window. At every level
 // the window grows by the reach of the filter and then halves, so the work follows the size of the
 // window and not that of the plane.
+//
+// Coefficients that lie outside must not change a window. So the stream header says how many bytes
+// a complete track has, because a window cannot see whether all tracks are complete; and sums
+// beside voids always have 64 bits.
 #pragma once
 
 #include <cstdint>

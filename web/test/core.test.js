@@ -368,7 +368,7 @@ test('a connection that is cut ahead of an answer or in the middle of it broke',
 
 /** Resolves to false if the connection is cut before all of the answer went out. */
 const answered = (request) => Promise.race([request.ended,
-  new Promise((_, reject) => setTimeout(reject, 20000, new Error('the connection stays')).unref())]);
+  new Promise((_, reject) => setTimeout(reject, 20000, new Error('it stays open')).unref())]);
 const until = async (condition) => {
   while (!condition()) await new Promise((resolve) => setTimeout(resolve, 5));
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// There are two ways of keeping heights within a largest error. This file says which of them is
-// worth trying, and where to cut.
+// boundWays() decides which of two ways to keep heights within a largest error is worth trying
+// (rounding to coarser steps, or a cut with corrections), and where to cut, by typical parts.
 #pragma once
 
 #include <cstdint>

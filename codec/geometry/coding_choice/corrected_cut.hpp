@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cut of the coefficients leaves errors, and corrections bring them below a largest error. This
-// file finds the cut that takes the fewest bytes in all.
+// CorrectedCut finds where to cut the coefficients of a track so that they and the corrections
+// behind them take the fewest bytes. The cut leaves errors, and the corrections bring these below a
+// largest error.
 #pragma once
 
 #include <cstdint>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights to the last bit are coefficients without fraction bits, or a cut of lossy ones with exact
-// corrections behind it. This file says which is worth trying, and where to cut.
+// chooseExactCut() decides, by typical parts, whether heights to the last bit take fewer bytes as a
+// cut of lossy coefficients with exact corrections behind it than as coefficients without fraction
+// bits, and where to cut.
 //
 // The integer transform rounds each coefficient, which costs about a bit a sample where the heights
-// themselves hold less, and of copies, planes that meet at edges, and heights rounded to tens it
-// knows nothing. Corrections look at the exact neighbours of each sample.
+// themselves hold less, and it gains nothing from copies, planes that meet at edges, and heights
+// rounded to tens. Corrections look at the exact neighbours of each sample.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where to cut the coefficients of a surface of facets, whose samples are restored behind the cut.
-// Only samples beyond edges need the decoded heights: each takes a bit less for each halving of
-// their error, and a halving takes coefficients all over the plane.
+// chooseFacetCut() decides where to cut the coefficients of a surface of facets, whose samples are
+// restored behind the cut. Only samples beyond edges need the decoded heights: each takes a bit
+// less for each halving of their error, and a halving takes coefficients all over the plane.
 #pragma once
 
 #include "base/plane.hpp"

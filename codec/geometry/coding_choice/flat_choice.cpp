@@ -81,7 +81,8 @@ class FlatTrials {
  private:
   Window whole() const { return {0, 0, heights_.width, heights_.height}; }
 
-  /// A price is the ratio of bytes, less what flatness is worth; it is infinite without areas.
+  /// The price of a trial: its bytes over those of the plane without flat areas, less the worth of
+  /// flat water (kNoAreas: the trial has no areas).
   static constexpr double kNoAreas = std::numeric_limits<double>::infinity();
 
   struct Trial {

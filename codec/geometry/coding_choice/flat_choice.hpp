@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders choose here which flat areas are worth their shapes, and the filters that suit what is
-// left.
+// chooseFlatAreas() decides which flat areas of heights save more bytes than their shapes take, and
+// which filters suit the other samples.
 #pragma once
 
 #include <cstdint>

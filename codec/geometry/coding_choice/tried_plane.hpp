@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the coefficients of a plane cost where areas of it are held, by parts that stand for it.
+// TriedPlane estimates the cost of the coefficients of a plane where areas of it are held, from
+// typical parts that stand for the plane.
 #pragma once
 
 #include <cstdint>

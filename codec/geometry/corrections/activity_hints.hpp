@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What significant coefficients say of the corrections of steps near them.
+// activityHints() counts the significant coefficients near each sample: where there are some,
+// corrections of steps are larger, so the count is a context for them.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder's side of corrections in parts of the plane (bitstream/stream/correction_tracks.hpp).
+// encodeParts() codes the corrections of each region of a plane as a codeword of its own
+// (bitstream/stream/correction_tracks.hpp), on several threads. A plane in one track is one part.
 #pragma once
 
 #include <cstddef>

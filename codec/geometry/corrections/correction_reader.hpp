@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoder's side of corrections (codec/geometry/corrections/correction_coder.hpp).
+// CorrectionReader is the decoder's side of a correction (correction_coder.hpp).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder's side of corrections (codec/geometry/corrections/correction_coder.hpp).
+// CorrectionWriter is the encoder's side of a correction (correction_coder.hpp).
 #pragma once
 
 #include <bit>

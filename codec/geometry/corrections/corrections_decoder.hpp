@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes the corrections of heights.
+// This file decodes a codeword of corrections (corrections_pass.hpp) into one small integer for
+// each sample.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes the corrections of heights.
+// This file codes one small integer for each sample as a codeword of corrections
+// (corrections_pass.hpp).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Corrections of a plane, row by row, one for each sample that exists.
+// codeCorrections() walks over the corrections of a plane for both sides: row by row, one
+// correction for each sample that exists, with a hint of the caller for each.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes corrections that make heights whole steps again.
+// This file decodes exact corrections (exact_corrections.hpp), which make decoded heights whole
+// steps again.
 #pragma once
 
 #include <cstdint>

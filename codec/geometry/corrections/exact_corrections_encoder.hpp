@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes corrections that make heights whole steps again.
+// This file codes exact corrections (exact_corrections.hpp), which make decoded heights whole steps
+// again.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exact steps before a sample, which may be the same as its own: that of a neighbour, or one
-// that lies on a line or in a plane with theirs.
+// NearSteps holds the exact steps before a sample that may equal its own: the step of a neighbour,
+// or one that lies on a line or in a plane with neighbours. step_models.hpp makes contexts of them.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Questions about a correction, and the models that answer them. Each question asks whether a
-// sample has one certain step or lies beyond it, so that exact steps nearby answer it as well as
-// the decoded height does. Several models, each with contexts of its own, answer together
-// (bitstream/coder/mixture.hpp).
+// The models here answer questions about a correction. Each question asks whether a sample has one
+// certain step or lies beyond it, so that exact steps nearby answer it as well as the decoded
+// height does. Several models, each with contexts of its own, answer together
+// (bitstream/coder/mixture.hpp): by how well errors were foretold, by which neighbours are alike,
+// by where lines and planes through the neighbours lead, and by the number that divides the
+// differences of the neighbours.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes drawn heights: steps coded as they are, vertex by vertex of the lattice
-// (codec/drawing/drawing_pass.hpp), in the place of coefficients. Integer arithmetic only.
+// decodeDrawnHeights() decodes drawn heights: steps coded as they are, vertex by vertex of the
+// lattice (codec/drawing/drawing_pass.hpp), in the place of coefficients. It uses integers only.
 #pragma once
 
 #include <cstdint>

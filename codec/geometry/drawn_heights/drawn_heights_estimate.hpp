@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Foretells what drawn heights take, at a small part of the price of drawing them.
+// estimateDrawing() foretells how many bytes a drawing of heights takes, at a small part of the
+// time of drawing them.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the prefixes of a drawing of heights show, for encoders that look at many of them.
+// The function here gives the heights that each prefix of a drawing shows, for encoders that
+// measure many prefixes. It decodes the drawing once.
 #pragma once
 
 #include <cstdint>

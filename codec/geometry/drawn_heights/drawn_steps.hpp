@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of the values of drawn heights, in steps, and how a new one is coded.
+// DrawnSteps is the list of the values of drawn heights, in steps. Both sides build it, and code a
+// value that it lacks as a difference from the neighbours' values.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives every vertex of drawn heights a height, whether its step is known or not.
+// DrawnSurface gives every vertex of drawn heights a height: its step where that is known, else the
+// mean of the coarser vertices beside it. Vertices that differ from that mean count as significant,
+// so that coded meshes have vertices only at edges.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Restores the samples of facets, row by row. Each prediction of a sample (facet_rows.hpp) is asked
-// for, one after the other: is the sample the float nearest to it, or one of the next two on either
-// side? If none is right, the sample lies beyond an edge. Then its difference from the decoded
-// height with its forecast error (codec/geometry/corrections/error_forecast.hpp) is told.
+// The coder here restores the samples of facets, row by row. Each prediction of a sample
+// (facet_rows.hpp) is asked for, one after the other: is the sample the float nearest to it, or one
+// of the next two on either side? If none is right, the sample lies beyond an edge. Then its
+// difference from the decoded height, to which its forecast error is added
+// (codec/geometry/corrections/error_forecast.hpp), is coded.
 //
 // A sample is known better than its float says, if a prediction was right: facets lie where their
 // samples were before they were rounded. So it counts as a quarter of the way from the prediction

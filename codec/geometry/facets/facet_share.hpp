@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of a surface its facets hold.
+// The functions here measure how much of a surface consists of facets (facet_rows.hpp), so that an
+// encoder tries them only where they may pay.
 #pragma once
 
 #include "base/plane.hpp"

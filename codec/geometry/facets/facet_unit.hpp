@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Floats as whole multiples of a unit, so that sums of them are exact, and the same on every
-// machine. What a float has below the unit is cut off.
+// The functions here turn floats into whole multiples of a unit, so that their sums are exact and
+// the same on every machine. Digits of a float below the unit are cut off.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Restores the samples of facets.
+// This file restores samples of facets (facet_coder.hpp) from a codeword and decoded heights.
 #pragma once
 
 #include <cstdint>

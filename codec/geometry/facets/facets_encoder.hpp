@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes what restores the samples of facets.
+// This file codes the difference between decoded heights and samples of facets (facet_coder.hpp).
 #pragma once
 
 #include <cstdint>

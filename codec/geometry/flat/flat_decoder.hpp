@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes the layer of flat areas.
+// decodeFlatAreas() decodes the layer of flat areas (flat_pass.hpp).
 #pragma once
 
 #include <cstdint>

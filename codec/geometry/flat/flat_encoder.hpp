@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds flat areas, and codes them.
+// The functions here find the flat areas of heights in steps, and code them (flat_pass.hpp).
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What flat areas are worth is decided where they and other heights meet: on a few parts of a plane
-// that stand for the others. Encoder only.
+// The functions here choose parts of a plane in which flat areas and other heights meet. The
+// encoder decides on these parts which flat areas save bytes, as they stand for the rest of the
+// plane.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights whose voids are bridged (wavelet/bridges.hpp).
+// The functions here choose and mark the bridged voids of heights in steps (wavelet/bridges.hpp).
 #pragma once
 
 #include <cstdint>

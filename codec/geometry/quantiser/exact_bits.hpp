@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// About how many bits heights take to the last bit. Encoder only.
+// The functions here estimate the number of bits that heights take to the last bit. Encoder only.
 #pragma once
 
 #include <cmath>

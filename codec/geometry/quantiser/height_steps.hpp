@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights of any sample type are coded as integer steps: sample = base + q * step. This file
-// holds the steps of all samples, and says what a decoder lacks to restore these.
+// HeightSteps holds heights of any sample type as integer steps: sample = base + q * step. The
+// functions compute the corrections that restore samples which their steps do not show.
 #pragma once
 
 #include <cstddef>

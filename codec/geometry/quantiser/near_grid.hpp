@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Floats that lie near the multiples of a common unit, though not on them: whole metres that a
-// program has shifted by a rounding of its own, feet that were written with three decimals. Within
-// a largest error their multiples will do. Encoder only.
+// nearGrid() finds the common unit near whose multiples floats lie, though not on them: whole
+// metres that a program has shifted by a rounding of its own, feet that were written with three
+// decimals. Within a largest error the multiples will do. Encoder only.
 #pragma once
 
 #include <optional>

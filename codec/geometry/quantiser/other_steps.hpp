@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two kinds of floats have better steps than the one that shows their samples. Files of several
-// sources have samples that are whole metres, or decimetres, beside any others: a step that shows
-// all of them codes, for each whole one, bits of which it has none. A coarser step shows the whole
-// ones, and corrections restore the others. And floats that are smooth to their last bits, which no
-// step shows, take fewer bits as coefficients of a finer step than as corrections. Encoder only.
+// fewerBitsByOtherSteps() tries a coarser and a finer step than the one that shows all samples.
+// Files that join several sources have samples of whole metres, or decimetres, beside any others: a
+// step that shows all samples codes bits that the whole ones do not have. A coarser step shows the
+// whole ones, and corrections restore the others. Floats that are smooth to their last bits, which
+// no step shows, take fewer bits as coefficients of a finer step than as corrections. Encoder only.
 #pragma once
 
 #include "codec/geometry/quantiser/height_steps.hpp"

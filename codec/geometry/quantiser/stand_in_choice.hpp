@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders choose here which knots stand for a table of values while that is missing, and learn how
-// much error these leave.
+// chooseStandIn() chooses the knots of the polyline that stands for a table of values while bytes
+// of the table are missing, and computes the error that the polyline leaves.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights of any sample type become integer steps: sample = base + q * step. This file finds the
-// base and the step of all samples.
+// toSteps() turns heights of any sample type into integer steps, sample = base + q * step: it finds
+// the base and the step of all samples. A few samples off that grid (a negative zero, one
+// interpolated height, an undeclared void of 3.4e38) are left to corrections, so that they do not
+// make every step finer.
 #pragma once
 
 #include "base/status.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far samples that come back from steps are from the true ones.
+// The functions here measure how far samples that come back from steps are from the true ones.
 #pragma once
 
 #include <algorithm>

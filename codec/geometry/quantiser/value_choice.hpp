@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a table of values takes fewer bits than multiples of a step. Encoder only.
+// fewerBits() decides whether a table of values takes fewer bits than multiples of a step. Encoder
+// only.
 #pragma once
 
 #include "codec/geometry/quantiser/height_steps.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the gaps between the values of a table do to prefixes, which miss the place of a value by a
-// few: errors are as large as the gaps there. Encoder only.
+// ValueGaps estimates how the gaps between the values of a table harm prefixes: a prefix misses the
+// place of a value by a few, and then errs by the gaps there. Encoder only.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds out which samples of a height field exist.
+// findVoids() finds the samples of a height field that are valid, from its nodata value and NaN.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Restores samples that have a relative step.
+// This file restores samples that have a relative step from a codeword and decoded heights
+// (relative_pass.hpp).
 #pragma once
 
 #include <cstdint>

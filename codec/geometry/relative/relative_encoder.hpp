@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes what restores samples that have a relative step.
+// This file codes the corrections of samples that have a relative step (relative_pass.hpp).
 #pragma once
 
 #include <cstdint>

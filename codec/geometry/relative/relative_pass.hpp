@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples that have a relative step, row by row, one for each that exists.
+// codeRelativeRows() walks over samples that have a relative step (relative_prediction.hpp), for
+// both sides: row by row, two corrections for each sample that exists.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the relative step of floats.
+// findRelativeStep() finds the relative step of floats (relative_prediction.hpp) from the distances
+// by which samples miss the prediction of their neighbours: jumps gather at multiples of the step.
+// Ground of triangles is smooth between jumps of any size; there a small part of the jumps is the
+// step.
 #pragma once
 
 #include "base/plane.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights as a decoder knows them: in steps, which later become samples, and corrections of these.
+// DecodedHeights are heights as a decoder knows them: steps, which later become samples, and
+// corrections of these samples.
 #pragma once
 
 #include <cstdint>

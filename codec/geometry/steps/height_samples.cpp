@@ -38,7 +38,7 @@ T besides(T nodata) {
   return fromOrder<T>(orderOf(nodata == 0 ? T{0} : nodata) + 1);
 }
 
-/// Voids get their value, and no height keeps it.
+/// Gives voids the nodata value, and moves heights that equal this value to the next one.
 template <class T>
 void markVoids(const std::vector<uint8_t>& valid, const GeometryLayers& layers,
                std::span<T> samples) {

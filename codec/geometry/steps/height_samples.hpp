@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns the steps of decoded heights into samples: sample = base + q * step, and a correction where
-// there is one.
+// fromSteps() turns the steps of decoded heights into samples: sample = base + q * step, plus a
+// correction where there is one.
 #pragma once
 
 #include <cstdint>

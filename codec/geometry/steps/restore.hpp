@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A step stands for a sample, which is computed here.
+// restore() computes the sample that a step stands for, in the sample's own type.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything behind the decoder of heights works on steps. So a sample that is known without them
-// is also said as a height between steps, and a correction that leads from there to the very
-// sample.
+// inSteps() expresses a sample that is known without steps (neighbours restore it, or it stands in
+// a table of values) as a height between steps and a correction that leads from there to the very
+// sample, because everything behind the decoder of heights works on steps.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands for a table of values while bytes of it are missing: a polyline through a few of its
-// values, which the header holds. Without knots it is the line of base and step.
+// StandIn is the curve that stands for a table of values while bytes of the table are missing: a
+// polyline through a few of its values (the knots, which the header holds) or, without knots, the
+// straight line of base and step.
 #pragma once
 
 #include <cstdint>

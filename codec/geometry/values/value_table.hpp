@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The values that the samples of a height field have, where their type could hold many more: feet
-// written as metres, maps of 8 bits that were rescaled, decimal fractions that no float holds. The
-// wavelet then codes the place of a sample's value in a sorted table, and the table turns places
-// into samples.
+// A ValueTable holds the values that the samples of a height field have, where their type could
+// hold many more: feet written as metres, maps of 8 bits that were rescaled, decimal fractions that
+// no float holds. The wavelet then codes the place of a sample's value in the sorted table, and the
+// table turns places into samples.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codeword to table of values.
+// This file decodes a table of values from its codeword.
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,10 @@
 // Rate-distortion decimation (thesis 5). It gives an order of insertion of all vertices of a 4-8
 // mesh. Every prefix of the order is a conforming mesh with little error for its triangles, and the
 // meshes are nested.
+//
+// The thesis updates all ancestors of a vertex when the vertex is removed. Here a queue holds lower
+// bounds of the slopes (slope_queue.hpp), and a vertex is looked at again when it comes to the
+// front; meanwhile its merging domain keeps its size and worth (merging_domains.hpp).
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file codes heights so that none of them is off by more than a largest error e, in steps.
-// There are two ways, and the one of fewer bytes is kept:
+// codeBoundedHeights() codes heights so that no sample is off by more than the largest error e, in
+// steps, that the options allow. It tries two ways and keeps the one of fewer bytes:
 //
 //   round     heights become multiples of 2 e + 1 steps (floats of twice the bound) and are coded
 //             to the last bit. This is best where the error wanted is near the noise of the

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lossy coefficients are cut, and what then is off by more than a largest error gets a correction
+// codeCorrected() cuts the coefficients of heights and adds corrections for every sample that is
+// then off by more than a largest error, which may be 0. Near a bound this takes fewer bytes than
+// coding the last bit-planes, which are mostly noise
 // (codec/geometry/coding_choice/corrected_cut.hpp).
 #pragma once
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coefficients are cut where corrections are to follow (encoder/heights/followed_heights.hpp).
+// cutAt() and codeUpTo() end the coefficients of heights, in one track or in many, where a given
+// squared error is reached. Corrections follow such a cut (encoder/heights/followed_heights.hpp).
 #pragma once
 
 #include <memory>

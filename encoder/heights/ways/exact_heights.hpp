@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights to the last bit can take fewer bytes than heights that are off by little: the last
-// bit-planes of lossy coefficients are noise, and heights of few values lie in a table, or are
-// drawn, which lossy coding knows nothing of. So a lossless coding is an attempt at other targets,
-// too.
+// exactHeightsFor() codes heights to the last bit for a target that does not ask for the last bit,
+// where exact heights may take fewer bytes than inexact ones: the last bit-planes of lossy
+// coefficients are noise, and lossy coding knows nothing of tables of values and drawings, which
+// suit heights of few values.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Floats of a surface that consists of facets (codec/geometry/facets/): a cut of lossy coefficients
-// and what restores the samples behind it.
+// codeFacets() codes floats of a surface that consists of facets (codec/geometry/facets/): it cuts
+// the coefficients, and codes how each sample goes on from its neighbours.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights as the target of the options asks for them: whichever of the ways to code them that is.
+// codeHeightsForTarget() codes quantised heights in the way that the target of the options asks
+// for: this is where the branches for bytes, a PSNR, a largest error and lossless begin
+// (docs/ARCHITECTURE.md, "How heights are coded").
 #pragma once
 
 #include <memory>

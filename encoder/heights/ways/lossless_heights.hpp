@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights to the last bit: coefficients without fraction bits, corrections behind a cut of lossy
-// coefficients (of steps, from a relative step, or of facets), or a drawing, whichever takes the
-// fewest bytes.
+// codeLosslessHeights() codes heights to the last bit in the way that takes the fewest bytes:
+// coefficients without fraction bits; a cut of lossy coefficients with corrections behind it (of
+// steps, from a relative step, or of facets); or a drawing.
 #pragma once
 
 #include <memory>

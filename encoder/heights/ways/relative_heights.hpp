@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples that have a relative step (codec/geometry/relative/) are on no grid of steps, and yet few
-// bits restore them: coefficients are cut at a part of that step, and corrections follow.
+// codeRelative() codes samples that have a relative step (codec/geometry/relative/). No grid of
+// steps shows them, and yet few bits restore them: the coefficients are cut at a part of the
+// relative step, and corrections follow.
 #pragma once
 
 #include <cstdint>

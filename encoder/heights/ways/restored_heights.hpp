@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Some samples are on no grid of steps: most floats, and integers of a wide range. Lossy heights
-// count coarse steps for them, and end with an error however large the budget is. Corrections of
-// the samples behind the last coefficient make the end exact, and leave all prefixes as they are.
+// codeRestored() appends corrections of the samples to lossy heights, so that the complete stream
+// is exact and all prefixes stay as they are. It serves samples that are on no grid of steps (most
+// floats, and integers of a wide range): lossy heights count coarse steps for such samples, and
+// would end with an error however large the budget is.
 #pragma once
 
 #include "encoder/heights/coded_heights.hpp"

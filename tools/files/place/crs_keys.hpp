@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The GeoTIFF keys of a reference system, as GDAL writes them.
+// The functions here make the GeoTIFF keys of a reference system, as GDAL writes them. A stream
+// states a CRS by its EPSG code if the keys that this file would write for that code hold every key
+// of the input file. Otherwise it keeps the keys as text, which is shorter than WKT2.
 #pragma once
 
 #include <string>
