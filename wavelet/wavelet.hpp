@@ -3,20 +3,11 @@
 // Heights and the colour planes of a texture share it.
 //
 // Every level rounds, and the rounding errors of coarse levels spread over the whole plane. Planes
-<<<<<<< HEAD
-// with fraction bits keep these errors below a step. Planes without them (lossless ones) round each
-// coefficient once (wavelet/lifting/joint_lifting.hpp). The low bands of three levels are doubled,
-// so that coarser levels round half as much: prefixes get better, lossless streams a little longer.
-// docs/EXPERIMENTS.md says by how much.
-=======
 // with fraction bits (lossy ones, shifted left by up to four bits) keep these errors below a step.
 // Planes without them (lossless ones) round each coefficient once
-// (wavelet/lifting/joint_lifting.hpp). The finest levels do not round their low bands at all, but
-// carry the fractions to the next one. Then the low bands of three levels are doubled, so that
-// coarser levels round half as much: prefixes get better, lossless streams a little longer
-// (docs/EXPERIMENTS.md). Fractions are carried no further, because a window needs all details that
-// its fractions are made of.
->>>>>>> main
+// (wavelet/lifting/joint_lifting.hpp). The low bands of three levels are doubled, so that coarser
+// levels round half as much: prefixes get better, lossless streams a little longer
+// (docs/EXPERIMENTS.md).
 #pragma once
 
 #include <cstdint>

@@ -180,7 +180,8 @@ TEST(HostileHeights, NoiseIsStored) {
     }
     const Bytes bytes = encode(&raster, nullptr, lossless());
     EXPECT_LE(bytes.size(), raster.data.size() + 80);
-    for (auto cut = static_cast<size_t>(Stream(bytes).info().header_bytes); cut < bytes.size(); cut += 97) {
+    for (auto cut = static_cast<size_t>(Stream(bytes).info().header_bytes); cut < bytes.size();
+         cut += 97) {
       Stream stream(Prefix(bytes).first(cut));
       EXPECT_EQ(stream.heights().size(), raster.data.size());
     }

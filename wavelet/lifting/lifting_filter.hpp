@@ -16,8 +16,8 @@
 //   kShort        two taps a step (the 5/3)
 //   kSixTap       six taps a step
 //   kLong         ten taps a step, for rough terrain
-//   kOrthogonal   four steps, for images and coarse levels of lossy streams
-//   kQuiet        three steps with weights below 1, which keep roundings small: lossless images
+//   kQuiet        four steps, nearly orthogonal, with weights below 1, which keep roundings small:
+//                 images, and coarse levels
 //   kSmooth       no detail of polynomials up to degree 5, for ground without roughness
 #pragma once
 
