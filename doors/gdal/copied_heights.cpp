@@ -39,6 +39,7 @@ void takeFacts(const std::string& name, GDALDataset& dataset, CopiedHeights& cop
   heights.has_geotransform = place.has_geotransform;
   heights.registration = place.registration;
   setGroundSpacing(dataset.GetSpatialRef(), heights);
+  copy.ground = WebGround::of(dataset, copy.crs.crs);
   heights.unit = copy.unit.c_str();
   heights.description = copy.description.c_str();
   heights.crs = copy.crs.crs.c_str();

@@ -10,6 +10,7 @@
 
 #include <gdal_priv.h>
 #include "doors/gdal/crs.hpp"
+#include "doors/gdal/ground_positions.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::gdal {
@@ -43,13 +44,17 @@ struct CopiedHeights {
   CrsTexts crs;
   std::string unit, description;
   tks_heights heights{};
-  double rounding = 0;  ///< of doubles to floats, at most, in samples
+  double rounding = 0;                ///< of doubles to floats, at most, in samples
+  std::unique_ptr<WebGround> ground;  ///< where browsers do not know it
+  std::vector<uint8_t> positions;     ///< what is fitted to it
 };
 
 struct CopiedTexture {
   std::vector<std::byte> texels;
   CrsTexts crs;
   tks_image image{};
+  std::unique_ptr<WebGround> ground;
+  std::vector<uint8_t> positions;
 };
 
 /// strict: doubles that no float holds are refused; else a warning tells that they are rounded.

@@ -136,6 +136,7 @@ std::unique_ptr<CopiedTexture> copyTexels(const std::string& name, GDALDataset& 
   image.has_geotransform = place.has_geotransform;
   image.registration = place.registration;
   image.crs = copy->crs.crs.c_str();
+  copy->ground = WebGround::of(dataset, copy->crs.crs);
   image.data = copy->texels.data();
   return copy;
 }

@@ -14,6 +14,7 @@
 #include <gdal_pam.h>
 #include "doors/gdal/copied_raster.hpp"
 #include "doors/gdal/dataset.hpp"
+#include "doors/gdal/ground_positions.hpp"
 #include "doors/gdal/output_file.hpp"
 
 namespace tetrakis::gdal {
@@ -77,6 +78,18 @@ tks_index indexOf(const Parts& parts, const CopySettings& settings) {
                      (image != nullptr && !isInRegions(image->width, image->height, options.regions,
                                                        kOneRegionOfTexels));
   return options.lossless && options.regions != 1 && !whole ? TKS_INDEX_WINDOWS : TKS_INDEX_NONE;
+}
+
+/// Longitudes and latitudes for web pages, unless they take more than a 64th of the stream, or of a
+/// byte a sample where nothing says how long that is to be.
+void addPlaces(const std::string& name, Parts& parts, const tks_encode_options& options) {
+  constexpr uint64_t kShare = 64;
+  const tks_heights* const heights = parts.heightsOrNull();
+  const tks_image* const image = parts.textureOrNull();
+  const uint64_t samples = (heights ? uint64_t{heights->width} * heights->height : 0) +
+                           (image ? uint64_t{image->width} * image->height : 0);
+  const uint64_t expected = options.bytes > 0 ? options.bytes : samples;
+  addPositions(name, parts.heights.get(), parts.texture.get(), expected / kShare);
 }
 
 /// What rounding leaves of a largest error, in samples, to the stream, in the unit of the heights.
@@ -203,8 +216,9 @@ GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
   Stream stream;
   double rounding = 0;
   {
-    const std::optional<Parts> parts =
+    std::optional<Parts> parts =
         readParts(name, source, strict, settings, {progress, 0, kReadShare});
+    if (parts) addPlaces(name, *parts, settings.encode);
     if (!parts || !encode(name, *parts, settings, {{progress, kReadShare, 1}}, stream))
       return nullptr;
     rounding = parts->rounding() * parts->scale();

@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """What CreateCopy keeps beside samples: place, reference system, nodata values, masks, metadata."""
 
+import json
 import struct
+import subprocess
 
 import numpy as np
 import pytest
-from conftest import copy, first_band, gdal, memory, refused, system, terrain, warnings_of
+from conftest import REPOSITORY, copy, first_band, gdal, memory, refused, system, terrain, warnings_of
+
+TETRAKIS = REPOSITORY / "build/tetrakis"
 
 
 @pytest.mark.parametrize(
@@ -25,6 +29,34 @@ def test_geotransforms_are_kept(tmp_path, transform):
         assert dataset.GetMetadataItem("AREA_OR_POINT") == registration
         assert not (tmp_path / "a.tks.aux.xml").exists()
     assert copy(terrain(20, 30), tmp_path / "b.tks").GetGeoTransform(can_return_null=True) is None
+
+
+def fitted(name):
+    """The bytes of the longitudes and latitudes that a stream takes along: heights, texture."""
+    told = subprocess.run([TETRAKIS, "info", "--json", name], capture_output=True, check=True)
+    facts = json.loads(told.stdout)
+    parts = [facts[part] or {} for part in ("heights", "texture")]
+    return [part.get("position_bytes") or 0 for part in parts]
+
+
+def test_places_that_browsers_do_not_know_take_degrees_along(tmp_path, texture):
+    grid, name = (2600000, 30, 0, 1200000, 0, -30), tmp_path / "a.tks"
+    for crs, known in (("EPSG:2056", False), ("EPSG:32632", True), (LOCAL, True)):
+        copy(memory(terrain(120, 130), crs=crs, transform=grid), name)
+        heights, nothing = fitted(name)
+        assert (heights == 0) == known and heights <= 200 and nothing == 0
+    # Those of heights serve a texture over the same ground.
+    ground = memory(terrain(120, 130), crs="EPSG:2056", transform=grid)
+    copy(ground, name, f"TEXTURE={texture}")
+    assert fitted(name)[0] > 0
+    picture = memory(
+        np.zeros((3, 130, 140), np.uint8), crs="EPSG:2056", transform=(2600000, 1, 0, 1200000, 0, -1)
+    )
+    copy(picture, name)
+    assert fitted(name)[1] > 0
+    # A stream of few bytes has no room for them.
+    copy(ground, name, "BYTES=700")
+    assert fitted(name) == [0, 0]
 
 
 LOCAL = 'LOCAL_CS["my grid",UNIT["metre",1]]'

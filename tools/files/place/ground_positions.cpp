@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <initializer_list>
-#include <set>
 #include <utility>
 
+#include "base/crs_name.hpp"
+#include "base/placed_raster.hpp"
 #include "tetrakis/tetrakis.hpp"
 #include "tools/files/place/proj_objects.hpp"
 
@@ -62,29 +62,12 @@ bool sameSystem(const Georeference& a, const Georeference& b) {
   return a.crs == b.crs && a.geo_keys == b.geo_keys;
 }
 
-/// Whether all corners of the texture lie on the heights, or beside them by less than a sample.
-bool liesOn(const GeoTransform& heights, const RasterSize& size, const ImageFile& image) {
-  const GeoTransform& t = *image.place.geotransform;
-  const double area = heights[1] * heights[5] - heights[2] * heights[4];
-  const auto isInside = [&](double column, double row) {
-    const double x = t[0] + column * t[1] + row * t[2] - heights[0];
-    const double y = t[3] + column * t[4] + row * t[5] - heights[3];
-    const double across = (heights[5] * x - heights[2] * y) / area;
-    const double down = (heights[1] * y - heights[4] * x) / area;
-    return across >= -1 && down >= -1 && across <= size.width + 1.0 && down <= size.height + 1.0;
-  };
-  return isInside(0, 0) && isInside(image.width, 0) && isInside(0, image.height) &&
-         isInside(image.width, image.height);
+PlacedRaster placed(const HeightFile& heights) {
+  return {heights.width, heights.height, heights.geotransform->data()};
 }
-
-/// Texels along a sample of the heights, at least 1.
-double texelsPerSample(const HeightFile& heights, const ImageFile& image) {
-  if (!image.place.geotransform)
-    return std::max(
-        {1.0, double(image.width) / heights.width, double(image.height) / heights.height});
-  const GeoTransform &h = *heights.geotransform, &t = *image.place.geotransform;
-  return std::max({1.0, std::hypot(h[1], h[4]) / std::hypot(t[1], t[4]),
-                   std::hypot(h[2], h[5]) / std::hypot(t[2], t[5])});
+PlacedRaster placed(const ImageFile& image) {
+  const auto& transform = image.place.geotransform;
+  return {image.width, image.height, transform ? transform->data() : nullptr};
 }
 
 /// Fits them; `finer` parts of a sample count as one. Whether the place is known and nothing fits.
@@ -107,34 +90,16 @@ bool fails(Georeference& place, const RasterSize& size, double finer, uint64_t m
 
 }  // namespace
 
-bool knownToBrowsers(const std::string& crs) {
-  const auto isPart = [&crs](const char* text) { return crs.find(text) != crs.npos; };
-  if (isPart("Pseudo-Mercator") || isPart("Pseudo Mercator") || isPart("Auxiliary_Sphere"))
-    return true;
-  const std::string named = withUpperCaseAuthority(crs);
-  static const std::set<int> kMercator = {3857, 3785, 900913, 102100, 102113};
-  static const std::set<int> kDegrees = {4326, 4269, 4258, 4979};
-  constexpr size_t kAuthority = 5;  // "EPSG:" or "ESRI:"
-  const int code = std::atoi(named.substr(std::min(named.size(), kAuthority)).c_str());
-  if (named.starts_with("ESRI:") || named.starts_with("EPSG:")) {
-    if (kMercator.contains(code)) return true;
-  }
-  if (!named.starts_with("EPSG:")) return false;
-  const auto isWithin = [code](int first, int last) { return code >= first && code <= last; };
-  return kDegrees.contains(code) || isWithin(32601, 32660) || isWithin(32701, 32760) ||
-         isWithin(26901, 26923) || isWithin(25828, 25838);
-}
-
 std::string addPositions(HeightFile* heights, ImageFile* image, uint64_t most_bytes) {
   bool failed = false;
   const bool heights_need = heights != nullptr && needsPositions(*heights);
   if (heights_need) {
-    const double finer = image != nullptr ? texelsPerSample(*heights, *image) : 1;
+    const double finer = image != nullptr ? fineness(placed(*heights), placed(*image)) : 1;
     failed = fails(*heights, {heights->width, heights->height}, finer, most_bytes);
   }
   if (image != nullptr && needsPositions(image->place)) {
     const bool shares = heights_need && sameSystem(*heights, image->place) &&
-                        liesOn(*heights->geotransform, {heights->width, heights->height}, *image);
+                        liesOn(placed(*heights), placed(*image));
     if (!shares) failed |= fails(image->place, {image->width, image->height}, 1, most_bytes);
   }
   if (!failed) return "";

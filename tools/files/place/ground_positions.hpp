@@ -9,10 +9,6 @@
 
 namespace tetrakis::tools {
 
-/// Whether a reference system is one of those that web pages turn into degrees by themselves
-/// (web/src/place.js): degrees, web Mercator, UTM.
-bool knownToBrowsers(const std::string& crs);
-
 /// Gives heights, texture or both their positions where browsers need them and `most_bytes` hold
 /// them; either may be null. What cannot be fitted is told by the sentence that comes back, ""
 /// else.
