@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of few triangles, from as little of the surface as they can show.
+// budgetMesh() makes a mesh of at most a given number of triangles from a mip level of a surface.
+// Finer levels would take time and show nothing in so few triangles.
 //
 // With five samples left for each triangle a mesh is about as good as one chosen among all samples,
 // if those left are means (coarse_surface.hpp) and its heights are fitted to four times as many:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decimation for meshes whose heights are fitted.
+// fitMesh() moves the heights of a mesh to the least squares over all samples of a surface, and
+// FittedSequence orders vertices for meshes whose heights are fitted in this way.
 //
 // With fitted heights a vertex is worth less than its gain says, because the heights of its
 // neighbours partly make up for its absence. So the order of decimate() is refined: at every

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// On water vertices take triangles and no error. Decimation puts them last, so they come into a
-// mesh where its budget is more than the ground around the water can use.
+// withoutNeedless() takes the vertices on water out of a mesh, where they take triangles and lower
+// no error. Decimation puts them last, so they are in a mesh if its budget is more than the ground
+// around the water can use.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes made for the weights of a surface (screen/screen_weights.hpp), with edges that turn as it
-// does.
+// screenMesh() makes a mesh of few triangles for a surface with weights
+// (screen/screen_weights.hpp), whose edges turn to follow ridges and valleys.
 #pragma once
 
 #include <cstdint>

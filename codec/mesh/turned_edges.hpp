@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles of a fitted mesh that follow ridges and valleys, whatever way these run.
+// withTurnedEdges() turns edges of a fitted mesh, so that its triangles follow ridges and valleys
+// of any direction.
 //
 // The edges of a 4-8 mesh have eight directions, so it takes many small triangles along a crest
 // that has another one. Here two triangles that share an edge become the other two of their four

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of terrain with voids: no vertex is void, no triangle touches one.
+// verticesBesideVoids() and leaveOutVoids() make a mesh of terrain with voids: none of its vertices
+// is void, and none of its triangles touches a void.
 #pragma once
 
 #include <cstdint>

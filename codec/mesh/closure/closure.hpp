@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The best 4-8 meshes of a surface, which no order of decimation can beat: the corners of the lower
-// convex hull of all of its meshes.
+// closureSlopes() computes from the gains of vertices the best 4-8 meshes of a surface, which no
+// order of decimation can beat: the corners of the lower convex hull of all its meshes.
 //
 // By the diamond form of the error (gains/gains.hpp) the mesh of a closed set S has D + lambda R =
 // constant - sum over S of (g - lambda c): for one lambda the best mesh is a maximum closure of the

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maximum closures of parts of the parent graph by a preflow that climbs from finer to coarser
-// vertices (Picard 1976: closure as minimum cut; Goldberg and Tarjan 1988: push-relabel; Hochbaum
-// 2008: excess and deficit at vertices instead of source and sink).
+// ClosureFlow finds maximum closures of parts of the parent graph by a preflow that climbs from
+// finer to coarser vertices (Picard 1976: closure as minimum cut; Goldberg and Tarjan 1988:
+// push-relabel; Hochbaum 2008: excess and deficit at vertices instead of source and sink).
 //
 // Vertex v has the weight w(v). A vertex with an excess may lend any amount of it to its parents,
 // and a parent may give back what it was lent: a residual arc child -> parent always exists, an arc

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sums over complete merging domains (thesis 3.3), by the octagons that they fill: sums over rows
-// are differences of prefix sums.
+// completeDomains() sums the gains and costs of vertices over the complete merging domain of every
+// vertex (thesis 3.3), with which decimation begins. A domain fills an octagon, and a sum over a
+// row of it is a difference of two prefix sums.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rate-distortion decimation (thesis 5). It gives an order of insertion of all vertices of a 4-8
+// Rate-distortion decimation (thesis 5) orders all vertices of a surface for insertion into a 4-8
 // mesh. Every prefix of the order is a conforming mesh with little error for its triangles, and the
 // meshes are nested.
 //

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Losses of the domains of coarse vertices, which are summed up only when they are asked for.
+// DeferredLosses notes what removed vertices take from the domains of coarse vertices, and sums a
+// loss up only when it is asked for. Coarse vertices are few but the ancestors of all others, so
+// updating each of them at every removal would take long.
 //
 // Vertices with the same ancestors on one level of squares share all ancestors above it. So the
 // amount that they take from the domains above that level is stored once for each such set of

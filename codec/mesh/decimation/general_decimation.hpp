@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// General decimation with global error (thesis 5.2.2): from full resolution down, each step removes
-// the merging domain M_v (v and its remaining descendants) that costs least,
-// lambda(v) = -deltaD / deltaR (5.2): squared error per triangle, or per unit of another cost.
+// generalDecimation() orders all vertices by general decimation with global error (thesis 5.2.2):
+// from full resolution down, each step removes the merging domain M_v (v and its remaining
+// descendants) that costs least, lambda(v) = -deltaD / deltaR (5.2): squared error per triangle, or
+// per unit of another cost.
 #pragma once
 
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the removal of each merging domain M_v (v and its remaining descendants) would cost and
-// save. The values are kept up to date while vertices are removed (thesis 5.3.1): the worth of a
-// removed vertex is subtracted from the domain of each of its ancestors exactly once, which is the
-// inclusion and exclusion over intersections of domains (thesis 3.4.4). Sums of gains are exact
+// MergingDomains keeps, while vertices are removed, the error and the cost that the removal of each
+// merging domain M_v (v and its remaining descendants) would add and save (thesis 5.3.1). The worth
+// of a removed vertex is subtracted from the domain of each of its ancestors exactly once, which is
+// the inclusion and exclusion over intersections of domains (thesis 3.4.4). Sums of gains are exact
 // (gains/gains.hpp), and so are all values at all times.
 #pragma once
 

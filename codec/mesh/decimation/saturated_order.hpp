@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An order of vertices that is nearly as good as general decimation where vertices are worth
-// little, and takes a fraction of its time.
+// saturatedOrder() sorts vertices by saturated slopes, from the error and the cost of each. Where
+// vertices are worth little the order is nearly as good as that of general decimation, and takes a
+// fraction of its time.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A lazy queue of vertices by slope. An entry holds a lower bound of the present slope of its
-// vertex.
+// SlopeQueue is a lazy queue that hands out vertices by rising slope. An entry holds a lower bound
+// of the present slope of its vertex.
 //
 // Slopes at the front hardly ever fall, so most entries are not sorted before they come near it:
 //   later   vertices alone, by the upper bits of their slope as a float: 128 buckets (fewer where

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it takes to have a vertex in a mesh: the rate functional R of the thesis (5.2.2).
+// VertexCosts tells the cost of each vertex in a mesh, in triangles or in a unit of the caller's:
+// it is the rate functional R of the thesis (5.2.2).
 #pragma once
 
 #include <cassert>

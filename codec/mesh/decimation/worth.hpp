@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What vertices cost and save: the vector functional u = (D, R) of the thesis and its slope.
+// Worth holds the error and the cost of a vertex, or of a set of vertices, in a mesh: the vector
+// functional u = (D, R) of the thesis. slopeOf() divides the one by the other.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moments of the triangles of one mesh against planes through heights of one's choice.
+// FittedMoments computes the moments of the samples in each triangle of a mesh against the plane
+// through the heights at its corners, from which fittedCorrections() fits these heights.
 //
 // They are the moments of gains/moments.hpp, but the heights h at the vertices need not be samples.
 // The samples at vertices belong to no triangle: a vertex adds the error z - h of its own sample.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights that fit a mesh to a surface best, instead of the samples at its vertices.
+// fitHeights() replaces the heights at the vertices of a mesh by those that fit the surface best.
 //
 // A mesh with heights h is the function sum over vertices k of h_k phi_k, phi_k the hat of vertex
 // k. Its squared error over the samples z with weights w is least where

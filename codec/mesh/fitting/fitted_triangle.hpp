@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The samples of one triangle against the plane through any heights at its corners.
+// momentsOf() and squaredErrorOf() compare the samples in one triangle with the plane through any
+// heights at its corners.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A least-squares fit overshoots beside cliffs and shores: vertices of few triangles would lie
-// below a sea that is flat, or above the summit.
+// withinRange() limits fitted heights to the range of the known samples, because a least-squares
+// fit overshoots beside cliffs and shores: vertices of few triangles would lie below a flat sea, or
+// above the summit.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Squared error of a triangle with any corners on the grid: the shapes that clamping makes.
+// clampedEnergy() sums the squared error of a triangle with any corners on the grid. Clamping makes
+// triangles of such shapes, to which the recursion of moments.hpp does not apply.
 #pragma once
 
 #include <array>

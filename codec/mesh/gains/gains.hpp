@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each lattice vertex is worth: the diamond form of the global error (thesis 5.3).
+// vertexGains() computes from a surface the worth of each lattice vertex, by the diamond form of
+// the global error (thesis 5.3).
 //
 // Inserting v splits the one or two triangles of its diamond. g(v) = sum of E over them - sum of E
 // over their halves is fixed and local, whatever else is in the mesh. So for every closed set S the

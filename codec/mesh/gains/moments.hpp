@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Squared error of a triangle's plane, bottom-up without cancellation (thesis 5.A: the l2
-// distance).
+// TriangleMoments holds the squared error of a triangle's plane and the sums from which that of a
+// larger triangle follows, bottom-up without cancellation (thesis 5.A: the l2 distance).
 //
 // Let r = z - P_T be the residual of the samples of a triangle T against the plane through its
 // corners, and lambda its barycentric coordinates. T is split at w into T1, T2; their planes differ

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The triangles of those nodes of a quadtree that a raster touches. The patches are descended, and
-// each node gives one fan of triangles.
-// Fans are drawn in mesh_tree.hpp.
+// FanTriangles lists the triangles of those nodes of a quadtree that a raster touches. It descends
+// the patches, and each node gives one fan of triangles, as mesh_tree.hpp draws it.
 #pragma once
 
 #include <array>

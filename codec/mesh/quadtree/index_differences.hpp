@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Differences between the location codes of neighbours in closed form (thesis 4.4, theorem 4.1).
+// IndexDifferences gives the difference between the location codes of two neighbours in closed
+// form, so that a traversal goes on by one addition (thesis 4.4, theorem 4.1).
 //
 // Neighbours whose lowest common ancestor is r + 1 levels up differ by a constant. Between columns
 // g - 1 and g of a level that r, the relative level distance (4.6), is the number of zeros that g

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Location codes of a forest of quadtrees (thesis 4.3.1, definition 4.1, property 4.1; 4.6).
+// Location codes number the nodes of a forest of quadtrees (thesis 4.3.1, definition 4.1, property
+// 4.1; 4.6).
 //
 // A patch is one quadtree of `depth` levels; level i cuts its square into 2^i x 2^i nodes, which
 // are numbered along the z-curve (child 0 north-west, 1 north-east, 2 south-west, 3 south-east):

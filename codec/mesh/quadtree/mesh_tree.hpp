@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An adaptive 4-8 mesh in a semi-linear quadtree, and the part of it that a view sees.
+// MeshTree holds an adaptive 4-8 mesh in a semi-linear quadtree and gives the part of it that a
+// view sees.
 //
 // The tree holds the closed set of vertices and their heights; triangles follow from it. A node
 // whose centre c is present is a fan of triangles around c. Each side of its square is one triangle

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One level of a semi-linear quadtree (thesis 4.3.2, 4.5): which vertices its nodes hold, and their
-// numbers.
+// QuadtreeLevel stores which vertices the nodes of one level of a semi-linear quadtree hold, and
+// numbers them (thesis 4.3.2, 4.5).
 //
 // The nodes of a level below one node three levels up are 64 consecutive codes: a subtree level
 // (property 4.1.3), here called a tile. A tile holds no code and no slot per node, but one bit per

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The semi-linear quadtree (thesis 4.3.2, 4.5): the vertices of a 4-8 mesh without redundancy.
+// SemilinearQuadtree numbers the vertices of a 4-8 mesh and stores each of them once (thesis 4.3.2,
+// 4.5).
 //
 //   o---n---.   A node stores three vertices: its centre c, the midpoint n of its northern and w of
 //   |   |   |   its western edge. The other two midpoints belong to the nodes south and east of it.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traversals and traversal paths (thesis 4.4.4): from node to node by one addition a step.
+// Traversal moves from node to node of a forest by one addition a step, so that no location code is
+// decoded on the way (thesis 4.4.4).
 //
 // A traversal is a scaling to another level (4.23) followed by unit steps; a traversal path visits
 // the nodes on the way. The coordinates of the first node are decoded once, then kept. Steps are

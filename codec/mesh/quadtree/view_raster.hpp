@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visibility (thesis 4.7): what a view sees of the ground, rasterised into the quadtree.
+// ViewRaster rasterises the ground that a view sees into the nodes of the quadtree (thesis 4.7:
+// visibility).
 //
 // Seen from above a view is a convex polygon. In every level the nodes that it touches fill one
 // span of columns in each row. The finest spans come from the polygon's edges; those of two rows

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a height error at each sample costs in the pictures of cameras (thesis 6.1, figure 6.4).
+// screenWeights() gives each sample of a surface a weight: the cost of a height error there in the
+// pictures of cameras (thesis 6.1, figure 6.4). Meshes with these weights err least on the screen.
 //
 // A sample that is too high by e moves the ground that it carries by e v on the screen, v =
 // d(screen) / d(height). The picture I then errs by I(s) - I(s - e v) wherever that ground is seen:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a camera sees of a surface: how near the ground is in each pixel, and how bright.
+// SurfacePicture draws a surface as a camera sees it, and holds for each pixel how near the ground
+// is and how bright.
 //
 // A plain z-buffer over all triangles of the grid. Its numbers take part in choosing the vertices
 // of meshes, so they come from IEEE additions, multiplications, divisions, square roots and

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ways to choose the vertices of meshes that the thesis compares (2.5.2, 5.4.2, 5.5.2), with costs
-// of any kind. The library itself decimates in one way (codec/mesh/decimation/decimation.hpp).
+// decimate() orders the vertices of a surface by any of the policies that the thesis compares
+// (2.5.2, 5.4.2, 5.5.2), with costs of any kind. The library itself decimates in one way
+// (codec/mesh/decimation/decimation.hpp).
 #pragma once
 
 #include <cstdint>

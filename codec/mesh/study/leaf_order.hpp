@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Orders of single vertices with fixed slopes, with which the thesis compares general decimation
-// (2.5.2, 5.4.2, 5.5.2).
+// restrictedDecimation() and refinement() order single vertices by fixed slopes. The thesis
+// compares general decimation with these orders (2.5.2, 5.4.2, 5.5.2).
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What meshes without global error look at (thesis 2.5.2: errors at the knots alone).
+// localErrors() computes for every vertex the error of its own sample, by which meshes without
+// global error are chosen (thesis 2.5.2: errors at the knots alone).
 #pragma once
 
 #include <vector>

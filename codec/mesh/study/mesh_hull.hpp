@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lower convex hull of all 4-8 meshes of a surface (codec/mesh/closure/closure.hpp), which no
-// order of decimation can beat, and an order through all of its corners.
+// MeshHull is the lower convex hull of all 4-8 meshes of a surface
+// (codec/mesh/closure/closure.hpp), which no order of decimation can beat. decimateOptimally()
+// gives an order through all of its corners.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces with every 2^k-th sample. Their lattices are the coarse part of the lattice of the whole
-// surface: vertices have the same ids, and the same are hidden.
+// coarsen(), smoothed() and ofMipLevel() make surfaces with every 2^k-th sample. The lattice of a
+// coarse surface is the coarse part of that of the whole surface: vertices keep their ids, and the
+// same vertices are hidden.
 #pragma once
 
 #include <cstdint>

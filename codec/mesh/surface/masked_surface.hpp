@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coarse surfaces of terrain with voids: a mean counts no void sample.
+// maskedSurface() makes a coarse surface of terrain with voids, whose heights are means of valid
+// samples alone.
 #pragma once
 
 #include <cstddef>

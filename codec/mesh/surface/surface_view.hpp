@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A height field whose samples are owned by the caller.
+// SurfaceView is a height field, with weights if there are any, whose samples the caller owns.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A surface whose samples may be unknown.
+// WeightedSurface is a surface of which some samples may be unknown, so that fits leave them out.
 #pragma once
 
 #include <cstdint>

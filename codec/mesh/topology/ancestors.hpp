@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// All ancestors of a vertex: its parents, their parents, and so on up to level 0
-// (thesis 3.3, 5.3.1: the vertices whose merging domains hold v), each exactly once.
+// AncestorWindow holds all ancestors of a vertex on one level, and gives those on the level above:
+// its parents, their parents, and so on up to level 0. Their merging domains hold the vertex
+// (thesis 3.3, 5.3.1), so each ancestor has to come exactly once.
 //
 // On one level the ancestors lie in a small octagon: at most 4 x 4 squares, 5 x 5 corners of them.
 // So a level is one 64-bit window of 8 x 8 cells, bit 8 * row + column, and one level follows from

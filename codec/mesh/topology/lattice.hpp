@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 4-8 lattice of a W x H grid of samples: a forest of root squares (thesis 3.2, 3.3.2).
+// Lattice is the 4-8 lattice of a W x H grid of samples: a forest of root squares (thesis 3.2,
+// 3.3.2). It numbers the vertices and tells where their parents, children and neighbours are.
 //
 // Roots are squares of side 2^d, d = ceil(log2(min(W, H) - 1)): one along the short side, as many
 // as needed along the long one. Every step s = 2^(d-1) ... 1 inserts two levels of vertices:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conforming 4-8 meshes (thesis 3.2): the triangles that a closed set of lattice vertices implies.
+// meshOf() lists the triangles of the conforming 4-8 mesh that a closed set of lattice vertices
+// implies (thesis 3.2).
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shape of complete merging domains (thesis 3.3).
+// Octagon is the shape of a complete merging domain on one pair of levels (thesis 3.3), so that
+// sums over a domain need no list of its vertices.
 //
 // Let t be the step of a pair of levels (squares and midpoints), and the step of the pair of v be
 // 2^k t. As seen from v, in units of t, M_v holds the midpoints of that pair with

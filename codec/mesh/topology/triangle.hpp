@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The triangles of the 4-8 lattice: binary trees under the two triangles of every root square. A
-// triangle is split from its apex to the midpoint of its hypotenuse (thesis 3.2.1):
+// LatticeTriangle is a triangle of the 4-8 lattice and gives the two halves into which its vertex
+// splits it. The triangles form binary trees under the two triangles of every root square. A split
+// runs from the apex to the midpoint of the hypotenuse (thesis 3.2.1):
 //
 //          apex                     apex
 //         /    \                   / |  \        first:  (apex, a, w)

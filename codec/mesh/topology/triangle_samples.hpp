@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The samples in a triangle, row by row, with their edge functions (Pineda 1988): e_k is twice the
-// area that a sample spans with the edge opposite corner k; the three add up to twice the
-// triangle's. Samples on an edge are in.
+// TriangleSamples visits the samples in a triangle, row by row, with their edge functions (Pineda
+// 1988): e_k is twice the area that a sample spans with the edge opposite corner k; the three add
+// up to twice the triangle's area. Samples on an edge belong to the triangle.
 #pragma once
 
 #include <algorithm>
