@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoder's side of drawing_pass.hpp.
+// DrawingDecoding is the decoder's side of drawing_pass.hpp: it answers each decision of the pass
+// from a codeword.
 #pragma once
 
 #include <cstddef>

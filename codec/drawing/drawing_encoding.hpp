@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder's side of drawing_pass.hpp, and the account of what prefixes show.
+// The classes here are the encoder's side of drawing_pass.hpp: they answer each decision of the
+// pass from the samples, write it to a codeword, and account for the error of every prefix.
 #pragma once
 
 #include <algorithm>

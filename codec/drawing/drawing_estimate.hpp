@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Foretells what a drawing takes, at a small part of the price of drawing it.
+// estimateDrawing() foretells from the samples of a plane how many bytes a drawing of them takes,
+// in a small part of the time of coding it.
 #pragma once
 
 #include "base/plane.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The known neighbours of a vertex vote for its value.
+// Candidates ranks the values of the known neighbours of a vertex by their votes, because a drawing
+// asks for the likeliest value first.
 //
 //   near     the 4 coarser vertices next to it: diagonal ones for a centre, along the axes for a
 //            midpoint; 6 votes each

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pass codes drawings. As textures these are maps, classes of land cover, plans, lettering; as
-// heights, classes again, terraces, masks: few values in shapes with sharp edges. A wavelet spends
-// most of its bytes on ringing there, and a list of values has no use for magnitudes.
+// DrawingPass codes planes of few values in shapes with sharp edges: textures that are maps,
+// classes of land cover, plans or lettering; heights that are classes, terraces or masks. A wavelet
+// spends most of its bytes on ringing at these edges, and the magnitude of a difference between two
+// values of a list means little.
 //
 // Every sample is a vertex of the 4-8 lattice. Level by level, coarse to fine, it is asked whether
 // a vertex has the first, second or third of the values that its neighbours vote for (exact matches

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each prefix of a drawing's codeword shows, found by decoding it once. Encoders measure
-// hundreds of prefixes, and decoding each anew takes seconds, most of them for fresh models.
+// The functions here decode a drawing's codeword once and tell from that what each of its prefixes
+// shows. Encoders measure hundreds of prefixes; decoding each of them anew takes seconds, mostly
+// for fresh models.
 #pragma once
 
 #include <algorithm>

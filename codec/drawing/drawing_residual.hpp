@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a value that appears for the first time differs by from the one that was expected.
+// codeResidual() codes the difference between a value that appears for the first time and its
+// prediction.
 #pragma once
 
 #include <array>

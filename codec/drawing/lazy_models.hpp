@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A large table of models, of which a small drawing meets few. They are made where they are met,
-// some side by side at a time: to make all takes a millisecond a table, most of it for memory that
-// the operating system hands over page by page.
+// LazyModels is a large table of models for a drawing, which may be small and ask few of them. A
+// block of models is made when the first of them is asked: making all of them takes a millisecond a
+// table, mostly for memory that the operating system hands over page by page.
 #pragma once
 
 #include <cassert>

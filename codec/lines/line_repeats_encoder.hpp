@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes which columns and rows repeat the one before them.
+// encodeRepeats() codes the marks of the columns and rows that repeat the one before them, so that
+// a header can state them.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Planes of which columns and rows repeat others (bitstream/stream/line_repeats.hpp) are decoded
-// without the repeats, and these are copied here into what a view shows.
+// ShownLines copies repeated columns and rows (bitstream/stream/line_repeats.hpp) into the samples
+// of a view, because planes are coded and decoded without them.
 #pragma once
 
 #include <cassert>

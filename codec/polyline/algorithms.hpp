@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The algorithms of thesis chapter 2 for min D(J) over the polylines J of C segments (2.2), and one
-// more. All take a curve of at least two knots and give `Polylines`. Table 2.3 states what they
-// cost, with n knots, m = n - 2 of them between the ends.
+// The functions here are the algorithms of thesis chapter 2 that minimise the error D(J) over the
+// polylines J of C segments (2.2), and one more. All take a curve of at least two knots and give
+// `Polylines`. Table 2.3 states their costs for n knots, m = n - 2 of them between the ends.
 //
 // The trees of 2.5.1 split the knots a … b at the knot (a + b) / 2, and so on. With n = 2^d + 1
 // knots that is the complete tree of (2.29); the code takes any n.

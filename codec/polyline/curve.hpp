@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A curve given by its knots, and what its chords lose (thesis 2.1.2, 2.1.4).
+// Curve holds the knots of a curve and tells the error of each chord between two of them (thesis
+// 2.1.2, 2.1.4).
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Greedy decimation of knots that no tree binds (thesis 2.4, fig. 2.8, appendix 2.D), for any cost
-// of a knot between its neighbours.
+// decimateKnots() removes the knots of a curve greedily (thesis 2.4, fig. 2.8, appendix 2.D),
+// without a tree, for any cost of a knot between its neighbours.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hierarchy of knots (thesis 2.5.1, fig. 2.12): a binary tree whose nodes are the knots between
-// the ends. A polyline that the tree allows keeps the parent of each knot that it keeps.
+// KnotTree is the hierarchy of knots (thesis 2.5.1, fig. 2.12): a binary tree whose nodes are the
+// knots between the ends. A polyline that the tree allows keeps with each knot also its parent.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The knots that are left of a curve, and the neighbours of each.
+// LinkedKnots tells the neighbours of each knot of a curve among the knots that are not yet
+// removed.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an algorithm on polylines does, counted as the thesis counts it (2.1.4, appendix 2.A): each
-// error that is computed, each comparison and each update is one operation.
+// Operations counts the work of an algorithm on polylines as the thesis does (2.1.4, appendix 2.A):
+// each error that is computed, each comparison and each update is one operation.
 #pragma once
 
 #include <cstdint>

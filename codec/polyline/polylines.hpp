@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every algorithm gives: a polyline for each number of segments that it reaches.
+// Polylines is the result of every algorithm: a polyline for each number of segments that the
+// algorithm reaches.
 #pragma once
 
 #include <cstdint>
