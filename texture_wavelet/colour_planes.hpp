@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The channels of an image become colour planes here, as the wavelet takes them: channels of few
-// values hold places in their tables, texels without coefficients take what costs least, and shears
-// turn the colours. Encoder only.
+// The functions here turn the channels of an image into the colour planes that the wavelet codes.
+// Channels of few values become places in their tables, texels without coefficients take the values
+// that cost least, and shears turn the colours. Encoder only.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes textures that are stored sample by sample, because coding them would take more bytes.
+// decodeStoredTexture() reads the texels of a view from a texture whose samples are stored, because
+// coding them would take more bytes.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file writes the samples of an image as they are, where no coder takes fewer bytes.
+// encodeStoredTexture() writes the samples of an image without coding them, where no coder takes
+// fewer bytes.
 #pragma once
 
 #include "base/texels.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wavelet of a texture may go on over texels that are hidden or drawn over
-// (wavelet/bridges.hpp): thin lines and single holes would cut it into pieces. Encoder only.
+// The functions here choose the texels that are hidden or drawn over and that the wavelet of a
+// texture nevertheless codes (wavelet/bridges.hpp): thin lines and single holes would cut its
+// planes into pieces. Encoder only.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file codes an image by the coder that suits it: drawings colour by colour, photographs by
-// wavelet, and what no coder helps sample by sample.
+// encodeTexture() codes an image by the coder that suits it: drawings colour by colour, photographs
+// by wavelet, and images that no coder makes smaller sample by sample.
 #pragma once
 
 #include "texture_wavelet/texture_encoder.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of two ways to code an image is better, by their accounts: without decoding. Encoder only.
+// showsBetter() decides from the accounts of two encodings of an image, without decoding them,
+// which of them is better. Encoder only.
 #pragma once
 
 #include <cstdint>

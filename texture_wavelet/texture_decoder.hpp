@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes the tracks of a texture to an image. Integer arithmetic only.
+// decodeTexture() decodes prefixes of the tracks of a texture to the texels of a view. It computes
+// with integers only.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file codes an image by wavelet. It fits a colour transform and filters to the image and
-// codes the coefficients that they leave into tracks.
+// encodeByWavelet() codes an image by wavelet. It fits a colour transform and filters to the image
+// and codes the coefficients that they leave into tracks.
 #pragma once
 
 #include <cstdint>

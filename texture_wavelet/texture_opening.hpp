@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes what comes before the coefficients of a texture: the mask of a cut-out, then an overlay.
+// takeOpening() decodes the layers that lie before the coefficients of a texture: the mask of a
+// cut-out, then an overlay.
 #pragma once
 
 #include <cstdint>

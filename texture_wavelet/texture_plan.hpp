@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Says which bands an image is coded in: the subbands of every colour plane. Each plane hints at
-// the magnitudes of the next. Encoder and decoder share this plan.
+// TexturePlan lists the bands in which an image is coded: the subbands of every colour plane. Each
+// plane hints at the magnitudes of the next. Encoder and decoder share this plan.
 #pragma once
 
 #include <optional>

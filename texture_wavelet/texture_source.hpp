@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file holds an image that is to be coded and says how it should be. An image is often coded
-// several times before the best way is known, so what does not depend on the way is found once and
-// kept here.
+// TextureSource holds an image and what follows from it alone, such as the mask of a cut-out.
+// TextureOptions says how to code it. An image is often coded several times before the best way is
+// known, so TextureSource finds its masks only once.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visual weights order the passes by what an eye sees. Encoder only.
+// visualWeights() gives each band of each colour plane a weight, so that passes come in the order
+// in which an eye notices them. Encoder only.
 #pragma once
 
 #include <cstdint>

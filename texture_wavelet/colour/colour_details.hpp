@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The axes of colour are fitted to orthonormal Haar details of all scales, which are sampled here.
-// Encoder only.
+// sampleDetails() samples the orthonormal Haar details of an image at all scales, to which the axes
+// of colour are fitted. Encoder only.
 #pragma once
 
 #include <array>

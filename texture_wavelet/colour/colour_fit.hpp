@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the colour transform for an image. Encoder only.
+// fitColour() fits the colour transform to the channels of an image. Encoder only.
 #pragma once
 
 #include <cstdint>

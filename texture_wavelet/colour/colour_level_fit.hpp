@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the shears of the coefficients of each level. Encoder only.
+// turnLevels() chooses the shears of the coefficients of each level, where they save more bits than
+// they take in the header. Encoder only.
 #pragma once
 
 #include "texture_wavelet/colour/colour.hpp"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The axes of colour turn from level to level. Photographs out of a camera or a JPEG file have grey
-// details, because chroma was sampled or kept at half the resolution, while their coarse shapes
-// follow the colours of the ground: one rotation cannot suit both.
+// forwardColourLevels() and inverseColourLevels() turn the colour planes of each level by the
+// shears of that level. Photographs out of a camera or a JPEG file have grey details, because
+// chroma was sampled or kept at half the resolution, while their coarse shapes follow the colours
+// of the ground: one rotation cannot suit both.
 #pragma once
 
 #include <cstdint>

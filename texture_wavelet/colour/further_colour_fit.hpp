@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a further colour, such as near infrared, follows the others. Encoder only.
+// fitFurtherColour() finds how a further colour, such as near infrared, follows from the other
+// channels. Encoder only.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions here choose the colour transform of an image of which every bit will be coded. They
-// take the axes of lossy streams where these cost about as few bytes as the cheapest ones, because
+// chooseLosslessColour() chooses the colour transform of an image that is coded to the last bit. It
+// takes the axes of lossy streams where these cost about as few bytes as the cheapest ones, because
 // prefixes of a lossless stream are lossy. Encoder only.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of colours of a drawn texture, and how a new one is coded.
+// DrawnColours is the list of colours of a drawn texture, and codes each new colour.
 #pragma once
 
 #include <algorithm>

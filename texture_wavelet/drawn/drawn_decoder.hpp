@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes the track of a drawn texture to an image. Integer arithmetic only.
+// decodeDrawn() and decodeOverlay() decode any prefix of the codeword of a drawn texture, or of an
+// overlay, to texels. They compute with integers only.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes an image as the track of a drawn texture.
+// encodeDrawn() codes an image of few colours as the track of a drawn texture, and encodeOverlay()
+// codes the overlay of a photograph.
 #pragma once
 
 #include <cstdint>

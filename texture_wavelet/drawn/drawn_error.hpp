@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far an image is off of which some texels are known. Encoder only.
+// DrawnError measures the squared error of an image of which only some texels are decoded, again
+// and again while their number grows. Encoder only.
 #pragma once
 
 #include <span>

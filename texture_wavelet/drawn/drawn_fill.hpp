@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives every texel of a drawn texture a colour, whether its colour is known or not.
+// fillDrawn() gives every texel of a drawn texture a colour, whether the texel is decoded or not.
 #pragma once
 
 #include <span>

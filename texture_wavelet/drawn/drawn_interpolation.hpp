@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colours of texels that are not known yet: the mean of the coarser neighbours in the 4-8
-// lattice, rounded; of a root, grey.
+// Interpolation gives texels that are not decoded yet the rounded mean of their coarser neighbours
+// in the 4-8 lattice; a root becomes grey.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the prefixes of a drawn texture or an overlay show, for encoders that look at many of them.
+// prefixesOfDrawing() and prefixesOfOverlay() decode a drawn texture or an overlay once and give
+// the texels of any prefix of it, because encoders look at many prefixes.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cut-outs are images of which every texel is either opaque or not there: signs, trees, coasts.
-// Their alpha is coded as a mask, exact before the first colour. Hidden colours are coded only in
-// lossless streams, and come back as the mean colour in others. Encoder only.
+// cutoutOf() tells the mask of a cut-out: an image of which every texel is either opaque or absent,
+// such as a sign, a tree or a coast. Its alpha is coded as a mask, exact before the first colour.
+// Hidden colours are coded only in lossless streams; in others they come back as the mean colour.
+// Encoder only.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// An overlay is what somebody has drawn over a photograph: lettering, boundaries, borders without
-// data, water in one colour. A wavelet rings along all of it; so these texels are drawn, and the
-// wavelet lifts around them as around voids. An overlay lies ahead of all coefficients, so it has
-// to save more than prefixes lose by it. Encoder only.
+// photographOf() separates a photograph from an overlay that somebody has drawn over it: lettering,
+// boundaries, borders without data, water in one colour. A wavelet rings along all edges of an
+// overlay; so its texels are drawn, and the wavelet lifts around them as around voids. An overlay
+// lies ahead of all coefficients, so it has to save more bytes than prefixes lose by it. Encoder
+// only.
 #pragma once
 
 #include <cstdint>

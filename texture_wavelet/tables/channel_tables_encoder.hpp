@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of channels to what a header says of them.
+// headerOf() codes the tables of channels as the part of the header that holds them.
 #pragma once
 
 #include "bitstream/stream/texture_header.hpp"

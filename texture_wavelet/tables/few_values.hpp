@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds channels that have few of the values that their type could hold. Encoder only.
+// fewValuesOf() finds the channels of an image that use few of the values of their type, and makes
+// tables of these values. Encoder only.
 #pragma once
 
 #include <array>
