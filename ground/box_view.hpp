@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From where a camera sees all of a terrain's box.
+// seeingAll() moves a camera, without turning it, to the nearest place from which it sees the whole
+// box of a terrain.
 #pragma once
 
 #include "ground/camera.hpp"

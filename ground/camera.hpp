@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras that look at the ground: what encoders are told of, and renderers draw from.
+// A Camera is a pinhole camera that looks at the ground. Encoders take cameras as options, and
+// renderers draw what they see.
 #pragma once
 
 #include <array>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a grid of heights lies in space. The rule for grids that do not say how far their samples are
-// apart is here and nowhere else: encoders, cameras and meshes must see the same ground.
+// GroundFrame says where the samples of a grid of heights lie in space, in metres. The rule for
+// grids that do not say how far apart their samples are is in knownFrame() alone: encoders, cameras
+// and meshes must see the same ground.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views of a terrain that need no file.
+// presetCameras() makes cameras from the name of a view and the bounds of a terrain, so that a user
+// needs no file of cameras.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pictures show behind the ground.
+// skyAt() gives the colour of the sky in a row of a picture, which fills the pixels that show no
+// ground.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vectors in space, for cameras and the renderer.
+// The functions here compute with vectors in space, for cameras and the renderer.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 4-8 subdivision of a grid along its sides, and the two ways in which it ends at the border.
+// The functions here count the squares and levels of the 4-8 subdivision along the sides of a grid,
+// under either of the two rules for its border.
 //
 // The subdivision of squares of side 2s inserts their centres, at odd multiples of s in x and y,
 // and the midpoints of their edges, at multiples of s of odd coordinate sum. Inside the grid these

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks of the vertices of the 4-8 lattice that are known so far, at multiples of one step, as
-// bits. They lie in four planes of half as many columns and rows: those of the corners of squares,
-// of their centres, and of the midpoints of horizontal and of vertical edges. So the neighbours of
-// 64 vertices in a row, in one direction, are 64 bits.
+// LatticePlanes holds one bit for each vertex of the 4-8 lattice that is known so far, at multiples
+// of one step. The bits lie in four planes of half as many columns and rows: those of the corners
+// of squares, of their centres, and of the midpoints of horizontal and of vertical edges. So the
+// neighbours of 64 vertices in a row, in one direction, are 64 bits.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known around 64 vertices in a row, one bit for each: contexts of masks
-// (lattice/validity_pass.hpp) are made of it.
+// RowSurroundings collects the known neighbours of 64 vertices in a row, one bit for each vertex
+// and direction. The contexts of masks (lattice/validity_pass.hpp) are made of these bits.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coarser vertices around a vertex of the 4-8 lattice, in two rings of equal distance: 1 and
-// sqrt 5, in units of the step.
+// stencilOf() gives the offsets of the coarser vertices around a vertex of the 4-8 lattice, in two
+// rings of equal distance: 1 and sqrt 5, in units of the step.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes a validity mask from a codeword.
+// decodeValidity() decodes any prefix of the codeword of a mask to the samples that are valid.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encodes a validity mask as a codeword.
+// encodeValidity() encodes the mask of the valid samples of a plane as a codeword.
 #pragma once
 
 #include <cstdint>

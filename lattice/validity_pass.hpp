@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coding of a mask that says which samples of a height field exist, or which texels can be seen.
-// The mask is coded level by level of the 4-8 lattice, so that any prefix of the codeword gives the
-// whole mask, at a resolution that grows with its length. Contexts are made of known neighbours,
-// after JBIG (ITU-T T.82, progressive templates):
+// ValidityPass codes a mask, which says which samples of a height field exist, or which texels can
+// be seen. It codes the mask level by level of the 4-8 lattice, so that any prefix of the codeword
+// gives the whole mask, at a resolution that grows with its length. Contexts are made of known
+// neighbours, after JBIG (ITU-T T.82, progressive templates):
 //
 //   near     the 4 coarser vertices next to the vertex: diagonal ones for a centre, along the
 //            axes for a midpoint; 16 patterns

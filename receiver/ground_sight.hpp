@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What errors of the ground cost in one picture, point by point, as far as coarse heights tell it
-// (thesis 6.1): how many pixels show the ground around a point, and how far a height error moves it
-// on the screen. All in derivatives of the camera's matrix, which knows neither metres nor angles.
+// sightOf() tells from coarse heights the cost of an error of the ground at each point in one
+// picture (thesis 6.1): how many pixels show the ground around the point, and how far a height
+// error moves it on the screen. Both come from derivatives of the camera's matrix, which knows
+// neither metres nor angles.
 #pragma once
 
 #include <array>

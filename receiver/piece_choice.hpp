@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which missing pieces of a stream are worth their bytes, and their requests where these cost
-// something.
+// choosePieces() chooses the missing pieces of a stream that are worth their bytes and, if requests
+// cost something, their requests.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chosen pieces as byte ranges to ask for: neighbours are joined.
+// rangesOf() turns chosen pieces into byte ranges to ask for, and joins neighbours.
 #pragma once
 
 #include <algorithm>

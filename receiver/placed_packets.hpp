@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The packets of a front index: where each lies in the stream, and what a byte of it is worth to
-// those who look.
+// placedPackets() lists the packets of a front index, each with its place in the stream and with
+// the worth of one of its bytes to the viewers.
 #pragma once
 
 #include <algorithm>

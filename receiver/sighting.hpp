@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a receiver looks at, now or later.
+// A Sighting tells how the picture of a viewer, now or later, shows each point of the ground, so
+// that a receiver can say which bytes improve it.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What errors of each track cost in the picture of a sighting, beside what they cost on average in
-// those that the encoder thought of: by how many pixels a sample of the track's region covers, how
-// far a height error moves it, and which of the region's levels the picture shows.
+// TrackCosts gives the cost of an error of each track in the picture of a sighting, divided by its
+// mean cost in the pictures that the encoder looked at. It counts how many pixels a sample of the
+// track's region covers, how far a height error moves it, and which of the region's levels the
+// picture shows.
 #pragma once
 
 #include <array>
