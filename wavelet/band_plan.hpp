@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file says how a transformed plane becomes the bands of a track. Encoders gather coefficients
-// here; decoders put them back with wavelet/synthesis/view_synthesis.hpp.
+// PlaneLayout turns the subbands of a transformed plane into the bands of a track. Encoders gather
+// coefficients here; decoders put them back with wavelet/synthesis/view_synthesis.hpp.
 #pragma once
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lifting stops at voids, so that samples in single holes and narrow gaps would cut a plane into
-// pieces too short for its filters. Such voids are bridged: they have coefficients as samples have,
-// and what is decoded there is thrown away. Which ones they are follows from the mask and from one
-// number in the stream header.
+// liftedSamples() adds bridges to the mask of valid samples: voids in single holes and narrow gaps
+// that have coefficients as samples have, and whose decoded values are thrown away. Lifting stops
+// at voids, so such holes would cut a plane into pieces too short for its filters. The mask and a
+// number in the stream header, the reach, tell which voids are bridged.
 #pragma once
 
 #include <cstdint>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// This is lifting of planes in which some samples are held: both sides know their values before
-// any coefficient. A step reads a held sample, but does not change it as it changes others. It
-// makes of it what it makes of a signal that has the sample's value everywhere. So constants are
-// predicted exactly up to the shore of a lake, no coefficient of a held sample is coded, and
-// nothing rings across the shore: land next to water is predicted from the water's true height, and
-// an update finds no detail on the water.
+// liftHeldColumns() and HeldRowLifting lift planes in which some samples are held: encoder and
+// decoder know their values before any coefficient. A step reads a held sample but does not change
+// it as it changes others: the held sample gets the value that the step gives to a signal of that
+// value everywhere. So constants are predicted exactly up to the shore of a lake, no coefficient of
+// a held sample is coded, and nothing rings across the shore: land next to water is predicted from
+// the water's true height, and an update finds no detail on the water.
 //
-// Of such a signal all even samples are equal at any time, and so are all odd ones. With s[0] =
-// s[1] = its value, step i of an analysis makes s[i + 2] of s[i], the samples that it changes, and
-// s[i + 1], those that it reads. With filters whose predictions sum to -1 that is 0 for odd samples
-// and the value itself for even ones.
+// In a signal of one value all even samples stay equal in every step, and so do all odd ones. With
+// s[0] = s[1] = the value, step i of an analysis changes the samples s[i] into s[i + 2] and reads
+// the samples s[i + 1]. With filters whose predictions sum to -1 the odd samples become 0, and the
+// even ones keep the value.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Held samples have their values before anything else is known of a plane: areas of constant
-// height.
+// HeldSamples lists the samples that have their values before any coefficient is decoded: areas of
+// constant height.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One level of the transform splits a block: rows and columns jointly, or rows, then columns. The
-// synthesis goes the other way round.
+// LevelTransform is one level of the transform: it splits the rows and columns of a block, jointly
+// or rows first, and the synthesis joins them in the opposite order.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opening and closing of masks by squares (J. Serra, Image Analysis and Mathematical Morphology,
-// 1982). What lies outside the plane counts as marked in an erosion and as unmarked in a dilation,
-// so that an opening takes marks away and a closing adds some, at the border too.
+// opened() and closed() are the opening and closing of masks by squares (J. Serra, Image Analysis
+// and Mathematical Morphology, 1982). Samples outside the plane count as marked in an erosion and
+// as unmarked in a dilation, so that an opening takes marks away and a closing adds some, at the
+// border too.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A norm says how much an error in a wavelet coefficient hurts: it is the L2 norm of the synthesis
-// function of the coefficient's band.
+// SynthesisNorms gives the weight of an error in a wavelet coefficient of each band: the L2 norm of
+// the synthesis function of the band.
 #pragma once
 
 #include <array>

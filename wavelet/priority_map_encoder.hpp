@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a priority map down for a header.
+// headerOf() codes a priority map as the part of the header that holds it.
 #pragma once
 
 #include "wavelet/priority_map.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coding of a priority map, tile by tile: whether a tile has the priority that its neighbours lead
-// to expect (the median of the western one, the northern one and the plane through both: M. J.
-// Weinberger et al., "LOCO-I", 1996), else how far it is above or below.
+// PriorityPass codes a priority map, tile by tile. It asks whether a tile has the priority that its
+// neighbours predict (the median of the western one, the northern one and the plane through both:
+// M. J. Weinberger et al., "LOCO-I", 1996), and else how far above or below the priority is.
 #pragma once
 
 #include <algorithm>

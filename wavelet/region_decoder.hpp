@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes the tracks of a component one region after the other, or on several threads. Only the
-// state of one region is kept for each thread.
+// RegionDecoder decodes the tracks of a component one region after the other, or on several
+// threads. Each thread keeps the state of one region only.
 #pragma once
 
 #include <cstddef>

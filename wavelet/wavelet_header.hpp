@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions here translate what a stream header says about the wavelet for the transform.
+// specOf() and the other functions here turn the fields of a stream header about the wavelet into
+// the arguments of the transform.
 #pragma once
 
 #include <algorithm>

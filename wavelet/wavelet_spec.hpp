@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which transform a plane has, and how wide its sums are.
+// WaveletSpec says which transform a plane has, level by level, and how wide its sums are.
 #pragma once
 
 #include <algorithm>

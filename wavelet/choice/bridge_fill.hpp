@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands at bridged voids (wavelet/bridges.hpp) is thrown away by decoders, so that encoders
-// are free to put there what takes the fewest bytes: a smooth surface through the samples around.
+// bridged() fills bridged voids (wavelet/bridges.hpp) with a smooth surface through the samples
+// around them. Decoders throw these values away, so an encoder is free to choose the ones that take
+// the fewest bytes.
 #pragma once
 
 #include <cstdint>

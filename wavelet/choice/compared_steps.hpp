@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions here compare two ways to code one plane, at the step of the target and at coarser
+// ComparedSteps compares two ways to code one plane, at the step of the target and at coarser
 // steps, because every prefix of a stream is a stream. Encoder only.
 #pragma once
 

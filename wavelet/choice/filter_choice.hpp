@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders choose here which filters suit a plane. The choice stands in the stream header, so that
-// decoders need not know how it was made.
+// The functions here choose the filters that suit a plane. The choice stands in the stream header,
+// so that decoders need not know how it was made. Encoder only.
 #pragma once
 
 #include <cstdint>

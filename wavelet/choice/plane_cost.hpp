@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An estimate of what the coefficients of a plane cost when they are coded with a step: the entropy
-// of their numbers of bits, given those of the neighbours that come before, and the bits below the
-// highest. It is there to compare two ways to transform one plane. Encoder only.
+// costOf() estimates the bits that the coefficients of a plane take when they are coded with a
+// step: the entropy of their numbers of bits, given those of the neighbours that come before, and
+// the bits below the highest. Encoders compare two transforms of one plane by it.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders choose here from where on decoders round while they invert the transform of a lossless
-// stream (docs/FORMAT.md, section 7). Near the last bit rounding takes the roundings of the encoder
-// back; before, it adds errors of its own.
+// roundedSquares() and roundedBytes() choose the prefix from which on decoders round while they
+// invert the transform of a lossless stream (docs/FORMAT.md, section 7). Near the last bit rounding
+// takes the roundings of the encoder back; before, it adds errors of its own. Encoder only.
 #pragma once
 
 #include <cstdint>

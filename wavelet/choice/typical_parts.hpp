@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encoders look at typical parts of a plane before they code all of it.
+// typicalParts() chooses the parts of a plane by which encoders judge a choice before they code the
+// whole plane.
 #pragma once
 
 #include <cstddef>

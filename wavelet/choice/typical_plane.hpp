@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An estimate of what a plane costs, from typical parts of it under the filters that suit it.
-// Encoder only.
+// TypicalPlane estimates the cost of coding a plane from typical parts of it, under the filters
+// that suit the plane. Encoder only.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// All lifting comes down to one step of many signals at once, which is here. The scalar kernel is
-// the specification; liftStep() uses the vectors of the processor where it has suitable ones.
+// liftStep() adds one lifting step to many signals at once; all lifting is made of it. The scalar
+// kernel is the specification, and liftStep() uses the vectors of the processor where it has
+// suitable ones.
 #pragma once
 
 #include <array>

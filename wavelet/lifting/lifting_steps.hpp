@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file says what lifting visits and reads, whether that is values or marks of their existence.
-// A signal has two samples or more and is mirrored about its first and its last sample.
+// The functions here name the samples that each lifting step reads and changes, whether these are
+// values or marks of existence. A signal has two samples or more and is mirrored about its first
+// and its last sample.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// This is lifting of signals in which some samples do not exist (after S. Li and W. Li,
-// "Shape-adaptive discrete wavelet transforms", IEEE TCSVT 10(5), 2000). A void is neither read nor
-// changed, so nothing bleeds across a coast:
+// liftMaskedColumns() and MaskedRowLifting lift signals in which some samples do not exist (after
+// S. Li and W. Li, "Shape-adaptive discrete wavelet transforms", IEEE TCSVT 10(5), 2000). A void is
+// neither read nor changed, so nothing bleeds across a coast:
 //
 //   a neighbour that is void takes the value of its mirror image about the target,
 //   a pair of which both are void takes the values of the pair before it, or, if all pairs before
