@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of coordinate reference systems as streams and files have them: "EPSG:2056", WKT, a name.
+// knownToBrowsers() reads the name of a coordinate reference system as streams and files state it:
+// "EPSG:2056", WKT, or a name.
 #pragma once
 
 #include <string>

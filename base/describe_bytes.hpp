@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes amounts of memory as sentences have them.
+// describeBytes() writes an amount of memory with its unit, for sentences about limits.
 #pragma once
 
 #include <cstdint>

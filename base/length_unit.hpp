@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of lengths, and how many metres they are. Files say "US survey foot", streams "us-ft". Foot
-// definitions: international yard and pound agreement of 1959.
+// The functions here translate between names of lengths and metres, because files say "US survey
+// foot" and streams "us-ft". The feet are defined by the international yard and pound agreement of
+// 1959.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which samples a nodata value names, as GDAL compares them (ARE_REAL_EQUAL() in gdal_priv.h and
-// GDALNoDataMaskBand, GDAL 3.6), and what becomes of it where doubles become floats.
+// meetsNodata() tells whether a sample has the nodata value, as GDAL compares them
+// (ARE_REAL_EQUAL() in gdal_priv.h and GDALNoDataMaskBand, GDAL 3.6). toFloat() turns a nodata
+// value into a float.
 #pragma once
 
 #include <cmath>

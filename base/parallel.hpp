@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs independent pieces of work on several threads. The results never depend on their number.
+// parallelFor() runs independent pieces of work on several threads. The results never depend on the
+// number of threads.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two rasters on one ground: whether one lies on the other, and how much finer it is.
+// liesOn() and fineness() compare two rasters on one ground: whether one lies on the other, and how
+// much finer it is.
 #pragma once
 
 #include <cstdint>

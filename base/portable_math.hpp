@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Logarithms, powers and angles with the same bits on every machine. Those of C libraries differ in
-// their last bit, from one processor to the next even in one library, and encoders choose by them.
+// The functions here are logarithms, powers and angles with the same bits on every machine, because
+// encoders make choices by them. The functions of C libraries differ in their last bit, from one
+// processor to the next even in one library.
 #pragma once
 
 namespace tetrakis::inline base {

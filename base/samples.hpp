@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the C++ type that a tks_sample names.
+// withSampleType() calls a function with the C++ type that a tks_sample names, so that code is
+// written once for all types.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text of streams and files as people may see it: it steers no terminal, turns no line around and
-// begins none.
+// shownText() and shownLines() make text of streams and files safe to print: it then steers no
+// terminal, turns no line around and begins no line.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An image as the texture codec sees it: rows of texels, each with its channels side by side.
+// Texels is an image as the texture codec takes it: rows of texels, each with its channels side by
+// side.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether bytes are UTF-8 (RFC 3629).
+// isUtf8() tells whether bytes are UTF-8 (RFC 3629), so that broken text of streams and files is
+// not passed on.
 #pragma once
 
 #include <cstddef>

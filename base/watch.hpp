@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Long work that says how far it is, and ends early when nobody waits for it any more.
+// A Watch is told how far long work is, and ends the work early when nobody waits for it any more.
 #pragma once
 
 #include <cstddef>

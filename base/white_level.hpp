@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures of 16 bits often use few of them: reflectances end near 3000, cameras at 4095. Their
-// white level is the value that pictures show as white. DNG states it as WhiteLevel; viewers of
-// satellite images find one when they stretch the range of an image.
+// findWhiteLevel() finds the white level of an image: the value that pictures show as white.
+// Textures of 16 bits often use few of them: reflectances end near 3000, cameras at 4095. DNG
+// states the value as WhiteLevel; viewers of satellite images find one when they stretch the range
+// of an image.
 #pragma once
 
 #include <algorithm>

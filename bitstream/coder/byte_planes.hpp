@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples that no model helps are stored: first the highest byte of all of them, then the next byte
-// of all, so that a prefix still holds every sample roughly.
+// toBytePlanes() and BytePlanes store samples that no model helps: first the highest byte of all of
+// them, then the next byte of all, so that a prefix still holds every sample roughly.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The places of a plane in the order in which a codeword decides them, by what a GrowingDecoder
-// tells of each. What a prefix of any length shows is then read off.
+// DecidedPlaces notes how many bytes of a codeword decide each place of a plane, as a
+// GrowingDecoder finds out. It then lists the places that a prefix of any length shows.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many decisions bytes can pay for. So the time for a codeword is bounded by its bytes, however
-// many samples its plane has.
+// mostDecisions() bounds the number of decisions that bytes can pay for. So the time for a codeword
+// is bounded by its bytes, however many samples its plane has.
 #pragma once
 
 #include <cstddef>

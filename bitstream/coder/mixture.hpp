@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several models foretell one decision, each from another side. Their predictions are added as
-// logarithms of odds, with weights that learn which of them to believe (M. Mahoney, "Adaptive
-// weighing of context models for lossless data compression", 2005). Integers alone: all decoders
-// come to the same odds.
+// Mixture joins the predictions of several models for one decision, each of which knows another
+// side of it. It adds them as logarithms of odds, with weights that learn which models to believe
+// (M. Mahoney, "Adaptive weighing of context models for lossless data compression", 2005). It
+// computes with integers only, so that all decoders come to the same odds.
 #pragma once
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coding of a table of the values that samples have, where their type could hold many more: the
-// first word, then the gap from each value to the next. Gaps of such tables come back again and
-// again (3, 3, 4, 3, 3, 4 where metres became feet), so the eight latest different ones are kept,
-// the last one first (J. L. Bentley et al., "A locally adaptive data compression scheme", 1986). A
-// gap is one of these, named by its place; or it is new: its number of bits in unary, then the bits
-// below the highest.
+// ValueTablePass codes a table of the values that samples have, where their type could hold many
+// more: the first word, then the gap from each value to the next. Gaps of such tables come back
+// again and again (3, 3, 4, 3, 3, 4 where metres became feet), so the eight latest different ones
+// are kept, the last one first (J. L. Bentley et al., "A locally adaptive data compression scheme",
+// 1986). A gap is one of these, named by its place; or it is new: its number of bits in unary, then
+// the bits below the highest.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The checksum of headers, and of the payloads of streams that promise something.
+// crc32() computes the checksum of headers, and of the payloads of streams that promise exact
+// samples or a largest error.
 #pragma once
 
 #include <cstdint>

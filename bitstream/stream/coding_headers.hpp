@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the headers of heights and of textures share: the way in which they are coded, and parts for
-// the wavelet, spatial regions, priorities over the ground (docs/FORMAT.md, section 2).
+// The structures here are the parts of a header that heights and textures share: the way in which
+// they are coded, the wavelet, spatial regions, and priorities over the ground (docs/FORMAT.md,
+// section 2).
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of domains and components that a header begins with (docs/FORMAT.md, section 2), as
-// fields.hpp visits it. Streams of later versions may have domains and components that are not
-// known: what a header says of them is kept as bytes.
+// listOf() and the functions beside it visit the list of domains and components that a header
+// begins with (docs/FORMAT.md, section 2). Streams of later versions may have domains and
+// components that this decoder does not know: it keeps their descriptions as bytes.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the corrections of heights lie. Those of a plane in one track follow its coefficients.
-// Those of a plane in regions are tracks of their own behind the tracks of coefficients, one for
-// each region of the finest levels, so that a window of it is decoded without the others.
+// The functions here number the tracks that hold the corrections of heights. Corrections of a plane
+// in one track follow its coefficients. Corrections of a plane in regions are tracks of their own
+// behind the tracks of coefficients, one for each region of the finest levels, so that a window is
+// decoded without the corrections of other regions.
 #pragma once
 
 #include <cstdint>

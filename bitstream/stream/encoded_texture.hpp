@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This is what the codec of textures makes of one: its tracks, and what the header says of them.
+// EncodedTexture is the result of encoding a texture: its tracks, and the part of the header that
+// describes them.
 #pragma once
 
 #include <vector>

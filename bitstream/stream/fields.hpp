@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each structure of the stream lists its fields once, in visit(); writing, reading and dumping are
-// visitors. Numbers are little endian; a varint is LEB128 (7 bits a byte, low bits first), and a
-// double goes without its low zero bytes, which round numbers have many of: u8 n, n high bytes. A
-// structure may end with parts: kind, length, and as many bytes. Kinds rise, so that visit() asks
-// for each in its turn; a part that is not asked for is skipped, and kept as bytes, or refused if
-// its kind is below kMaySkip.
+// FieldWriter and FieldReader write and read the fields of a stream. Each structure lists its
+// fields once, in visit(), and the two are visitors. Numbers are little endian; a varint is LEB128
+// (7 bits a byte, low bits first), and a double goes without its low zero bytes, which round
+// numbers have many of: u8 n, n high bytes. A structure may end with parts: kind, length, and as
+// many bytes. Kinds rise, so that visit() asks for each in its turn; a part that is not asked for
+// is skipped, and kept as bytes, or refused if its kind is below kMaySkip.
 #pragma once
 
 #include <bit>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the stream header says of the heights, and of the layers of their first track
-// (docs/FORMAT.md, section 2).
+// GeometryHeader is the part of the stream header that describes the heights and the layers of
+// their first track (docs/FORMAT.md, section 2).
 #pragma once
 
 #include <algorithm>

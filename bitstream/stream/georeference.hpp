@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where heights and texture lie (docs/FORMAT.md, section 2, Georeference): a part of the header
-// that decoding does not depend on, in as few bytes as a north-up grid needs.
+// Placement says where heights and texture lie (docs/FORMAT.md, section 2, Georeference), in few
+// bytes for a north-up grid. Decoding does not depend on it.
 #pragma once
 
 #include <array>

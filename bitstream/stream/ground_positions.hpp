@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Longitudes and latitudes of a raster (docs/FORMAT.md, section 2, Ground positions), for receivers
-// that do not know its reference system.
+// GroundPositions gives the longitudes and latitudes of a raster (docs/FORMAT.md, section 2, Ground
+// positions) to receivers that do not know its reference system.
 #pragma once
 
 #include <array>

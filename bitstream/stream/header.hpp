@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stream header (docs/FORMAT.md, section 2). A decoder can size everything from it before it
-// allocates anything.
+// StreamHeader is the header of a stream (docs/FORMAT.md, section 2). A decoder can size everything
+// from it before it allocates anything.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each field of a header is held to its range while it is read. The checks here are of what fields
-// of several parts say together, once all are read: a stream with a part that this decoder does not
-// know and has to is unsupported before that (docs/FORMAT.md, section 2, Statuses).
+// checkMeaning() refuses a header whose fields contradict each other, once all fields are read; the
+// range of each is checked while it is read. A stream with a part that this decoder does not know
+// but must know is refused before that, as unsupported (docs/FORMAT.md, section 2, Statuses).
 #pragma once
 
 #include "base/status.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A front index says how long each packet is, and so where each lies in the stream. Whoever looks
-// for packets there walks over them with IndexedPackets.
+// IndexedPackets walks over the packets of a front index and tells where each lies in the stream:
+// the index states their lengths, and their places follow.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Planes that were enlarged by copying samples have columns and rows that repeat the one before
-// them. These are not coded: a map says which they are, and decoders copy them.
+// LineRepeats maps the columns and rows of a plane that repeat the one before them, as they do in
+// planes that were enlarged by copying samples. Repeated lines are not coded, and decoders copy
+// them.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packets and the multiplexer (docs/FORMAT.md, section 3). A packet is a run of bytes of one
-// track's codeword:
+// Packets are runs of bytes of one track's codeword, and the multiplexer joins the packets of all
+// tracks into a payload (docs/FORMAT.md, section 3). A packet consists of:
 //
 //   head     varint   (length << 1 | whole) << number_bits | number     length >= 1
 //   region   varint   number of the track, if the component is coded in regions

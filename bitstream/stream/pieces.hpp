@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes of a stream that came in any order.
+// Pieces holds the bytes of a stream that come in any order.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes the packets of a stream with a front index apart whose bytes come in any order, in time for
-// what is new: each track is taken up to its first gap, as a codeword has none.
+// ScatteredPackets takes apart the packets of a stream with a front index whose bytes come in any
+// order, in time that follows the new bytes. It takes each track up to its first gap, because a
+// codeword is decoded from its beginning.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the stream header says of the texture (docs/FORMAT.md, section 2).
+// TextureHeader is the part of the stream header that describes the texture (docs/FORMAT.md,
+// section 2).
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder's side of PlanePass: it answers every decision from the true coefficients, codes the
-// answer, and keeps the account of the squared error.
+// EncodingIo is the encoder's side of PlanePass: it answers every decision from the true
+// coefficients, codes the answer, and keeps the account of the squared error.
 #pragma once
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Other bands tell something about the magnitudes of a band's coefficients: its parent, the same
-// band of another colour plane, and its siblings, the other details of its level (as X. Wu does in
-// "High-order context modeling and embedded conditional entropy coding of wavelet coefficients for
-// image compression", Asilomar 1997).
+// RowHints tells how large the coefficients of a band may be from three other bands: its parent,
+// the same band of another colour plane, and its siblings, the other details of its level (as X. Wu
+// does in "High-order context modeling and embedded conditional entropy coding of wavelet
+// coefficients for image compression", Asilomar 1997).
 #pragma once
 
 #include <array>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Embedded bit-plane coding of one band: the three passes of a plane (after EBCOT, D. Taubman
-// 2000), with contexts from local magnitude sums (after F. Auli-Llinas 2011) and from what other
-// bands hint at (hints.hpp). Blocks without a significant coefficient cost one decision a plane and
-// no work; coefficients that do not exist (Band::absent) cost nothing, nor do blocks without one
-// that does.
+// PlanePass codes the bit-planes of one band, so that any prefix is useful: three passes a plane
+// (after EBCOT, D. Taubman 2000), with contexts from local magnitude sums (after F. Auli-Llinas
+// 2011) and from the magnitudes of other bands (hints.hpp). Blocks without a significant
+// coefficient cost one decision a plane and no work; coefficients that do not exist (Band::absent)
+// cost nothing, nor do blocks without one that does.
 //
 //   likely   significance where a neighbour is significant (steepest slope)
 //   rest     significance everywhere else; empty blocks are first asked as a whole, and so are

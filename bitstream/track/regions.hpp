@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spatial regions (docs/FORMAT.md, section 5.1): a plane whose coefficients are coded in several
-// tracks, so that a window of it can be decoded alone. The transform knows nothing of them.
+// A Region is the part of a plane's coefficients that one track holds (docs/FORMAT.md, section
+// 5.1), so that a window of the plane can be decoded alone. The transform knows nothing of regions.
 //
 // Every coefficient belongs to a sample of the plane. The finest kRegionLevels levels are split
 // into regions of side 2^s, the next kRegionLevels into regions of side 2^(s + kRegionLevels), and

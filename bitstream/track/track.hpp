@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A track holds bands of one component (heights, or texture), all of them or those of a region,
-// which are coded into one codeword.
+// A track is one codeword that holds bands of one component (heights, or texture): all of its
+// bands, or the parts of them in one region.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes any prefix of a track's codeword into what it says about the coefficients.
+// decodeTrack() decodes any prefix of a track's codeword to the known bits of the coefficients.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file encodes the coefficients of a track down to the last bit, or to where that is no longer
-// worth it, and measures what every byte buys.
+// The functions here encode the coefficients of a track, down to the last bit or to the bit from
+// which on bytes buy too little, and measure the error after every byte.
 #pragma once
 
 #include <array>
