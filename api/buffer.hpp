@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes that callers release.
+// giveBytes() copies bytes into a buffer that the caller releases.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a tks_decoder holds, and what the files that work on it share.
+// A tks_decoder holds the bytes of a stream that the caller gave, their header, and the decoded
+// heights and tracks that later calls go on from. The functions here serve the files of this
+// folder.
 #pragma once
 
 #include <optional>

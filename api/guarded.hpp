@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way through the C boundary: no exception leaves a call, and its sentence goes where the
-// caller looks for it. Whatever may allocate happens within.
+// guarded() runs the work of a call of the C interface: no exception leaves the call, and its
+// sentence goes where the caller looks for it. Whatever may allocate happens within.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What decoding heights takes of memory, in bytes.
+// HeightsBytes computes from the header how many bytes of memory it takes to decode a view of the
+// heights.
 #pragma once
 
 #include <cstdint>

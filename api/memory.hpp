@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the calls of a decoder allocate at most, known from the header before they allocate
-// anything, and whether that is within the limit.
+// The functions here bound the bytes that a call of a decoder allocates, from the header and before
+// the call allocates anything, and hold them against the limit.
 //
 // Bounds follow what the rooms below keep at the same time: planes of 32-bit values, masks, the
 // state of one track a thread (wavelet/region_decoder.hpp), a window's blocks. What meshes take is

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What meshes take of memory, which is measured (tests/api/decode_memory_test.cpp).
+// meshBytes() tells how many bytes a mesh takes to decode. Its figures are measured
+// (tests/api/decode_memory_test.cpp).
 #pragma once
 
 #include <cstdint>

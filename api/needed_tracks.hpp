@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which tracks of a component a view of it needs.
+// neededTracks() lists the tracks of a component that a view of it needs.
 #pragma once
 
 #include <vector>

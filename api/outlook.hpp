@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// outlookOf() says what a camera of the caller's sees of the ground that the decoder knows so far,
-// and what it would see after a turn on the spot. A plan for the present picture alone leaves the
-// ground behind the viewer bare: the first picture after a turn lost 11 dB.
+// outlookOf() tells which ground a camera of the caller sees, as far as the decoder knows it, and
+// which ground it would see after a turn on the spot. A plan for the present picture alone leaves
+// the ground behind the viewer bare: the first picture after a turn lost 11 dB.
 #pragma once
 
 #include "api/decoder.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What decoding takes of memory for the planes and tracks of a component, heights or texture.
+// The functions here compute how many bytes of memory the planes and tracks of a component, heights
+// or texture, take while it is decoded.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists of bytes that callers release.
+// giveRanges() copies ranges of bytes into a list that the caller releases.
 #pragma once
 
 #include <span>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras as callers hand them over.
+// takeCamera() checks a camera of a caller and copies it into the struct of this library.
 #pragma once
 
 #include <cstdint>

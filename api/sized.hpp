@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Structs of the C interface that begin with their size: callers compiled against an older or a
-// newer tetrakis.h hand over fewer or more fields than this library knows.
+// takeSized() copies a struct of the C interface that begins with its size: callers compiled
+// against an older or a newer tetrakis.h hand over fewer or more fields than this library knows.
 #pragma once
 
 #include <algorithm>

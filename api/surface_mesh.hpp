@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of the decoded surface, as the C interface and the mesh tree want them.
+// surfaceMesh() makes meshes of the decoded surface, in the form that the C interface and the mesh
+// tree take.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What decoding a texture takes of memory.
+// textureBytes() computes from the header how many bytes of memory it takes to decode a view of the
+// texture.
 #pragma once
 
 #include <cstdint>

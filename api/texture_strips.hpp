@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A texture whose tracks are remembered is decoded in strips, a few rows at a time: their planes of
-// coefficients fit in caches, and a large image takes no plane of its size beside its texels.
+// textureStrips() cuts a view of a texture into strips of some rows where each strip can go on from
+// the decoded tracks of the strip before. The planes of coefficients of a strip fit in caches, and
+// a large image takes no plane of its size beside its texels.
 #pragma once
 
 #include <vector>

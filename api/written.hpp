@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is decoded, as the samples that the caller wants. Components of which no byte is there are
-// the same everywhere: one sample is decoded and copied, so that their planes take no memory.
+// The functions here write decoded heights and texels as the samples that the caller wants. A
+// component without any byte is the same everywhere: one sample is decoded and copied, so that its
+// planes take no memory.
 #pragma once
 
 #include <cstddef>
