@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a decoder answers at a cut. Needs the library alone: no file, no manifest.
+// decodeCut() decodes a prefix of a vector with the library, and returns the answer in the form of
+// the manifest. It needs no file and no manifest.
 #pragma once
 
 #include <cstdint>

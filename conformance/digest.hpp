@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256 of decoded samples, the same on every machine.
+// sampleDigest() computes the SHA-256 of decoded samples, which is the same on every machine.
 #pragma once
 
 #include <cstddef>

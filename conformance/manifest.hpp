@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The list of conformance vectors: streams, where to cut them, what a decoder must answer there.
+// readManifest() and writeManifest() read and write the list of conformance vectors: streams, where
+// to cut them, and the answers that a decoder must give there.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs conformance vectors: decodes every cut of every stream and compares with the manifest.
+// runVectors() decodes every cut of every conformance vector and compares the answers with the
+// manifest.
 #pragma once
 
 #include <ostream>

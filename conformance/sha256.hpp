@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SHA-256 (FIPS 180-4), here so that every machine with a C++ compiler can check conformance.
+// sha256() computes the digest of bytes (FIPS 180-4), so that every machine with a C++ compiler can
+// check conformance without another library.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What cases are put together from: targets of the encoder, and inputs that differ in one point.
+// The functions here are parts from which cases are made: options of the encoder for each target,
+// and inputs that differ in one point.
 #pragma once
 
 #include <string>

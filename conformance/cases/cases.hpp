@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lists of cases, by area. vector_cases.cpp puts them in the order of the manifest.
+// The functions here list the cases of one area each. vector_cases.cpp puts them in the order of
+// the manifest.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What crafted vectors are made of: headers as one likes, and codewords of noise.
+// The functions here build crafted vectors, which no encoder would write, from headers with any
+// fields and from codewords of noise.
 #pragma once
 
 #include <string>

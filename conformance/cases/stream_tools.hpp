@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which tools of the format a stream makes use of, as its header says, and which ones each vector
-// is for. An encoder that learns to choose another way leaves a vector without the tool that it is
-// for: then the maker of vectors and their test fail.
+// toolsOf() tells from the header of a stream which tools of the format the stream uses, and
+// toolsStatedFor() tells which tools each vector is meant to test. If an encoder that chooses in
+// another way leaves a vector without its tool, the maker of vectors and their test fail.
 #pragma once
 
 #include <set>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The inputs from which the conformance vectors are encoded.
+// vectorCases() lists the inputs from which the conformance vectors are encoded, and encodeCase()
+// encodes one of them.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights that are linear between points, as those of a triangulated survey are.
+// facets() makes heights that are linear between points, like those of a triangulated survey.
 #pragma once
 
 #include <cmath>

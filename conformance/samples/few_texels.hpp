@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Images as files hold them that were stretched over their type: few values, unevenly spaced.
+// withFewTexels() turns an image into one of few, unevenly spaced values, like images in files that
+// were stretched over their type.
 #pragma once
 
 #include <cmath>

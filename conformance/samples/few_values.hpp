@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights as files hold them that were rescaled, converted or interpolated: few values, which lie
-// on no grid of their type.
+// withFewValues() turns heights into heights of few values, which lie on no grid of their type,
+// like heights in files that were rescaled, converted or interpolated.
 #pragma once
 
 #include <cmath>

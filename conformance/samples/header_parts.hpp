@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes the header of a sound stream apart and puts it together again, so that tests find fields by
-// what they are and change them. Written from docs/FORMAT.md, section 2:
+// bodyOf() and withBody() take the header of a sound stream apart and put it together again, so
+// that tests find fields by their meaning and change them. The layout is from docs/FORMAT.md,
+// section 2:
 //
 //   body       payload_bytes, varint; parts
 //   part       kind, length, both varint; as many bytes

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes a damaged header pass its checksum, so that tests reach what lies behind it. Written from
-// docs/FORMAT.md, section 2:
+// sealHeader() makes a damaged header pass its checksum, so that tests reach the checks behind the
+// checksum. The layout is from docs/FORMAT.md, section 2:
 //
 //   byte 0   magic, 4 bytes
 //   byte 4   version, profile, level

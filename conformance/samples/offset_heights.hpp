@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights in whole steps above something that is none: a geoid, the offset that each square of a
-// compressed file has, the datum of one of two surveys. Floats, rounded as their type rounds.
+// withOffsets() makes heights that are whole steps above a level which is no whole number of steps:
+// a geoid, an offset for each square of a compressed file, the datum of one of two surveys. The
+// heights are floats and rounded as such.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights of few values in patches with straight borders, of which drawings take the fewest bytes.
+// patches() makes heights of few values in patches with straight borders, which drawings code in
+// the fewest bytes.
 #pragma once
 
 #include <algorithm>

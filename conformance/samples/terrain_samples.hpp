@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small deterministic surfaces and images for tests and conformance vectors. Integer arithmetic
-// only: every compiler and machine makes the same samples.
+// make() makes small deterministic surfaces and images for tests and conformance vectors. It
+// computes with integers only, so that every compiler and machine makes the same samples.
 #pragma once
 
 #include <cstddef>

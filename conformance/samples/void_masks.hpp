@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Deterministic validity masks for tests.
+// validity() makes deterministic masks of valid samples for tests.
 #pragma once
 
 #include <algorithm>
