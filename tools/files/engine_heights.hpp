@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights as game engines import them: a square of 16-bit samples, little endian, of the sizes that
-// their landscapes have, and the scales to type in.
+// The functions here write heights as game engines import them: a square of 16-bit samples, little
+// endian, of the sizes that their landscapes have, and the scales to type in.
 #pragma once
 
 #include <cstdint>

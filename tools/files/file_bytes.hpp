@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole files as bytes, and the words with which failures name a file.
+// readBytes() and writeBytes() read and write whole files, and quoted() names a file in the
+// sentence of a failure.
 #pragma once
 
 #include <bit>

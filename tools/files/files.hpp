@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights, images and meshes on disk. Everything the command line reads or writes passes here.
+// The functions here read and write heights, images and meshes on disk. Every file of the command
+// line passes here.
 #pragma once
 
 #include <array>

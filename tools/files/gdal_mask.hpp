@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Masks as GDAL keeps them: a page of the TIFF itself, or a TIFF beside the file.
+// readMaskPage() and readMaskBeside() read masks of valid samples where GDAL keeps them: in a page
+// of the TIFF itself, or in a TIFF beside the file.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Little-endian binary files in memory.
+// LittleEndianBuffer builds a little-endian binary file in memory.
 #pragma once
 
 #include <cstddef>

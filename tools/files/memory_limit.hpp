@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much memory the command line may take: what the user says, or a share of what the machine can
-// give, so that a few bytes that declare a huge plane end in a sentence and not at the kernel's
-// hands.
+// memoryLimit() tells how much memory the command line may take: as much as the user says, or a
+// share of the machine's. So a few bytes that declare a huge plane end in a sentence, and the
+// kernel does not kill the process.
 #pragma once
 
 #include <cstdint>

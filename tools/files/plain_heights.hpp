@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights without a header: SRTM tiles (.hgt) and raw samples.
+// The functions here read and write heights without a header: SRTM tiles (.hgt) and raw samples.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What command lines take for a number above 0.
+// positive() checks that the text of an option is a number above 0.
 #pragma once
 
 #include <CLI/CLI.hpp>

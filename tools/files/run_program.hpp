@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Other people's programs.
+// runProgram() runs an external program and reports its failure.
 #pragma once
 
 #include <string>

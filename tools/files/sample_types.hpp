@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The samples of a height file under their own type.
+// visitSamples() calls a function with the samples of a height file in their own type.
 #pragma once
 
 #include <span>

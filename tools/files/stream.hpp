@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams (.tks) as the verbs read them, and what they decode to as files hold it.
+// openStream() reads streams (.tks) for the verbs, and decodeHeights() and decodeImage() decode
+// them to the types that files are written from.
 #pragma once
 
 #include <cstddef>

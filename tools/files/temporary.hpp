@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files and folders that must not outlive the process, not even one that a signal ends.
+// Temporary is a file or folder that must not outlive the process, even if a signal ends the
+// process.
 #pragma once
 
 #include <filesystem>

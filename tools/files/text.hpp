@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers as text for people.
+// The functions here write numbers as text for people.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures turned by quarters, and mirrored.
+// turned() turns a picture by quarters and mirrors it, as the orientation of its file says.
 #pragma once
 
 #include "tools/files/files.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lengths and sizes as people type them: "0.5m", "30,25", "64k".
+// The functions here read lengths and sizes as people type them: "0.5m", "30,25", "64k".
 #pragma once
 
 #include <array>

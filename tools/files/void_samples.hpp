@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which samples of a height file are void: nodata values as GDAL compares them, masks, and values
-// that look like nodata although nothing says so.
+// The functions here find the void samples of a height file: nodata values as GDAL compares them,
+// masks, and values that look like nodata although the file does not say so.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A binary glTF 2.0 file as it grows.
+// Glb collects the parts of a binary glTF 2.0 file while it grows.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mesh file formats, one function each. The mesh has been checked: sizes agree, indices are in
-// range.
+// The functions here write a mesh in one file format each. The mesh has been checked: sizes agree,
+// indices are in range.
 #pragma once
 
 #include <cstddef>

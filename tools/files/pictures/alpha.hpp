@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Alpha as the last of two or four channels.
+// The functions here read and write alpha, which is the last of two or four channels.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which colour each band of a TIFF is, as GDAL has it.
+// bandColours() tells which colour each band of a TIFF is, by the rules of GDAL.
 #pragma once
 
 #include <tiffio.h>

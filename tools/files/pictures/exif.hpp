@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The orientation in EXIF data that OpenImageIO does not look for.
+// exifOrientation() reads the orientation in EXIF data of files in which OpenImageIO does not look
+// for it.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A JPEG 2000 file (JP2, JPX) keeps its place in a box of its own: a TIFF of one pixel with the
-// tags of a GeoTIFF ("GeoJP2"). Others describe it in GML, which is not read.
+// geoBoxOf() reads the place of a JPEG 2000 file (JP2, JPX) from a box of its own: a TIFF of one
+// pixel with the tags of a GeoTIFF ("GeoJP2"). Some files describe their place in GML, which is not
+// read.
 #pragma once
 
 #include <cstddef>

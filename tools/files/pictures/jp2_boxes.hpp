@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes of JPEG 2000 files: ISO/IEC 15444-1, annex I.4: u32 length, type, and for the length 1 a
-// u64 length; 0 means up to the end. Big endian.
+// firstBox() and boxContent() find boxes of JPEG 2000 files: ISO/IEC 15444-1, annex I.4: u32
+// length, type, and for the length 1 a u64 length; 0 means up to the end. Big endian.
 #pragma once
 
 #include <cstdint>

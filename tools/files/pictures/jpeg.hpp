@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a JPEG is whole. Writing: files.hpp.
+// checkJpeg() tells whether a JPEG is complete. files.hpp has the writer.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// JPEG 2000 by OpenJPEG, with the samples as they are coded. OpenImageIO 2.4 shifts those that are
-// signed, or of other than 8 or 16 bits.
+// The functions here read JPEG 2000 by OpenJPEG, with the samples as they are coded. OpenImageIO
+// 2.4 shifts samples that are signed, or of other than 8 or 16 bits.
 #pragma once
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tools take of OpenImageIO. It brings some 260 libraries, which take longer to load than
-// most streams to decode; so it is a module of its own (openimageio.cpp), loaded where a picture is
-// met that is neither a PNG nor a plain TIFF.
+// PictureFormats is the part of OpenImageIO that the tools use. OpenImageIO brings some 260
+// libraries, which take longer to load than most streams to decode; so it is a module of its own
+// (openimageio.cpp), loaded for pictures that are neither a PNG nor a plain TIFF.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a picture file says of itself in its first bytes, read without the library that reads the
-// rest: what that makes of the file is held against it.
+// readPictureHeader() reads the size and form of a picture from its first bytes, without the
+// library that reads the samples. checkShape() then compares the result of that library with it.
 #pragma once
 
 #include <cstddef>

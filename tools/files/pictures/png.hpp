@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG in memory by libspng. Not by OpenImageIO, whose PNG reader prints on standard error and hides
-// the stored bit depth.
+// decodePng() and encodePng() read and write PNG in memory by libspng. The PNG reader of
+// OpenImageIO prints on standard error and hides the stored bit depth.
 #pragma once
 
 #include <cstddef>

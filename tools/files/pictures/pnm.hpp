@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Portable greymaps and pixmaps (pgm(5) and ppm(5) of Netpbm). OpenImageIO reads those of 8 bits
-// exactly; its 2.4 multiplies samples of 16 bits in signed 32 bits, so that all above 32768 come
-// out one too low.
+// The functions here read portable greymaps and pixmaps (pgm(5) and ppm(5) of Netpbm) of 16 bits.
+// OpenImageIO reads files of 8 bits exactly; its version 2.4 multiplies samples of 16 bits in
+// signed 32 bits, so that all above 32768 come out one too low.
 #pragma once
 
 #include <array>

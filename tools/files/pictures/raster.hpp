@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures by libspng (PNG), libtiff (TIFF), OpenJPEG (JPEG 2000) or OpenImageIO (some others),
-// with the samples exactly as stored: no gamma, no colour profile, no multiplication by alpha.
+// openRaster() and readSamples() read pictures by libspng (PNG), libtiff (TIFF), OpenJPEG (JPEG
+// 2000) or OpenImageIO (some others), with the samples exactly as stored: no gamma, no colour
+// profile, no multiplication by alpha.
 #pragma once
 
 #include <array>

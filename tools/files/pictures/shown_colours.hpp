@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From samples as a TIFF stores them to colours as textures have them.
+// showColours() turns samples as a TIFF stores them into colours as textures have them.
 #pragma once
 
 #include "tools/files/files.hpp"

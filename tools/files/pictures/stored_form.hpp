@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a picture file holds beside the samples that OpenImageIO hands over, or lacks.
+// noteStoredForm() finds out how the samples of an open picture file are stored, because
+// OpenImageIO does not tell, and refuses a file that ends before its samples do.
 #pragma once
 
 #include "tools/files/pictures/raster.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers that tags of TIFF files hold as texts, such as GDAL's nodata value.
+// tagNumber() reads numbers that tags of TIFF files hold as texts, such as GDAL's nodata value.
 #pragma once
 
 #include <optional>

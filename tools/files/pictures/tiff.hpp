@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What OpenImageIO does not do with TIFF: GeoTIFF and GDAL tags (OGC GeoTIFF 1.1, 19-008r4; GDAL's
-// GTiff driver).
+// The functions here read and write the tags of TIFF files that OpenImageIO does not handle: those
+// of GeoTIFF and GDAL (OGC GeoTIFF 1.1, 19-008r4; GDAL's GTiff driver).
 #pragma once
 
 #include <tiffio.h>

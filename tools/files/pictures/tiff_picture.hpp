@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// TIFFs by libtiff alone, with the samples as they are stored. OpenImageIO 2.4 converts some of
-// them in place, into memory of another size than it has, and takes others for what they are not.
+// openTiff() reads TIFFs by libtiff alone, with the samples as they are stored. OpenImageIO 2.4
+// converts some of them in place, into memory of another size than they have, and misreads the form
+// of others.
 #pragma once
 
 #include <cstdint>

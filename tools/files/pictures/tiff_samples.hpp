@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples as a TIFF packs them into its rows.
+// unpackRow() unpacks a row of samples from the bits in which a TIFF stores it.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What PROJ's database says of the units of coordinate reference systems.
+// crsUnit() looks up the units of a coordinate reference system in PROJ's database.
 #pragma once
 
 #include <cstdint>

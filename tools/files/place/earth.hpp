@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lengths on an ellipsoid, for rasters in degrees.
+// metresPerDegree() gives the length of a degree on an ellipsoid, for rasters in degrees.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The keys of a GeoTIFF (OGC GeoTIFF 1.1, 19-008r4, section 7.1).
+// GeoKeys holds the keys of a GeoTIFF (OGC GeoTIFF 1.1, 19-008r4, section 7.1).
 #pragma once
 
 #include <initializer_list>

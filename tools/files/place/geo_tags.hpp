@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tags that place a TIFF's pixels (OGC GeoTIFF 1.1, 19-008r4, 7.3; GDAL's GTiff driver).
+// readTransform() and the functions beside it read and write the tags that place a TIFF's pixels
+// (OGC GeoTIFF 1.1, 19-008r4, 7.3; GDAL's GTiff driver).
 #pragma once
 
 #include <tiffio.h>

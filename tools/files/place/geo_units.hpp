@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In which units the grid and the heights of a GeoTIFF are.
+// The functions here tell from the keys of a GeoTIFF in which units its grid and its heights are.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference systems that the user gives in the place of those that a file states.
+// giveCrs() and giveVerticalDatum() replace the reference system that a file states by the one that
+// the user gives.
 #pragma once
 
 #include <string>

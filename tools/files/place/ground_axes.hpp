@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which way the rows and columns of a raster run on the ground. Most begin in the north-west;
-// others are south-up (their first row is the southern one), turned or sheared.
+// GroundAxes tells in which directions the rows and columns of a raster run on the ground. Most
+// rasters begin in the north-west; others are south-up (their first row is the southern one),
+// turned or sheared.
 #pragma once
 
 #include <array>

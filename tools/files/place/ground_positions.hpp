@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Longitudes and latitudes for receivers that know few reference systems, as browsers do: PROJ
-// tells them, and the stream takes them along.
+// addPositions() computes longitudes and latitudes by PROJ and adds them to heights and texture,
+// for receivers that know few reference systems, as browsers do.
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Metres between the samples of a placed raster: the one place that turns degrees and feet of a
-// grid into metres.
+// groundSpacing() gives the metres between the samples of a placed raster. It is the only function
+// that turns degrees and feet of a grid into metres.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What coordinates of a CRS are on the ground: on which ellipsoid it lies, and how much larger than
-// the ground its map is (Web Mercator twice at 60 degrees).
+// ellipsoidOf() and groundUnderMap() relate coordinates of a CRS to the ground: on which ellipsoid
+// the CRS lies, and how much larger than the ground its map is (Web Mercator twice at 60 degrees).
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What GDAL keeps in a file of its own, FILE.aux.xml, because the format of FILE has no room for it
+// takePam() reads FILE.aux.xml, in which GDAL keeps data that the format of FILE has no room for
 // (GDAL's Persistent Auxiliary Metadata): the place of a PNG, a JPEG or a baseline TIFF, the nodata
-// value of its samples. As in GDAL it goes before what FILE says.
+// value of its samples. As in GDAL, this file counts more than FILE itself.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PROJ's objects with owners.
+// The types here own PROJ's objects and release them.
 #pragma once
 
 #include <proj.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the columns and rows of a raster lie in longitude and latitude.
+// RasterPlace tells where the columns and rows of a raster lie in longitude and latitude.
 #pragma once
 
 #include <array>

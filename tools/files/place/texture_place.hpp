@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where samples of heights lie in a texture that may have a place of its own: an orthophoto that
-// begins elsewhere than the heights, covers more of the ground or less, is turned against them, or
-// has another reference system.
+// TexturePlace tells where samples of heights lie in a texture that may have a place of its own: an
+// orthophoto that begins elsewhere than the heights, covers more of the ground or less, is turned
+// against them, or has another reference system.
 #pragma once
 
 #include <array>

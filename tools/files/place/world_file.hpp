@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// World files (Esri): six numbers beside a picture that say where it lies; no reference system.
+// readWorldFile() and writeWorldFile() handle world files (Esri): six numbers beside a picture that
+// say where it lies, without a reference system.
 #pragma once
 
 #include <optional>
