@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What cameras see, as PNGs in a folder: picture-1.png and, of the original, original-1.png, and so
-// on in the order of the cameras.
+// CameraPictures writes what cameras see as PNGs into a folder, in the order of the cameras:
+// picture-1.png and so on, and the pictures of the original as original-1.png and so on.
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The verbs of the command line. Each adds its options to the parser and, when chosen, puts the
-// work to do into `action`. What they promise: docs/CLI.md.
+// The functions here are the verbs of the command line. Each adds the options of a verb to the
+// parser and, when the verb is chosen, puts the work to do into `action`. docs/CLI.md says what
+// verbs promise.
 #pragma once
 
 #include <CLI/CLI.hpp>

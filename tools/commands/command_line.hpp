@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole command line as one function, so that tests need no process.
+// runCommandLine() is the whole command line as one function, so that tests need no process.
 #pragma once
 
 namespace tetrakis::tools {

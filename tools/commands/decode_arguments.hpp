@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `tetrakis decode` is told.
+// DecodeArguments holds the arguments of `tetrakis decode`, and checkArguments() refuses arguments
+// that contradict each other.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `tetrakis decode` takes at most beside what decoding itself takes: the stream, what comes
-// out, and what writing makes of that. The decoder knows the limit (Decoder::checkMemory()).
+// DecodeMemory bounds the memory that `tetrakis decode` takes beside the decoder: for the stream,
+// for the decoded samples, and for writing them. The decoder knows the limit and checks its own
+// share (Decoder::checkMemory()).
 #pragma once
 
 #include <cstdint>

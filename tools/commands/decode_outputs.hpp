@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files that `tetrakis decode` writes. They are planned before there is any work, and appear
-// when all have been written.
+// planOutputs() names the files that `tetrakis decode` writes, before any work begins, and commit()
+// makes all of them appear once they are written.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which samples and which texels `tetrakis decode --window` asks for.
+// heightWindow() and textureWindow() tell which samples and which texels `tetrakis decode --window`
+// asks for.
 #pragma once
 
 #include <optional>

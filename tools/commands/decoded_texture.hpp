@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The texture that `tetrakis decode` writes as an image and into a mesh, decoded once.
+// DecodedTexture holds the texture that `tetrakis decode` writes as an image and into a mesh, so
+// that it is decoded once.
 #pragma once
 
 #include <cstdint>

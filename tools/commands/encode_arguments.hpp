@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `tetrakis encode` is told.
+// EncodeArguments holds the arguments of `tetrakis encode`, and checkArguments() refuses arguments
+// that contradict each other.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What encoding takes of memory, known before it begins.
+// checkEncodeMemory() refuses to encode inputs that would take more memory than the limit, before
+// encoding begins.
 #pragma once
 
 #include "tools/commands/encode_arguments.hpp"

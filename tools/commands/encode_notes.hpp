@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `tetrakis encode` says of its inputs and of the stream that it has made. A note is "" where
-// there is nothing to say.
+// The functions here write the notes of `tetrakis encode` about its inputs and about the stream
+// that it has made. A note is "" where there is nothing to say.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights for a game engine out of a stream, and what to type in there.
+// decodeEngineHeights() decodes heights from a stream for a game engine, and engineText() lists the
+// numbers that its user types in there.
 #pragma once
 
 #include <string>

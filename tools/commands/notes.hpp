@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What commands say of their work that is no error.
+// The functions here write notes of commands, which are no errors, on standard error.
 #pragma once
 
 #include <cstdint>

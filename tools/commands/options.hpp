@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options that several verbs have, and how their texts are judged before any file is read.
+// The functions here add options that several verbs have, and judge their texts before any file is
+// read.
 #pragma once
 
 #include <CLI/CLI.hpp>

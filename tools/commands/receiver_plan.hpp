@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much of a stream serves a receiver: its channel, its renderer and its patience (thesis 1.2.4,
-// figure 1.2).
+// planFor() tells how much of a stream serves a receiver, from its channel, its renderer and its
+// patience (thesis 1.2.4, figure 1.2).
 #pragma once
 
 #include <cstdint>

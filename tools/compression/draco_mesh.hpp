@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh as one Draco buffer, for KHR_draco_mesh_compression.
+// encodeDraco() compresses a mesh as one Draco buffer, for KHR_draco_mesh_compression.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arrays of a mesh that is to be compressed, and how finely each axis is kept.
+// MeshArrays holds the arrays of a mesh that is to be compressed, and positionSteps() tells how
+// finely each axis is kept.
 #pragma once
 
 #include <array>

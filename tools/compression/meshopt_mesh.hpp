@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh as the compressed streams of EXT_meshopt_compression.
+// encodeMeshopt() compresses a mesh as the streams of EXT_meshopt_compression.
 #pragma once
 
 #include <cstddef>

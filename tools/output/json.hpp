@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results on standard output: JSON for programs, the same as a table for people.
+// The functions here print results on standard output: JSON for programs, the same as a table for
+// people.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Output that appears whole or not at all.
+// Output is a file that appears as a whole or not at all.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the outputs of one command get in each other's way.
+// checkDistinct() and checkInputsStay() refuse outputs of one command that would overwrite each
+// other or an input.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A progress bar on standard error, shown only where a person can see it.
+// Progress draws a progress bar on standard error, if a person can see it.
 #pragma once
 
 #include <string>

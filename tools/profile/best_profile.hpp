@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The best polyline of few points through the ground under a line (codec/polyline/).
+// bestProfile() finds the best polyline of few points through the ground under a line
+// (codec/polyline/).
 #pragma once
 
 #include <cstdint>

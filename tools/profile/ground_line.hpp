@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground under a line over a height field: what a profile is made of.
+// groundUnder() samples the ground under a line over a height field: profiles are made of these
+// samples.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A line over a height field, as it is typed and as it lies over the grid.
+// parseLine() reads a line over a height field as a user types it, and pathOver() places it on the
+// grid.
 #pragma once
 
 #include <array>

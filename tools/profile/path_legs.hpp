@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The legs of a path, and which part of each lies over the grid.
+// A Leg is a straight part of a path, and says which part of it lies over the grid.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An OpenGL ES 3 context that needs no window, no display server and no GPU.
+// EglContext is an OpenGL ES 3 context that needs no window, no display server and no GPU.
 #pragma once
 
 #include <EGL/egl.h>

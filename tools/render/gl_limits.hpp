@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the driver can take, and what it says went wrong.
+// GlLimits holds the sizes that the driver supports, and checkGl() reports the errors of the
+// driver.
 #pragma once
 
 #include <cstdint>

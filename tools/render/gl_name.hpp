@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Owners of OpenGL objects.
+// GlName owns an OpenGL object and deletes it.
 #pragma once
 
 #include <GLES3/gl3.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways to paint a terrain: its texture, light on bare ground, or several textures at once, each
-// in a picture of its own.
+// GlProgram paints a terrain in one of these ways: with its texture, with light on bare ground, or
+// with several textures at once, each in a picture of its own.
 #pragma once
 
 #include <GLES3/gl3.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes and textures on the GPU.
+// SceneTexture and GlScene hold a texture and a mesh on the GPU.
 #pragma once
 
 #include <GLES3/gl3.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is drawn into, off the screen.
+// GlTarget is a buffer off the screen that pictures are drawn into.
 #pragma once
 
 #include <GLES3/gl3.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From space to clip space.
+// projectionOf() makes the matrix from space to the clip coordinates of a camera.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Headless pictures of textured terrain: EGL without a surface, OpenGL ES 3 (Mesa, or a GPU).
+// Renderer draws pictures of textured terrain without a screen: EGL without a surface, OpenGL ES 3
+// (Mesa, or a GPU).
 #pragma once
 
 #include <array>

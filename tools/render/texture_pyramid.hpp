@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Mipmaps made by the processor, so that every driver draws from the same texels.
+// texturePyramid() makes the mipmaps of a texture on the processor, so that every driver draws from
+// the same texels.
 #pragma once
 
 #include <cstdint>

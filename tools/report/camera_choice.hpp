@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cameras that a command is asked to look with, and how encoders are told of them.
+// chooseCameras() makes the cameras that a command names, and toldCameras() turns them into cameras
+// for an encoder.
 #pragma once
 
 #include <string>

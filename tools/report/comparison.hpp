@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a stream, or a prefix of it, is from what was encoded: in the samples and on the screen
-// (thesis, section 6.1: distortion is measured between rendered pictures).
+// Comparer measures how far a stream, or a prefix of it, is from the input: in the samples and on
+// the screen (thesis, section 6.1: distortion is measured between rendered pictures).
 #pragma once
 
 #include <cstdint>

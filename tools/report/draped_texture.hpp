@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texture coordinates of a mesh whose texture has a place of its own: an orthophoto that begins
-// elsewhere than the heights, covers more of the ground or less, or is turned against them.
+// drapeTexture() sets the texture coordinates of a mesh whose texture has a place of its own: an
+// orthophoto that begins elsewhere than the heights, covers more of the ground or less, or is
+// turned against them.
 #pragma once
 
 #include <cstdint>

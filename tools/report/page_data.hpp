@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the script of a report's page draws.
+// pageData() writes the data that the script of a report's page draws.
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plane of heights and textures (thesis, 6.3 and figures 6.6 to 6.8): pictures of pairs of
-// prefixes of a stream's two tracks, and the ways through them that spend bytes best.
+// lookAtPairs() measures the pictures of pairs of prefixes of a stream's two tracks, which span the
+// plane of heights and textures (thesis, 6.3 and figures 6.6 to 6.8), and withPaths() finds the
+// ways through it that spend bytes best.
 #pragma once
 
 #include <cstddef>

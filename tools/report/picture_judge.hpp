@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rendered engine of screen distortion (thesis 6.1): draws what decoders show and compares it
-// with the original, for an encoder that asks (tks_encode_options.picture_error).
+// PictureJudge is the rendered engine of screen distortion (thesis 6.1): it draws the pictures that
+// decoders show and compares them with the original, for an encoder that asks
+// (tks_encode_options.picture_error).
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of `encode --report`: what a stream looks like at 1/1, 1/2, … 1/16 of its bytes, and how
-// it shares them between heights and texture (thesis, figures 6.6 to 6.8).
+// makeReport() makes the page of `encode --report`: how a stream looks at 1/1, 1/2, … 1/16 of its
+// bytes, and how it shares them between heights and texture (thesis, figures 6.6 to 6.8).
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples of any type, heights of a file and meshes as one grid of doubles, so that they compare.
+// Surface holds samples of any type, heights of a file or a mesh as one grid of doubles, so that
+// they can be compared.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From surfaces and 4-8 meshes to scenes: ground frames, meshes placed in metres.
+// The functions here turn surfaces and 4-8 meshes into scenes: ground frames, and meshes placed in
+// metres.
 #pragma once
 
 #include "ground/frame.hpp"

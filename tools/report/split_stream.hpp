@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams that share the bytes of one stream otherwise between heights and texture: the order of
-// packets is free, so any pair of prefixes of the two tracks is a stream.
+// SplitStream makes streams that share the bytes of one stream in another way between heights and
+// texture: the order of packets is free, so any pair of prefixes of the two tracks is a stream.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Normals of the decoded surface: of vertices, which see more than their mesh, and as a map.
+// surfaceNormals() and normalMap() compute normals of the decoded surface, for vertices and as a
+// map. They show more detail than the mesh has.
 #pragma once
 
 #include <span>

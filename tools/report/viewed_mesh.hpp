@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of a mesh that a camera sees, and meshes that are made for cameras.
+// viewedMesh() makes the part of a mesh that a camera sees, and meshForCameras() makes a mesh for
+// cameras.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kinds whose ground is that of the mountains, and whose samples show what surveys, programs and
-// formats make of it.
+// The functions here are kinds of terrain whose ground is that of the mountains, and whose samples
+// show the traces of surveys, programs and formats.
 #pragma once
 
 #include "tools/synth/kind_task.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How high water stands on a raster of heights.
+// waterLevel() computes how high water stands at each place of a raster of heights.
 #pragma once
 
 #include <cstdint>

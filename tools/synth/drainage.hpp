@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where water goes on a raster of heights.
+// drain() computes where water flows on a raster of heights.
 #pragma once
 
 #include <cstdint>

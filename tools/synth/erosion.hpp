@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The work of rivers and slopes on a raster of heights.
+// erode() and slide() change a raster of heights as rivers and slopes do.
 #pragma once
 
 #include "tools/synth/drainage.hpp"

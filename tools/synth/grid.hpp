@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A square raster of numbers, as the steps of the sample terrain pass it on.
+// Raster is a square raster of numbers, which the steps of the sample terrain pass on.
 #pragma once
 
 #include <algorithm>

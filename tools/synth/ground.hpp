@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What grows or lies where, and its colour from the air.
+// groundAt() tells which ground lies or grows at a place, and its colour from the air.
 #pragma once
 
 #include <array>

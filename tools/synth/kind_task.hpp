@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every kind of terrain is made from, and what it says of its samples.
+// KindTask is the input of every kind of terrain, and Storage says how its samples are stored.
 #pragma once
 
 #include <algorithm>

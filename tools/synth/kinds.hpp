@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Other kinds of terrain. Each is a small change of the mountains that brings out one trait of real
-// terrain models.
+// reshape() changes the mountains into another kind of terrain. Each kind is a small change that
+// brings out one trait of real terrain models.
 #pragma once
 
 #include "tools/synth/kind_task.hpp"

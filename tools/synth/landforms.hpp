@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kinds whose ground is another one than that of the mountains: its seas, lakes, plains and houses.
+// The functions here are kinds of terrain whose ground differs from that of the mountains: in seas,
+// lakes, plains and houses.
 #pragma once
 
 #include "tools/synth/kind_task.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where sea, plain and mountains lie on the sample terrain, before any water has run.
+// Layout says where sea, plain and mountains lie on the sample terrain, before any water has run.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sample terrain as a cartographer draws it.
+// drawMap() draws the sample terrain as a cartographer does.
 #pragma once
 
 #include "tools/files/files.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Procedural noise for the sample terrain. Only + - * / sqrt floor of doubles and integer hashes:
-// the same bits everywhere (mathematical library functions differ in the last place). Gradient
-// noise: Perlin, "Improving noise", SIGGRAPH 2002. Ridged multifractal: Musgrave, in "Texturing and
-// modeling: a procedural approach", 2003.
+// The functions here make procedural noise for the sample terrain. They use only + - * / sqrt floor
+// of doubles and integer hashes, so that the bits are the same everywhere (mathematical library
+// functions differ in the last place). Gradient noise: Perlin, "Improving noise", SIGGRAPH 2002.
+// Ridged multifractal: Musgrave, in "Texturing and modeling: a procedural approach", 2003.
 #pragma once
 
 #include <algorithm>

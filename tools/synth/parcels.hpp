@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How farmers divide a plain.
+// parcelAt() divides a plain into parcels as farmers do.
 #pragma once
 
 #include <cstdint>

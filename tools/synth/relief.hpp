@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shape of the sample terrain.
+// makeRelief() makes the heights and the cover of the sample terrain.
 #pragma once
 
 #include <cstdint>

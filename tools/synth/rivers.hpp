@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rivers as smooth bands of natural width.
+// Rivers draws the rivers of the sample terrain as smooth bands of natural width.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sample terrain of several kinds, by default eroded mountains with a lake, a farmed plain and a
-// coast, and its aerial photograph and map.
+// synthesize() makes sample terrain of several kinds, by default eroded mountains with a lake, a
+// farmed plain and a coast, and its aerial photograph and map.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aerial photograph of the sample terrain.
+// photograph() makes the aerial photograph of the sample terrain.
 #pragma once
 
 #include "tools/files/files.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the samples of a stream lie in longitude and latitude.
+// EarthGround gives the heights of a stream by longitude and latitude.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The quadtree of tiles over longitude and latitude that Cesium's terrain has (TMS,
-// global-geodetic): two tiles on level 0, rows counted from the south.
+// GeographicTile is a tile of the quadtree over longitude and latitude that Cesium's terrain has
+// (TMS, global-geodetic): two tiles on level 0, rows counted from the south.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pieces of a stream's texture for tiles of longitude and latitude, by its own georeference.
+// GroundTexture cuts pieces of a stream's texture for tiles of longitude and latitude, by the
+// texture's own georeference.
 #pragma once
 
 #include <array>

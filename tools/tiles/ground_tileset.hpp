@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground as 3D Tiles 1.1 (OGC 22-025r4): a tree of GLB meshes in the axes of the Earth.
+// GroundTileset writes the ground as 3D Tiles 1.1 (OGC 22-025r4): a tree of GLB meshes in the axes
+// of the Earth.
 //
 // Positions are whole multiples of a power of two, one for all tiles of a level, and so are the
 // origins of the tiles: floats hold them exactly, and neighbours have the same points on the edge

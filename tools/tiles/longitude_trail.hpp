@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether ground is cut by the antimeridian.
+// LongitudeTrail follows longitudes from neighbour to neighbour and tells whether the antimeridian
+// lies between two of them.
 #pragma once
 
 #include <cmath>

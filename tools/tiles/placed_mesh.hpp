@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mesh of a tile in space: in the axes of the Earth (EPSG:4978), above the ellipsoid WGS 84.
+// place() puts the mesh of a tile into space: in the axes of the Earth (EPSG:4978), above the
+// ellipsoid WGS 84.
 #pragma once
 
 #include <array>

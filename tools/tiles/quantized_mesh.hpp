@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tiles in the format quantized-mesh-1.0 of Cesium, with the extensions octvertexnormals and
-// metadata. Source: github.com/CesiumGS/quantized-mesh.
+// encodeQuantizedMesh() writes tiles in the format quantized-mesh-1.0 of Cesium, with the
+// extensions octvertexnormals and metadata. Source: github.com/CesiumGS/quantized-mesh.
 #pragma once
 
 #include <cstddef>

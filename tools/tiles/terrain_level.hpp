@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One level of terrain tiles: a grid of heights over all its tiles, and a 4-8 mesh of it. The mesh
-// is one for the whole level, so the tiles cut from it share their edges exactly.
+// TerrainLevel is one level of terrain tiles: a grid of heights over all its tiles, and a 4-8 mesh
+// of it. The whole level has one mesh, so the tiles cut from it share their edges exactly.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stream as a folder of terrain tiles that Cesium reads from any static host.
+// writeTerrainTiles() writes a stream as a folder of terrain tiles that Cesium reads from any
+// static host.
 #pragma once
 
 #include <functional>

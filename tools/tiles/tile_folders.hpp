@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where tiles lie on disk: FOLDER/LEVEL/X holds the column X of a level, a file for each row.
+// writeTiles() writes tiles to disk: FOLDER/LEVEL/X holds the column X of a level, a file for each
+// row.
 #pragma once
 
 #include <filesystem>

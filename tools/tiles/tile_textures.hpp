@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The texture on terrain tiles: pictures of the tiles of meshes, and tiles of imagery.
+// The functions here make the texture of terrain tiles: pictures for the tiles of meshes, and tiles
+// of imagery.
 #pragma once
 
 #include <array>
