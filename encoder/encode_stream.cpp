@@ -23,7 +23,7 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-// What is done of all when stages end; the rest is what proves the stream.
+// The parts of all work that are done when each stage ends; the rest of the work proves the stream.
 constexpr double kHeightsCoded = 0.4, kTextureCoded = 0.8, kSelected = 0.9, kWritten = 0.95;
 
 /// Both components before they are coded; null: there is none.
@@ -32,7 +32,7 @@ struct Quantised {
   std::shared_ptr<const TextureSource> texture;
 };
 
-/// Both components as the target asks for them; null: there is none.
+/// Both components as they are coded for the target; null: there is none.
 struct Coded {
   std::shared_ptr<const CodedHeights> heights;
   std::shared_ptr<const CodedTexture> texture;
@@ -48,8 +48,8 @@ Result<Quantised> quantise(const EncodeInputs& inputs) {
   return quantised;
 }
 
-/// Codes both components, at the same time if there are threads. Nothing that is given is kept for
-/// longer than it is needed.
+/// Codes both components, at the same time if there are threads. Releases each input as soon as its
+/// component is coded.
 Result<Coded> code(const EncodeInputs& inputs, Quantised quantised) {
   Coded coded;
   const auto code_heights = [&] {
@@ -73,7 +73,7 @@ Result<Coded> code(const EncodeInputs& inputs, Quantised quantised) {
   return coded;
 }
 
-/// Quantises and codes both components, and selects of them what the target needs.
+/// Quantises and codes both components, and selects the packets that the target needs.
 Result<Selection> codeForTarget(const EncodeInputs& inputs) {
   Result<Quantised> quantised = quantise(inputs);
   if (!quantised.ok()) return quantised.status();
@@ -83,15 +83,17 @@ Result<Selection> codeForTarget(const EncodeInputs& inputs) {
   return meetTarget(inputs, std::move(coded->heights), std::move(coded->texture));
 }
 
-/// Maps of priorities take so much of the budget that they may not pay. Of larger budgets they take
-/// too little to be in doubt (docs/EXPERIMENTS.md), and coding twice takes twice the time.
+/// Maps of priorities may take so large a part of the budget that they do not pay. Of a larger
+/// budget they take too little to be in doubt (docs/EXPERIMENTS.md), and coding twice takes twice
+/// the time.
 bool mapsAreInDoubt(const EncodeInputs& inputs, const Selection& with) {
   constexpr uint64_t kCertain = 16;
   return inputs.budgeted() && with.heights && with.texture &&
          bytesOfMaps(with) * kCertain > inputs.options.bytes;
 }
 
-/// The same with the maps of priorities that the cameras ask for, unless they do not pay.
+/// The same as codeForTarget(), with the maps of priorities for the cameras, unless the maps do not
+/// pay.
 Result<Selection> codeWithPriorities(const EncodeInputs& inputs) {
   const ViewPriorities priorities = prioritiesOf(inputs);
   Result<Selection> with = codeForTarget(inputs.with(inputs.options, &priorities));

@@ -13,8 +13,8 @@
 
 namespace tetrakis::inline encoder {
 
-/// The finished stream. inputs: have passed the checks of the C interface. TKS_USAGE: what is asked
-/// for is not possible, or the caller stopped.
+/// The finished stream. inputs: have passed the checks of the C interface. TKS_USAGE: the options
+/// ask for something impossible, or the caller stopped.
 Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& inputs);
 
 }  // namespace tetrakis::inline encoder

@@ -20,8 +20,8 @@ namespace {
 constexpr double kHuge = 1e30;      // whatever is beyond it is no height
 constexpr double kNoHeight = 1e10;  // no height in any unit is as large
 
-/// What files write where they have no height: rows of nines below zero, the least numbers of 16
-/// bits and the least of 32, whatever type holds them, and numbers too large for a height.
+/// Whether a value is one that files write where they have no height: rows of nines below zero, the
+/// least numbers of 16 bits and of 32, in any type, and numbers too large for a height.
 bool isFill(double value) {
   constexpr std::array kLeast = {-32768.0, -32767.0, -2147483648.0};
   if (std::abs(value) >= kNoHeight ||
@@ -68,13 +68,13 @@ Outliers hugeFloats(const tks_heights& heights) {
   return others > 0 ? found : Outliers{};
 }
 
-/// Finite samples beside those of one value.
+/// Finite samples without those of one value.
 struct Others {
   uint64_t left_out = 0;  ///< samples of that value
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
 };
 
-/// value: NaN leaves out none.
+/// The finite samples that differ from `value`; NaN leaves none out.
 Others othersThan(double value, const tks_heights& heights) {
   Others others;
   forEachHeight(heights, [&](double other) {

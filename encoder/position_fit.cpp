@@ -65,7 +65,7 @@ Series seriesOf(const std::vector<TangentPoint>& points, size_t coordinate) {
   return series;
 }
 
-/// How many samples a step on the plane is, at worst, around a place.
+/// How many samples a step on the plane spans, at worst, around a place.
 struct SampleSizes {
   std::vector<double> per_unit;
 
@@ -86,7 +86,7 @@ struct SampleSizes {
   }
 };
 
-/// What the polynomials are held against.
+/// The places and sizes with which the polynomials are compared.
 struct Target {
   std::vector<TangentPoint> points;
   SampleSizes sizes;
@@ -116,13 +116,13 @@ GroundPositions rounded(const std::array<Series, 2>& series, GroundPositions fra
   return frame;
 }
 
-/// Of one degree: the coarsest unit that meets the tolerance.
+/// Polynomials of one degree with the coarsest unit that meets the tolerance.
 std::optional<GroundPositions> coarsest(const std::array<Series, 2>& series, const Target& target,
                                         GroundPositions frame, double tolerance) {
   constexpr uint8_t kFinest = 46;  // coefficients stay below kMostCoefficient
   frame.exponent = kFinest;
   if (target.errorOf(rounded(series, frame)) > tolerance) return std::nullopt;
-  // The error of rounding halves from unit to unit, but for chance.
+  // The error of rounding halves from unit to unit, apart from chance.
   uint8_t fails = 0, meets = kFinest;
   while (meets - fails > 1) {
     frame.exponent = static_cast<uint8_t>((fails + meets) / 2);

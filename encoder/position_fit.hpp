@@ -21,7 +21,7 @@ struct PositionFit {
   size_t most_bytes = 0;
 };
 
-/// The shortest that meets the wish; nothing if none does.
+/// The shortest positions that meet the wish; nothing if none do.
 std::optional<GroundPositions> fitPositions(const Locator& locate, const PositionFit& wish);
 
 }  // namespace tetrakis::inline encoder

@@ -25,8 +25,9 @@ struct CodedHeights {
   std::shared_ptr<const QuantisedHeights> quantised;
   GeometryHeader header;  ///< without max_error
   GeometryLayers layers;
-  /// The first holds the codewords of validity and flat areas, coefficients with a table and a late
-  /// mask among them, corrections; others coefficients alone, or corrections.
+  /// The first track holds the codewords of validity and flat areas, then coefficients with a table
+  /// and a late mask among them, then corrections; other tracks hold coefficients alone, or
+  /// corrections alone.
   std::vector<EncodedTrack> tracks;
   uint64_t correction_bytes = 0;       ///< bytes of corrections in the first track
   double left = 0;                     ///< QuantisedHeights::left, or what stored samples leave
@@ -38,7 +39,7 @@ struct CodedHeights {
   bool restoresSamples() const;
   bool corrects() const { return layers.restoresSamples(); }
   bool hasCorrections() const { return layers.corrections != CorrectionKind::kNone; }
-  /// Bytes of the header that not every way to code them has.
+  /// Bytes of the header that only some ways to code heights need.
   uint64_t inHeader() const { return 0; }
   /// Samples that count in the error.
   double counted() const { return quantised->counted(); }
@@ -56,12 +57,12 @@ struct CodedHeights {
 /// The filters that suit the heights.
 WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose);
 
-/// The tracks of coefficients alone.
+/// Codes the coefficients of heights, and no other layer.
 std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
                                            const WaveletHeader& wavelet,
                                            CoefficientOptions options);
 
-/// What coefficients are coded for.
+/// The target that coefficients are coded for.
 struct HeightTarget {
   Purpose purpose;
   uint64_t bytes = UINT64_MAX;  ///< a budget for them and the opening
@@ -76,7 +77,7 @@ struct HeightTarget {
 CodedHeights codeHeights(std::shared_ptr<const QuantisedHeights> quantised,
                          const HeightTarget& target, const CoefficientOptions& options);
 
-/// The same as one of several attempts: withRounding() follows for the best.
+/// The same as codeHeights(), for one of several attempts: withRounding() follows for the best one.
 CodedHeights tryHeights(std::shared_ptr<const QuantisedHeights> quantised,
                         const HeightTarget& target, const CoefficientOptions& options);
 

@@ -15,7 +15,7 @@ namespace tetrakis::inline heights {
 
 namespace {
 
-/// An account with a point for the mask and for each plane of bytes.
+/// An account with a point after the mask and one after each plane of bytes.
 std::vector<RatePoint> accountOfStored(const CodedHeights& stored, uint32_t threads) {
   const std::span<const uint8_t> codeword = stored.tracks.front().codeword;
   const auto at = [&](uint64_t bytes) {

@@ -16,7 +16,7 @@ namespace tetrakis::inline heights {
 /// values for one.
 std::optional<CodedHeights> drawHeights(std::shared_ptr<const QuantisedHeights> quantised);
 
-/// The samples written as they are. threads: nothing depends on them.
+/// Stores the samples without coding them. threads: nothing depends on them.
 CodedHeights storeHeights(std::shared_ptr<const QuantisedHeights> quantised, uint32_t threads);
 
 }  // namespace tetrakis::inline heights

@@ -10,7 +10,7 @@ namespace tetrakis::inline heights {
 
 namespace {
 
-/// Takes what the tracks leave off their accounts, and returns the sum of it.
+/// Subtracts the error that the complete tracks leave from their accounts, and returns the sum.
 RatePoint takeRest(std::vector<EncodedTrack>& tracks) {
   RatePoint rest{0, 0};
   for (EncodedTrack& track : tracks) {
@@ -25,7 +25,7 @@ RatePoint takeRest(std::vector<EncodedTrack>& tracks) {
   return rest;
 }
 
-/// One codeword lies at the end of the first track, several are tracks of their own.
+/// A single codeword lies at the end of the first track; several are tracks of their own.
 std::vector<EncodedTrack> withCorrections(std::vector<EncodedTrack> tracks,
                                           const PartCodewords& corrections, double corrected_to) {
   assert(!corrections.empty());

@@ -10,14 +10,14 @@
 
 namespace tetrakis::inline heights {
 
-/// heights: without corrections. layers: theirs, with what the header says of corrections.
-/// corrections: the codeword of each part of the plane. corrected_to: the squared error, in steps,
-/// that they leave.
+/// Appends corrections to heights. heights: without corrections. layers: those of the heights, with
+/// what the header says of corrections. corrections: the codeword of each part of the plane.
+/// corrected_to: the squared error, in steps, that the corrections leave.
 CodedHeights followedBy(CodedHeights heights, GeometryLayers layers,
                         const PartCodewords& corrections, double corrected_to);
 
-/// The same with corrections that restore every sample. left: the squared error, in steps, that
-/// coefficients alone leave at least, above 0: steps that seem exact may lack the last bits.
+/// The same with corrections that restore every sample. left: the least squared error, in steps,
+/// that coefficients alone leave, above 0: steps that seem exact may lack the last bits.
 CodedHeights restoredBy(CodedHeights heights, GeometryLayers layers,
                         const PartCodewords& corrections, double left);
 

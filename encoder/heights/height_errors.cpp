@@ -50,8 +50,8 @@ double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t 
   }
   const int fraction_bits = decoded.geometry.fraction_bits;
   const double squares = truth.squaresOf(std::move(decoded), counted);
-  // Fractions that round to the right samples are not exact as long as there are bytes to come:
-  // meshes are made of them as they are.
+  // Heights with fractions that round to the right samples are not exact while more bytes follow,
+  // because meshes are made of the fractions.
   const bool may_be_exact =
       fraction_bits <= heights.header.wavelet.fraction_bits || isWhole(prefix, heights.tracks);
   const double left = may_be_exact ? heights.left : QuantisedHeights::kInexact;

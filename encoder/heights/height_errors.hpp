@@ -12,12 +12,13 @@
 
 namespace tetrakis::inline heights {
 
-/// Sum of squared errors of the samples, in steps, voids that are not known among them. prefix: of
-/// the codeword of each track. memory: of calls for fewer bytes of a component with one track.
+/// Sum of squared errors of the samples, in steps, including voids whose place is not known yet.
+/// prefix: of the codeword of each track. memory: that of calls for fewer bytes of a component with
+/// one track.
 double squaresOf(const CodedHeights& heights, const Codewords& prefix, uint32_t threads,
                  HeightsMemory* memory = nullptr);
 
-/// The memory with which the first of such calls begins.
+/// The memory for the first call of squaresOf().
 HeightsMemory memoryFor(const CodedHeights& heights);
 
 /// Decoded samples against the input's, over the valid ones; in sample units.

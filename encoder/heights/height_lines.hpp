@@ -8,8 +8,9 @@
 
 namespace tetrakis::inline heights {
 
-/// The lines of the heights to code; none where all are. A PSNR is that of all samples, of which
-/// those of long runs count more: beside voids nobody knows by how much.
+/// The lines of the heights to code; none where all are. A PSNR counts all samples, so for a PSNR
+/// all lines are coded if runs differ clearly in length, or beside voids, where nobody knows by how
+/// much a run counts.
 CodedLines heightLines(const EncodeInputs& inputs);
 
 }  // namespace tetrakis::inline heights

@@ -26,8 +26,8 @@ double squaresOf(const FlatLayer& flat) {
   return squares;
 }
 
-/// Bytes of coefficients that are to come before a table of so many bytes: all those that take off
-/// more error a byte than the table does, which leaves `error` while it is missing.
+/// Bytes of coefficients that are to come before a table of `bytes` bytes: all coefficients that
+/// take off more error a byte than the table does. error: squared error while the table is missing.
 uint64_t bytesBeforeTable(const EncodedTrack& coefficients, size_t bytes, double error) {
   const double slope = error / static_cast<double>(bytes);
   const std::vector<RatePoint> hull = lowerHull(coefficients.points, 0);
@@ -47,8 +47,8 @@ struct LayerAmong {
   double without;  ///< squared error, in steps, while the layer is missing
 };
 
-/// The coefficients with the layer in their codeword and in their account. The last layer is put in
-/// first, so that `after` counts coefficients alone.
+/// Puts the layer into the codeword and into the account of the coefficients. The last layer is put
+/// in first, so that `after` counts coefficients alone.
 EncodedTrack withLayer(EncodedTrack coefficients, const LayerAmong& layer) {
   const std::span<const uint8_t> added = layer.codeword;
   std::vector<RatePoint> points;
@@ -64,7 +64,7 @@ EncodedTrack withLayer(EncodedTrack coefficients, const LayerAmong& layer) {
   return {std::move(codeword), std::move(points), coefficients.planes, coefficients.complete};
 }
 
-/// The account of the track: its first point is that of a decoder that lacks the opening.
+/// The account of the track. Its first point is the error of a decoder that lacks the opening.
 std::vector<RatePoint> accountBehind(const QuantisedHeights& heights, const HeightLayers& layers,
                                      const std::vector<RatePoint>& coefficients) {
   const uint64_t opening = layers.stated.openingBytes();
@@ -85,7 +85,7 @@ std::vector<RatePoint> accountBehind(const QuantisedHeights& heights, const Heig
   return points;
 }
 
-/// The coefficients, with what lies among them, behind the layers that open the track.
+/// Puts the layers that open the track in front of the coefficients and of the layers among them.
 EncodedTrack behindOpening(const QuantisedHeights& heights, const HeightLayers& layers,
                            const EncodedTrack& coefficients) {
   std::vector<uint8_t> codeword = layers.stated.late_mask ? heights.late.lifted : heights.validity;
@@ -97,7 +97,8 @@ EncodedTrack behindOpening(const QuantisedHeights& heights, const HeightLayers& 
   return {std::move(codeword), std::move(points), coefficients.planes, coefficients.complete};
 }
 
-/// The layers that lie among the coefficients, in their order, and what follows from their places.
+/// The layers that lie among the coefficients, in their order, with the header fields that state
+/// their places.
 struct PlacedLayers {
   GeometryLayers stated;  ///< HeightLayers::stated, with the places
   std::vector<LayerAmong> among = {};

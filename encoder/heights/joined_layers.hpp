@@ -13,7 +13,7 @@
 
 namespace tetrakis::inline heights {
 
-/// The layers around coefficients, and how these are coded.
+/// The layers around coefficients, and the options for coding the coefficients.
 struct HeightLayers {
   GeometryLayers stated;    ///< what the header says of them
   MaskRoom mask_room = {};  ///< of a late mask
@@ -22,16 +22,16 @@ struct HeightLayers {
   FlatLayer flat = {};
 };
 
-/// The layers that the heights come with, which outlive the result, and flat areas.
+/// The layers that the heights have, with flat areas. The heights outlive the result.
 HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,
                           const PriorityMap* priorities);
 
-/// The header of heights whose coefficients, in so many bit-planes, have these layers around them.
+/// The header of heights whose coefficients have `planes` bit-planes and these layers around them.
 GeometryHeader headerOf(const QuantisedHeights& heights, const HeightLayers& layers, int planes);
 
-/// Joins the layers around coefficients, or around what stands in their place. A table of values
-/// lies where its bytes take off as much error as those of the coefficients; the corrections are
-/// those that the heights come with. region_log2: what the coefficients were coded with.
+/// Joins the layers around coefficients, or around a drawing or stored samples. A table of values
+/// lies where its bytes take off as much error as those of the coefficients; corrections are those
+/// of the heights. region_log2: that with which the coefficients were coded.
 CodedHeights joinLayers(std::shared_ptr<const QuantisedHeights> quantised,
                         const HeightLayers& layers, std::vector<EncodedTrack> coefficients,
                         int region_log2);

@@ -12,7 +12,8 @@ namespace tetrakis::inline heights {
 
 namespace {
 
-/// Bytes of a stream for the target, rather fewer than more, with a mask of so many.
+/// An estimate of the bytes of a stream for the target, rather too low than too high, with a mask
+/// of `mask` bytes.
 double leastStream(const BridgeTarget& target, size_t valid, uint64_t mask_bytes) {
   constexpr double kLossless = 1. / 4, kLossy = 1. / 16;  // bytes a sample
   const double share = target.mean_square > 0 ? kLossy : kLossless;
@@ -20,7 +21,8 @@ double leastStream(const BridgeTarget& target, size_t valid, uint64_t mask_bytes
                   share * static_cast<double>(valid) + static_cast<double>(mask_bytes));
 }
 
-/// Squared error that a byte of a packet removes; the first point is the one before packet 0.
+/// Squared error that a byte of a packet removes. The first point of the order lies before packet
+/// 0.
 double slopeOf(const OrderedTracks& order, size_t packet) {
   const RatePoint &a = order.points[packet], &b = order.points[packet + 1];
   return (a.distortion - b.distortion) / static_cast<double>(b.bytes - a.bytes);

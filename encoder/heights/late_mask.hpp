@@ -29,25 +29,26 @@ struct LateMask {
   uint64_t bytes() const { return lifted.size() + validity.size(); }
 };
 
-/// The late mask beside lifted samples, unless it is short or takes more bytes than one that comes
-/// first, of so many bytes, by more than a thousandth of the stream. Where a budget has no room
-/// for a mask that comes first, so that bridges are needed, only the codeword of the lifted samples
-/// has to be short: the mask itself will be left out. target: what the bridges are for.
+/// The late mask beside lifted samples; none if the mask is short, or if it takes more bytes than a
+/// mask that comes first by more than a thousandth of the stream. Where a budget has no room for a
+/// mask that comes first, so that bridges are needed, only the codeword of the lifted samples has
+/// to be short: the mask itself will be left out. target: that of the bridges.
 LateMask lateMaskOf(const PlaneView<const uint8_t>& valid, Mask lifted, uint64_t first_bytes,
                     const BridgeTarget& target);
 
-/// What has to lie behind a late mask, so that a stream holds it.
+/// The limits of the coefficients before a late mask, within which a stream holds the mask.
 struct MaskRoom {
   uint64_t bytes = UINT64_MAX;  ///< that coefficients before it may take at most
   uint64_t shared = 0;          ///< bytes for both
   double squares = 0;           ///< squared error that they may come down to
 };
 
-/// What a budget leaves beside a mask of so many bytes; nothing: it has no room for the mask.
+/// The room that a budget leaves for coefficients before a mask of `mask_bytes` bytes; nothing: the
+/// budget has no room for the mask.
 std::optional<uint64_t> roomBesideMask(uint64_t mask_bytes, uint64_t budget);
 
-/// What coefficients are to have of bytes that they share with a mask. With less, few bytes more
-/// may hold the mask and next to nothing of the heights.
+/// The part of bytes shared with a mask that coefficients get at least. With a smaller part a short
+/// stream may hold the mask and hardly any heights.
 uint64_t besideMaskAtLeast(uint64_t bytes);
 
 struct MaskPlace {
@@ -55,8 +56,8 @@ struct MaskPlace {
   double worth = 0;    ///< squared error while it is missing: as much a byte as coefficients there
 };
 
-/// Where a mask of so many bytes lies best: behind all coefficients if it would leave them too few
-/// of what both share, or of all there are. coefficients: of all tracks.
+/// Where a mask of `bytes` bytes lies best: behind all coefficients if it would leave them too few
+/// of the shared bytes, or of all bytes. coefficients: of all tracks.
 MaskPlace placeOfMask(std::span<const EncodedTrack> coefficients, uint64_t bytes,
                       const MaskRoom& room);
 

@@ -24,7 +24,8 @@ namespace tetrakis::inline heights {
 
 namespace {
 
-/// Chosen for the target, and whether corrections are to restore what they do not show.
+/// Steps that suit the target, and whether corrections are to restore the samples that the steps do
+/// not show.
 struct ChosenSteps {
   HeightSteps steps;
   bool restore = false;
@@ -52,7 +53,8 @@ Result<ChosenSteps> chooseSteps(const EncodeInputs& inputs, bool table) {
   return ChosenSteps{std::move(*steps), true};
 }
 
-/// What the header says of voids. validity_bytes: 0 if there are none.
+/// The layers that the header states of heights with voids. validity_bytes: 0 if there are no
+/// voids.
 GeometryLayers layersOf(const tks_heights& samples, uint64_t validity_bytes) {
   const bool infinite_integer = samples.sample != TKS_F32 && !std::isfinite(samples.nodata);
   const bool has_nodata =
@@ -62,7 +64,7 @@ GeometryLayers layersOf(const tks_heights& samples, uint64_t validity_bytes) {
           .nodata = has_nodata ? samples.nodata + 0.0 : 0};  // -0 equals 0: one of them
 }
 
-/// What bridges over voids are chosen for.
+/// The target for which bridges over voids are chosen.
 BridgeTarget bridgeTarget(const EncodeInputs& inputs, const HeightSteps& steps) {
   const tks_encode_options& options = inputs.options;
   if (options.lossless != 0) return {Purpose::kLossless};
@@ -116,7 +118,7 @@ QuantisedHeights withTable(QuantisedHeights heights) {
   return heights;
 }
 
-/// table: whether a table of their values may take the place of multiples.
+/// Quantises the heights. table: whether a table of their values may take the place of multiples.
 Result<std::shared_ptr<const QuantisedHeights>> quantise(const EncodeInputs& inputs, bool table) {
   assert(inputs.heights != nullptr);
   Result<ChosenSteps> chosen = chooseSteps(inputs, table);

@@ -25,7 +25,8 @@ namespace tetrakis::inline heights {
 inline constexpr double kRelativeCut = 0.3;
 
 struct QuantisedHeights {
-  /// The least error of samples that are not exact: -0 in the place of 0 is no distance, but wrong.
+  /// The least error of samples that are not exact. A sample of -0 in the place of 0 has no
+  /// distance from it, and is nevertheless wrong.
   static constexpr double kInexact = 1e-200;
 
   const tks_heights* samples = nullptr;  ///< the input, which outlives this
@@ -35,10 +36,11 @@ struct QuantisedHeights {
   LateMask late = {};                  ///< in its place, where there are coefficients
   std::vector<uint8_t> table = {};     ///< codeword; empty: steps are multiples
   PartCodewords corrections = {};      ///< of each part of the plane; restore the samples
-  /// Squared error that complete steps leave in the samples, in steps, until corrections of the
-  /// samples are complete.
+  /// Squared error, in steps, that the samples keep after all steps are decoded, until corrections
+  /// of the samples are complete.
   double left = 0;
-  /// How many samples of the whole heights show each one, if lines repeat; outlives this.
+  /// The number of samples of the whole heights that each coded sample stands for, if lines repeat;
+  /// outlives this.
   std::span<const uint32_t> shown_by = {};
   double without_table = 0;  ///< squared error, in steps, of complete coefficients without it
 
@@ -51,59 +53,61 @@ struct QuantisedHeights {
   /// Samples that count in the error; at least 1.
   double counted() const;
 
-  /// So few samples that estimates of them are often wrong, and all ways to code them can be tried.
+  /// Whether there are so few samples that estimates are often wrong, and that all ways to code the
+  /// heights can be tried.
   bool isSmall() const { return extentOf(*samples).samples() <= 1 << 14; }
 
-  /// What a sample costs whose validity is not yet known rightly, in squared steps: as much as a
-  /// height that is off by a quarter of their range.
+  /// The squared error, in steps, of a sample whose validity is not decoded rightly yet: that of a
+  /// height which is off by a quarter of the range.
   double validityWorth() const;
 
-  /// Squared error, in steps, that a sample counts at most: four times the squared range. An
-  /// exception of the steps may be off by 1e38, beside which nothing else would count.
+  /// The largest squared error, in steps, that one sample adds: four times the squared range. An
+  /// exception of the steps may be off by 1e38, beside which no other sample would count.
   double mostOfASample() const;
 
-  /// Squared error of such steps, in steps.
+  /// Squared error, in steps, of the samples that `other` restores.
   double squaresOf(const HeightSteps& other) const;
 
-  /// Squared error, in steps, of what is decoded from a prefix, over the samples that `valid` says.
-  /// Samples that are shown more often than in the mean count more. Where steps are multiples,
-  /// corrections are left out: they come all at once, behind all else.
+  /// Squared error, in steps, of the samples decoded from a prefix, over those that are valid.
+  /// Samples that stand for more samples than the mean count more. Where steps are multiples,
+  /// corrections are left out: they come last and at once.
   double squaresOf(DecodedHeights decoded, const std::vector<uint8_t>& valid) const;
 };
 
-/// TKS_USAGE: a sample is infinite, or the step that is given does not suffice. inputs: with
-/// heights.
+/// TKS_USAGE: a sample is infinite, or the given step does not suffice. inputs: with heights.
 Result<std::shared_ptr<const QuantisedHeights>> quantiseHeights(const EncodeInputs& inputs);
 
-/// The same in multiples of a step, whatever a table of the values would do.
+/// The same as quantiseHeights() in multiples of a step, even where a table of values takes fewer
+/// bits.
 Result<std::shared_ptr<const QuantisedHeights>> quantiseInMultiples(const EncodeInputs& inputs);
 
 /// The relative step of the samples (codec/geometry/relative/), in their units; 0: there is none,
 /// or the steps are exact and not much finer.
 double relativeStepOf(const QuantisedHeights& heights);
 
-/// The heights in steps that are fine beside a relative step, which restores the samples that they
-/// do not show; null if no such steps suffice.
+/// The heights in steps that are fine beside a relative step. Corrections from the relative step
+/// restore the samples that the steps do not show. Null if no steps suffice.
 std::shared_ptr<const QuantisedHeights> quantiseForRelative(const EncodeInputs& inputs,
                                                             double relative_step);
 
-/// The heights in steps for facets, which restore the samples; null if no steps suffice.
+/// The heights in steps for facets. Corrections from facets restore the samples. Null if no steps
+/// suffice.
 std::shared_ptr<const QuantisedHeights> quantiseForFacets(const EncodeInputs& inputs);
 
-/// What restores the samples behind steps.
+/// Corrections that restore the samples behind the steps.
 struct SampleCorrections {
   PartCodewords codewords;
   double left;  ///< QuantisedHeights::left
 };
 
-/// shown: what decoders make of all coefficients, in steps of these heights. region_log2: of the
+/// shown: the steps of all coefficients, as a decoder computes them. region_log2: of the
 /// coefficients. threads: nothing depends on them.
 SampleCorrections correctionsBehind(const QuantisedHeights& heights, const HeightSteps& shown,
                                     int region_log2, uint32_t threads);
 
 QuantisedHeights withCorrections(QuantisedHeights heights, SampleCorrections corrections);
 
-/// What the header says of the heights before their coefficients are coded.
+/// The header of the heights before their coefficients are coded.
 GeometryHeader headerOf(const QuantisedHeights& heights);
 
 }  // namespace tetrakis::inline heights

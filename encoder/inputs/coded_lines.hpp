@@ -18,14 +18,14 @@ struct CodedLines {
   LineRepeats repeats;             ///< none: it does not pay
   std::vector<std::byte> samples;  ///< of the lines that are coded
   Extent extent = {0, 0};          ///< of these
-  /// A coded sample counts as often as it is shown. This is the weight of the one that is shown
-  /// most often, beside the mean weight: the mean squared error of all samples is at most so many
-  /// times that of the coded ones.
+  /// A coded sample counts as often as it is shown. This is the weight of the sample that is shown
+  /// most often, divided by the mean weight: the mean squared error of all samples is at most as
+  /// many times that of the coded ones.
   double heaviest = 1;
   static constexpr double kNearlyAlike = 1.1;  ///< `heaviest` where the difference is no matter
   std::vector<uint32_t> shown_by;              ///< how many samples each coded one stands for
 
-  /// What is coded of these; the data is `samples`, which outlives it.
+  /// The coded part of `whole`. Its data is `samples`, which outlives the result.
   tks_heights of(const tks_heights& whole) const;
   tks_image of(const tks_image& whole) const;
 };

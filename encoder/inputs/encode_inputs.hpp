@@ -14,7 +14,7 @@
 
 namespace tetrakis::inline inputs {
 
-/// What comes earlier in each component; empty maps: nothing.
+/// The coefficients that come earlier in each component; empty maps: none do.
 struct ViewPriorities {
   PriorityMap heights, texture;
 };
@@ -26,7 +26,7 @@ struct EncodeInputs {
   const tks_image* image;      ///< null: there is none
   const tks_encode_options& options;
   const ViewPriorities* priorities = nullptr;  ///< null: none; else it outlives this as well
-  /// The caller's heights, and those lines of them that `heights` are; null: they are all lines.
+  /// The caller's heights, of which `heights` are some lines; null: they are all lines.
   const tks_heights* whole = nullptr;
   const CodedLines* lines = nullptr;
   /// The same of the caller's image.
@@ -36,7 +36,7 @@ struct EncodeInputs {
   bool budgeted() const { return options.bytes != 0; }
   /// The caller's heights with all their lines.
   const tks_heights* allHeights() const { return lines != nullptr ? whole : heights; }
-  /// The mean squared error of all lines is at most so many times that of the coded ones.
+  /// The mean squared error of all lines is at most as many times that of the coded lines.
   double heaviest() const { return lines != nullptr ? lines->heaviest : 1; }
   /// How many samples of all lines show each coded sample; empty: one.
   std::span<const uint32_t> shownBy() const {
@@ -44,10 +44,10 @@ struct EncodeInputs {
   }
   /// The caller's image with all its lines.
   const tks_image* allTexels() const { return texel_lines != nullptr ? whole_image : image; }
-  /// The mean squared error of all texels is at most so many times that of the coded ones.
+  /// The mean squared error of all texels is at most as many times that of the coded ones.
   double heaviestTexel() const { return texel_lines != nullptr ? texel_lines->heaviest : 1; }
-  /// The same inputs without the lines of the heights that repeat others, if any do. What is left
-  /// of the heights is put to `coded`, which outlives the result as the lines do.
+  /// The same inputs without the lines of the heights that repeat others, if any do. The heights
+  /// that remain are put to `coded`, which outlives the result as the lines do.
   EncodeInputs ofLines(const CodedLines& some, tks_heights& coded) const {
     EncodeInputs inputs = *this;
     if (some.repeats.none()) return inputs;
@@ -80,12 +80,12 @@ struct EncodeInputs {
   }
 };
 
-/// What components are coded for unless they have reasons of their own.
+/// The purpose of a component that has no reason for another one.
 Purpose purposeOf(const EncodeInputs& inputs);
 
-/// Bytes worth coding of a component: beyond the budget, because the slopes of the last packets
-/// within it depend on the points that follow, and the order should hardly depend on the budget.
-/// Two components share it: either gets less, and has as much more behind it.
+/// Bytes worth coding of a component. They reach beyond the budget, because the slopes of the last
+/// packets within it depend on the points that follow, and the order should hardly depend on the
+/// budget. Two components share the budget: each gets less of it, and codes as much more behind it.
 uint64_t limitOf(const EncodeInputs& inputs);
 
 /// The mean squared error that is a PSNR in dB. peak: the range that it refers to.

@@ -8,7 +8,8 @@
 
 namespace tetrakis::inline inputs {
 
-/// Heights that are more lie in several regions unless the caller says otherwise.
+/// The largest number of heights in one region; more lie in several regions unless the caller says
+/// otherwise.
 inline constexpr uint64_t kOneRegionHeights = 1025 * 1025;
 
 struct RegionChoice {
@@ -16,8 +17,8 @@ struct RegionChoice {
   bool windows = false;  ///< the stream is made to be read by windows of it
 };
 
-/// large: planes of that size are coded in regions unless the caller says otherwise; for windows
-/// all are.
+/// large: planes of the size of this one are coded in regions unless the caller says otherwise; for
+/// windows all planes are.
 RegionChoice chooseRegions(const tks_encode_options& options, Extent plane, bool large);
 
 }  // namespace tetrakis::inline inputs

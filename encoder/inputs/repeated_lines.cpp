@@ -86,7 +86,7 @@ struct EvenLines {
   uint32_t longest;  ///< of their runs
 };
 
-/// Breaks runs that are longer than 19 of 20 runs are, and such as would leave fewer than `least`
+/// Breaks runs that are longer than 19 of 20 runs are, and runs that would leave fewer than `least`
 /// lines: lines in them are coded though they repeat others. Where the longest run that is left is
 /// still more than twice the mean, no line counts as repeated.
 EvenLines evened(std::vector<uint8_t> repeated, uint32_t least) {

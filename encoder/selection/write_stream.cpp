@@ -15,7 +15,7 @@ namespace tetrakis::inline selection {
 
 namespace {
 
-/// Whether nothing is wrong before the first byte.
+/// Whether the tracks leave no error before their first byte, so that nothing has to be sent.
 bool nothingLeft(const std::vector<EncodedTrack>& tracks) {
   return std::all_of(tracks.begin(), tracks.end(), [](const EncodedTrack& track) {
     return track.points.front().distortion == 0;

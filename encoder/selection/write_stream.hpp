@@ -12,10 +12,10 @@
 
 namespace tetrakis::inline selection {
 
-/// How many bytes the header of a stream of these packets takes that is not lossless.
+/// How many bytes the header of a stream of these packets takes if the stream is not lossless.
 uint64_t headerBytesOf(const EncodeInputs& inputs, const Selection& selection);
 
-/// All samples come back, header and all within the budget.
+/// Whether all samples come back, with the header and all packets within the budget.
 bool isLossless(const EncodeInputs& inputs, const Selection& selection);
 
 /// TKS_USAGE: the budget is too small for the header.

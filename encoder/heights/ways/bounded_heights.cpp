@@ -28,7 +28,7 @@ namespace {
 
 using Quantised = std::shared_ptr<const QuantisedHeights>;
 
-/// What all attempts have in common.
+/// The inputs that all attempts share.
 struct Bound {
   const EncodeInputs& inputs;
   Quantised quantised;
@@ -46,7 +46,7 @@ double floatSpacing(const QuantisedHeights& heights) {
   return std::ldexp(1.0, spacingExponent(static_cast<float>(largest)));
 }
 
-/// The same heights in other steps, all of which come back.
+/// Codes the same heights in other steps, and these exactly.
 Candidate<CodedHeights> codeRounded(const Bound& bound, HeightSteps steps) {
   assert(!bound.quantised->restored());
   const QuantisedHeights& quantised = *bound.quantised;
@@ -63,8 +63,8 @@ Candidate<CodedHeights> codeRounded(const Bound& bound, HeightSteps steps) {
       codeEveryStep(bound.inputs, std::make_shared<const QuantisedHeights>(std::move(rounded)))};
 }
 
-/// Floats whose step is not given, rounded to the widest step that the bound allows; nothing if
-/// there is none wider than the exact one, or multiples of that are clearly wider.
+/// Floats whose step is not given, rounded to the widest step that the bound allows. Nothing if no
+/// step is wider than the exact one, or if multiples of the exact step are clearly wider.
 std::optional<Candidate<CodedHeights>> widen(const Bound& bound, int32_t largest) {
   constexpr double kClearly = 1.02;
   const tks_heights& samples = *bound.quantised->samples;
@@ -76,7 +76,8 @@ std::optional<Candidate<CodedHeights>> widen(const Bound& bound, int32_t largest
   return codeRounded(bound, std::move(*wide));
 }
 
-/// Floats in multiples of a unit that they lie near; nothing if they lie near none.
+/// Floats rounded to multiples of a unit near which all of them lie; nothing if there is no unit of
+/// this kind.
 std::optional<Candidate<CodedHeights>> onNearGrid(const Bound& bound) {
   const tks_heights& samples = *bound.quantised->samples;
   if (samples.sample != TKS_F32 || samples.step > 0) return {};
@@ -105,7 +106,7 @@ uint64_t fewestOf(const std::vector<Candidate<CodedHeights>>& made) {
   return fewest;
 }
 
-/// All attempts at a largest error in steps, whether they keep it or not.
+/// Makes all attempts at a largest error in steps, whether or not they keep it.
 std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t largest) {
   const tks_heights& samples = *bound.quantised->samples;
   const BoundWays ways =
@@ -130,9 +131,9 @@ bool keepsBound(const EncodeInputs& inputs, const CodedHeights& coded) {
 
 }  // namespace
 
-/// Exact steps leave an error of their own; what is left of the bound, in whole steps, the coding
-/// may use. Where floats are then rounded beyond the bound one step less will do; none, the exact
-/// steps, is always within.
+/// Exact steps leave an error of their own; the coding may use the rest of the bound in whole
+/// steps. Where floats are then rounded beyond the bound, one step less suffices; the exact steps,
+/// no error at all, are always within the bound.
 std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& inputs,
                                                        Quantised quantised) {
   const double wanted = inputs.options.max_error / std::abs(inputs.heights->scale);

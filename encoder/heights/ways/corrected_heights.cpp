@@ -31,20 +31,21 @@ EncodedTrack cutAt(const EncodedTrack& whole, uint64_t bytes) {
   return cut;
 }
 
-/// What a cut that corrections follow usually leaves.
+/// The purpose that a cut usually serves before corrections follow it.
 HeightPurpose cutPurpose(const Correctable& heights) {
   return {heights.quantised->steps.range_bits, heights.purpose, UINT64_MAX,
           usualCut(heights.largest), heights.options.threads};
 }
 
-/// One track of coefficients as a whole, and what lies around it.
+/// One track of complete coefficients, and the layers around it.
 struct UncutHeights {
   HeightLayers layers;
   EncodedTrack track;
   bool may_go_on;  ///< coding was to end at a small error, and did
 };
 
-/// enough: the mean squared error, in steps, at which coding ends; 0: it does not.
+/// Codes the heights in one track. enough: the mean squared error, in steps, at which coding ends;
+/// 0: coding goes to the end.
 UncutHeights codeUncut(const Correctable& heights, FlatChoice choice, double enough) {
   const QuantisedHeights& quantised = *heights.quantised;
   HeightLayers layers = layersAround(quantised, std::move(choice), heights.options.priorities);
@@ -56,8 +57,9 @@ UncutHeights codeUncut(const Correctable& heights, FlatChoice choice, double eno
   return {std::move(layers), std::move(track), may_go_on};
 }
 
-/// The heights with corrections to a largest error behind them; as they are if nothing is off. What
-/// corrections leave is told in the account's own measure, which the audit corrects later.
+/// Appends corrections for a largest error to the heights, or returns the heights if no sample is
+/// off. The error that corrections leave is stated in the account's own measure, which the audit
+/// corrects later.
 CodedHeights followedBy(CodedHeights cut, const Corrected& corrected, int32_t largest) {
   if (!corrected.any) return cut;
   const double of_steps = cut.quantised->left;
@@ -70,8 +72,8 @@ CodedHeights followedBy(CodedHeights cut, const Corrected& corrected, int32_t la
                              of_steps + of_cut * corrected.after / corrected.before);
 }
 
-/// The heights with the best cut of the coefficients; nothing if that comes near their end and they
-/// may go on.
+/// The heights with the best cut of the coefficients; nothing if the best cut lies near their end
+/// while coding could go on.
 std::optional<CodedHeights> codeCut(const Correctable& heights, const UncutHeights& uncut,
                                     const CutTarget& target) {
   constexpr double kNear = 1.5;
@@ -89,7 +91,7 @@ std::optional<CodedHeights> codeCut(const Correctable& heights, const UncutHeigh
 }
 
 /// Codes the heights beside flat areas. Coding ends at a small part of the error that cuts usually
-/// leave, unless the best one comes near that.
+/// leave, unless the best cut lies near that end.
 CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
                         const CutTarget& target) {
   constexpr double kPart = 1. / 32;
@@ -101,8 +103,8 @@ CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
   return *codeCut(heights, codeUncut(heights, choice, 0), target);
 }
 
-/// The parts in windows of whole rows of regions, each of a million samples or more, since what
-/// decoding takes of memory follows the window.
+/// The parts grouped into windows of whole rows of regions, with a million samples or more each:
+/// the memory of decoding follows the window.
 std::vector<std::vector<Window>> windowsOf(const std::vector<Window>& parts) {
   constexpr uint64_t kEnough = 1 << 20;
   std::vector<std::vector<Window>> windows;
@@ -124,7 +126,7 @@ Window around(const std::vector<Window>& parts) {
   return {first.x, first.y, last.x + last.width - first.x, last.y + last.height - first.y};
 }
 
-/// Heights in regions with corrections behind them.
+/// Appends corrections to heights in regions.
 CodedHeights withCorrections(CodedHeights cut, int32_t largest, uint32_t threads) {
   const Codewords codewords = codewordsOf(cut.tracks);
   Corrected all;
@@ -139,7 +141,8 @@ CodedHeights withCorrections(CodedHeights cut, int32_t largest, uint32_t threads
   return followedBy(std::move(cut), all, largest);
 }
 
-/// Codes the heights in regions. No cut is searched for: it leaves what cuts usually leave.
+/// Codes the heights in regions. It searches for no cut, but leaves the error that cuts usually
+/// leave.
 CodedHeights codeInRegions(const Correctable& heights, const CutTarget& target) {
   const QuantisedHeights& quantised = *heights.quantised;
   HeightTarget lossy(heights.purpose);

@@ -22,24 +22,24 @@ struct Correctable {
   int32_t largest = 0;  ///< error, in steps, that corrections leave
 };
 
-/// What a cut is to be.
+/// The cut that is wanted.
 struct CutTarget {
   std::optional<double> mean_square = {};  ///< that it leaves, in steps; nothing: fewest bytes
   uint64_t rival = UINT64_MAX;             ///< heights that clearly take more bytes are of no use
 };
 
-/// Beside the flat areas and with the filters that suit such a cut. If nothing is off, there are no
-/// corrections.
+/// Codes heights with corrections, beside the flat areas and with the filters that suit the cut. If
+/// no sample is off, there are no corrections.
 CodedHeights codeCorrected(const Correctable& heights, const CutTarget& target);
 
-/// Lossy heights cut at an RMSE, in steps, and corrections of all that are still off. Prefixes up
-/// to the cut are those of the lossy heights, and the end is exact. Nothing if heights in regions
-/// do not come so far. lossy: of exact steps without a table.
+/// Lossy heights cut at an RMSE, in steps, with corrections of all samples that are still off.
+/// Prefixes up to the cut are those of the lossy heights, and the end is exact. Nothing if heights
+/// in regions do not reach this RMSE. lossy: of exact steps without a table.
 std::optional<CodedHeights> codeCorrected(const EncodeInputs& inputs, const CodedHeights& lossy,
                                           double rmse);
 
-/// The RMSE, in steps, of a cut that is estimated to take, with its corrections, far less than so
-/// many bytes; nothing if there is none. lossy: of exact steps without a table.
+/// The RMSE, in steps, of a cut that by the estimate takes, with its corrections, far fewer than
+/// `bytes` bytes; nothing if there is none. lossy: of exact steps without a table.
 std::optional<double> farShorterCut(const CodedHeights& lossy, uint64_t bytes);
 
 }  // namespace tetrakis::inline ways

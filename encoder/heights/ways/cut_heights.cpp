@@ -20,7 +20,8 @@ EncodedTrack firstOf(const EncodedTrack& whole, uint64_t bytes) {
   return first;
 }
 
-/// Where coefficients begin in the first track, and what is known by then of voids.
+/// The fewest bytes of the first track that a cut keeps: the opening, and a late mask with the
+/// coefficients before it.
 uint64_t leastCut(const GeometryLayers& layers) {
   return std::max(layers.openingBytes(), layers.maskEnd());
 }
@@ -46,7 +47,7 @@ std::optional<CodedHeights> cutAt(const CodedHeights& whole, double squares) {
   return cut;
 }
 
-/// Coding ends with a whole bit-plane of all tracks; the cut lies before that.
+/// Coding ends with a whole bit-plane of all tracks; the cut lies before its end.
 CodedHeights codeUpTo(const EncodeInputs& inputs, std::shared_ptr<const QuantisedHeights> quantised,
                       double mean_square) {
   HeightTarget target(Purpose::kLossy);

@@ -11,11 +11,12 @@
 
 namespace tetrakis::inline ways {
 
-/// The heights cut where their squared error, in steps, falls to so much: what takes off most error
-/// a byte is kept of all tracks. Nothing if they do not come so far. whole: without corrections.
+/// The heights cut where their squared error falls to `squares`, in steps: of all tracks the bytes
+/// remain that take off most error. Nothing if the heights do not reach this error. whole: without
+/// corrections.
 std::optional<CodedHeights> cutAt(const CodedHeights& whole, double squares);
 
-/// Lossy heights coded up to a mean squared error, in steps, or whole if they do not come so far.
+/// Lossy heights coded up to a mean squared error, in steps; whole if they do not reach it.
 CodedHeights codeUpTo(const EncodeInputs& inputs, std::shared_ptr<const QuantisedHeights> quantised,
                       double mean_square);
 

@@ -13,13 +13,13 @@
 
 namespace tetrakis::inline ways {
 
-/// Whether exact steps may take no more bytes than so many to the last bit, by typical parts.
+/// Whether exact steps may take at most `bytes` bytes to the last bit, by typical parts.
 bool mayTakeNoMore(const HeightSteps& steps, Extent extent, uint64_t bytes);
 
-/// The heights as the target `lossless` has them. error: what the target of inputs allows, in
-/// sample units, as the largest or the mean one; lossy_bytes: what heights take that use it. Null
-/// where the error is so much that exact ones cannot pay, unless they have few values: a table of
-/// them, or a drawing that may fit.
+/// The heights that the target `lossless` would give. error: the largest or mean error, in sample
+/// units, that the target of the inputs allows; lossy_bytes: bytes of lossy heights of this error.
+/// Null where the error is so large that exact heights cannot pay, unless they have few values: a
+/// table, or a drawing that may fit.
 std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, double error,
                                                     uint64_t lossy_bytes);
 

@@ -29,8 +29,8 @@ CodedHeights followedByFacets(CodedHeights cut, int unit, uint32_t threads) {
 
 }  // namespace
 
-/// Where steps are far coarser than floats are, or few values have a table, these say more of most
-/// samples.
+/// Facets are not sought where steps are far coarser than floats are, or where few values have a
+/// table: steps and tables then predict most samples better.
 std::optional<FacetShare> facetsOf(const QuantisedHeights& heights) {
   constexpr double kMostBeyond = 0.75, kMostBesideTable = 0.25;
   constexpr double kCoarse = 8;

@@ -19,16 +19,16 @@ namespace {
 using Quantised = std::shared_ptr<const QuantisedHeights>;
 using Heights = std::shared_ptr<const CodedHeights>;
 
-/// An error, in sample units, that leaves nothing but the exact steps: no coarser multiples of
-/// these, and of floats no other step.
+/// Whether an error, in sample units, is too small for any steps but the exact ones: for coarser
+/// multiples of them and, with floats, for any other step.
 bool leavesExactSteps(const QuantisedHeights& heights, double error) {
   const bool any_step = heights.samples->sample == TKS_F32;
   return heights.steps.exact && !heights.restored() &&
          error < heights.steps.step / (any_step ? 2 : 1);
 }
 
-/// What may come before a late mask, so that the budget holds all of it. Where it has no room for
-/// that the mask may as well come behind it.
+/// The room for coefficients before a late mask, so that the budget holds all of the mask. Where
+/// the budget has no room for all of it, the mask may lie behind the budget.
 MaskRoom maskRoomOf(const EncodeInputs& inputs, const QuantisedHeights& heights) {
   constexpr uint64_t kShareBesideTexture = 8;
   const uint64_t budget = inputs.options.bytes,
@@ -37,7 +37,7 @@ MaskRoom maskRoomOf(const EncodeInputs& inputs, const QuantisedHeights& heights)
   return {room ? *room / share : 0, budget / share};
 }
 
-/// Codes the heights within the largest error, or exactly where that takes fewer bytes.
+/// Codes the heights within the largest error, or exactly where exact heights take fewer bytes.
 Heights codeWithinBound(const EncodeInputs& inputs, Quantised quantised) {
   const double error = inputs.options.max_error / std::abs(inputs.heights->scale);
   if (leavesExactSteps(*quantised, error)) {
@@ -49,8 +49,9 @@ Heights codeWithinBound(const EncodeInputs& inputs, Quantised quantised) {
   return exact && bytesOf(exact->tracks) < bytes ? exact : bounded;
 }
 
-/// Coding ends at half of the error that is to be reached: the account is not as exact as that, and
-/// samples are rounded, which counts where few steps are left. Where that is not enough it goes on.
+/// Coding ends at half of the target error: the account is not precise enough to end at the target,
+/// and samples are rounded, which counts where few steps are left. If the samples then miss the
+/// target, coding goes on.
 CodedHeights codeUntilReached(const EncodeInputs& inputs, const Quantised& quantised,
                               HeightTarget target) {
   const SampleRange range = rangeOf(*inputs.heights, quantised->steps.valid);
@@ -73,7 +74,8 @@ Heights codeHeightsForTarget(const EncodeInputs& inputs, Quantised quantised) {
   if (inputs.options.max_error > 0) return codeWithinBound(inputs, std::move(quantised));
   if (inputs.options.lossless != 0) return codeLosslessHeights(inputs, quantised);
   HeightTarget target(quantised->restored() ? Purpose::kLossless : purposeOf(inputs));
-  // What a texture leaves of a budget is not known yet; most of it is the texture's.
+  // The share of a budget that heights get beside a texture whose size is not known yet; most of
+  // the budget is the texture's.
   constexpr uint64_t kShareBesideTexture = 4;
   if (inputs.budgeted()) {
     target.bytes = inputs.options.bytes / (inputs.image == nullptr ? 1 : kShareBesideTexture);

@@ -32,10 +32,10 @@ std::vector<uint8_t> freeSamples(const CodedHeights& heights) {
   return free;
 }
 
-/// The best cut to put corrections behind, if any is as good as the whole coefficients. In the mean
-/// of all samples flat areas hide what the free ones would gain; where the areas are holes in
-/// noise, free samples alone lack the surface that the transform would have without areas. Either
-/// hint is worth a trial. Cuts of smooth ground take down to half of what is estimated.
+/// The best cut before corrections, if any cut is as good as the whole coefficients. In the mean of
+/// all samples flat areas hide the gain of the free ones; where the areas are holes in noise, free
+/// samples alone lack the surface that the transform would have without areas. So a cut is tried if
+/// either estimate suggests it. Cuts of smooth ground take down to half of the estimate.
 std::optional<ExactCut> exactCutFor(const CodedHeights& whole) {
   const HeightSteps& steps = whole.quantised->steps;
   const uint64_t bytes = bytesOf(whole.tracks) * (suitsSmoothGround(whole.header.wavelet) ? 2 : 1);
@@ -78,7 +78,8 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
 }
 
 /// Whether the steps need not be tried: by the estimate, their coefficients alone clearly take more
-/// bytes. Of few bits a sample it is often too much by a fifth, of few samples by more.
+/// bytes. With few bits a sample the estimate is often too high by a fifth, with few samples by
+/// more.
 bool takesMore(const QuantisedHeights& quantised, uint64_t bytes) {
   constexpr double kClearly = 1.25;
   const HeightSteps& steps = quantised.steps;
@@ -88,8 +89,8 @@ bool takesMore(const QuantisedHeights& quantised, uint64_t bytes) {
   return estimated > kClearly * static_cast<double>(bytes);
 }
 
-/// Samples that neighbours say better than steps do: with a relative step, or on facets. They
-/// mostly take far fewer bytes from these.
+/// Codes samples that neighbours predict better than steps do: with a relative step, or on facets.
+/// They mostly take far fewer bytes in this way.
 std::shared_ptr<const CodedHeights> codeFromNeighbours(const EncodeInputs& inputs,
                                                        const QuantisedHeights& quantised) {
   std::vector<Candidate<CodedHeights>> ways;
@@ -104,10 +105,10 @@ std::shared_ptr<const CodedHeights> codeFromNeighbours(const EncodeInputs& input
   return ways.empty() ? nullptr : fewestBytes<CodedHeights>(std::move(ways)).coded;
 }
 
-/// The steps as a drawing, or what there is of them by wavelet. A drawing shows shapes and slopes
-/// between them, and no roughness: its prefixes suit only heights of few values, of which it takes
-/// clearly fewer bytes than the wavelet. So it has to save a sixteenth. It is tried where the
-/// estimate, which is often off by a twentieth, says that it is the shorter one.
+/// Draws the steps, or keeps the heights coded by wavelet, `whole`. A drawing shows shapes and
+/// slopes between them, and no roughness: its prefixes suit only heights of few values, which it
+/// codes in clearly fewer bytes than the wavelet. So it has to save a sixteenth. It is tried where
+/// the estimate, which is often off by a twentieth, says that it is shorter.
 std::shared_ptr<const CodedHeights> drawnIfShorter(const Quantised& quantised,
                                                    std::shared_ptr<const CodedHeights> whole) {
   constexpr double kEstimateOff = 1.05, kMostOfWavelet = 15. / 16;
@@ -138,8 +139,8 @@ std::shared_ptr<const CodedHeights> codeEveryStep(const EncodeInputs& inputs,
   return drawnIfShorter(quantised, codeToTheLastBit(inputs, quantised));
 }
 
-/// A table is chosen by estimates, which miss what is smooth in multiples and not in places of the
-/// table, such as squares of distances.
+/// A table is chosen by estimates. They miss heights that are smooth in multiples and not in places
+/// of the table, such as squares of distances.
 std::shared_ptr<const CodedHeights> codeLosslessHeights(const EncodeInputs& inputs,
                                                         const Quantised& quantised) {
   std::shared_ptr<const CodedHeights> coded = codeInItsSteps(inputs, quantised);

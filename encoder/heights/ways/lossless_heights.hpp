@@ -11,8 +11,8 @@
 
 namespace tetrakis::inline ways {
 
-/// Codes every step exactly, by what takes the fewest bytes: coefficients, corrections behind a
-/// cut, or a drawing. Steps need not restore samples: those of a largest error do not.
+/// Codes every step exactly in the way that takes the fewest bytes: coefficients, corrections
+/// behind a cut, or a drawing. Steps need not restore samples: those of a largest error do not.
 std::shared_ptr<const CodedHeights> codeEveryStep(
     const EncodeInputs& inputs, const std::shared_ptr<const QuantisedHeights>& quantised);
 

@@ -19,7 +19,7 @@ double squaresOfCut(const HeightSteps& steps, double relative_step) {
   return rmse * rmse;
 }
 
-/// The corrections behind what there is of the coefficients, and the pull that makes them short.
+/// The corrections behind the coefficients that are left, and the pull that makes them short.
 struct RelativeCorrections {
   RelativeSteps relative;
   PartCodewords codewords;

@@ -13,16 +13,16 @@
 
 namespace tetrakis::inline ways {
 
-/// The relative step of what lossy heights show, if corrections from it can follow a cut of theirs;
-/// 0: there is none.
+/// The relative step of the samples of lossy heights, if corrections from it can follow a cut of
+/// the heights; 0: there is none.
 double relativeStepOf(const CodedHeights& lossy);
 
-/// The lossy heights cut, and the corrections behind them; nothing if they do not come so far.
+/// The lossy heights cut, with corrections behind them; nothing if they do not reach the cut.
 /// relative_step: positive, from relativeStepOf().
 std::optional<CodedHeights> codeRelative(const CodedHeights& lossy, double relative_step,
                                          uint32_t threads);
 
-/// Heights to the last bit, in any number of tracks. quantised: from quantiseForRelative().
+/// Codes heights to the last bit, in any number of tracks. quantised: from quantiseForRelative().
 CodedHeights codeRelative(const EncodeInputs& inputs,
                           const std::shared_ptr<const QuantisedHeights>& quantised,
                           double relative_step);

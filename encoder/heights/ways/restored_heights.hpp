@@ -10,7 +10,7 @@
 
 namespace tetrakis::inline ways {
 
-/// What decoders make of all bytes, in whole steps.
+/// The whole steps that a decoder computes from all bytes.
 HeightSteps shownSteps(const CodedHeights& heights, uint32_t threads);
 
 /// Whether lossy heights can be followed by corrections of the samples: they are coded whole, and
