@@ -15,7 +15,8 @@ void ToldProgress::stage(double until) {
 }
 
 void ToldProgress::pass(size_t pieces) {
-  // All pieces of one work bring a stage so far; most stages have several works.
+  // The part of the rest of a stage that all pieces of one work complete; most stages have several
+  // works.
   constexpr double kOfTheRest = 0.25;
   constexpr std::chrono::milliseconds kBetweenTellings(50);
   assert(pieces > 0);

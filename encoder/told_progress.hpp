@@ -16,8 +16,9 @@ namespace tetrakis::inline encoder {
 /// stage, and none brings it beyond.
 class ToldProgress : public Watch {
  public:
-  /// Is told how much of the work is done, from 0 to 1, never less than before: on whatever thread,
-  /// by one at a time, at each stage and every 50 ms or so. False: the work is to end.
+  /// A function that is told how much of the work is done, from 0 to 1, never less than before. It
+  /// is called on any thread, by one thread at a time, at each stage and every 50 ms or so. False:
+  /// the work is to end.
   using Tell = std::function<bool(double)>;
 
   explicit ToldProgress(Tell tell) : tell_(std::move(tell)) {}

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slopes at the end of heights that were coded for a bound tell little: the last bits of a coarse
-// step, and corrections, take hardly anything off the squared error, and heights that vary less
-// than the bound take no bytes at all. So the order is that of heights coded for as good a PSNR,
-// whose slopes fall steadily as their error does.
+// The slopes at the end of heights that were coded for a bound tell little: the last bits of a
+// coarse step, and corrections, take hardly anything off the squared error, and heights that vary
+// less than the bound take no bytes at all. So the packets are put in the order of heights coded
+// for as good a PSNR, whose slopes fall steadily as their error does.
 #include "encoder/targets/beside_bound.hpp"
 
 #include <algorithm>
@@ -35,8 +35,8 @@ double psnrOf(const EncodeInputs& inputs, const CodedHeights& heights) {
   return peak > 0 ? std::clamp(psnr, kLeastPsnr, kMostPsnr) : kLeastPsnr;
 }
 
-/// Heights coded for a PSNR of kSomething at least, so that there are packets to order; null where
-/// the step that the caller gave is too coarse for that PSNR.
+/// Codes the heights for a PSNR of at least kSomething, so that there are packets to order; null
+/// where the step that the caller gave is too coarse for this PSNR.
 std::shared_ptr<const CodedHeights> codeForPsnr(const EncodeInputs& inputs,
                                                 tks_encode_options options) {
   constexpr double kSomething = 30;

@@ -11,9 +11,9 @@
 
 namespace tetrakis::inline targets {
 
-/// The first bytes of the texture's packets that are worth as much as the bytes that bring heights
-/// within the largest error; all of them where heights of one value take none. candidates: heights
-/// within that error, and a texture with a curve.
+/// The bytes of the texture's packets that are worth as much as the bytes that bring heights within
+/// the largest error; all bytes if heights of one value take none. candidates: heights within that
+/// error, and a texture with a curve.
 uint64_t textureBesideBound(const EncodeInputs& inputs, const Candidates& candidates);
 
 }  // namespace tetrakis::inline targets

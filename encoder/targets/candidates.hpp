@@ -19,7 +19,7 @@ namespace tetrakis::inline targets {
 using HeightsCandidate = Candidate<CodedHeights>;
 using TextureCandidate = Candidate<CodedTexture>;
 
-/// `coded` is null where there is no such component.
+/// `coded` is null where the stream has no such component.
 struct Candidates {
   HeightsCandidate heights;
   TextureCandidate texture;
@@ -29,27 +29,29 @@ struct Candidates {
 /// RMSE in steps, or texel units, below which the last bit is worth a try.
 inline constexpr double kNearlyExact = 0.6;
 
-/// The candidates with the curves of both, and with what their errors are to a viewer: as it is
-/// known already, or as it is found for these candidates.
+/// The candidates with the curves of both components and with the errors that viewers see: those
+/// that are known already, or else those measured for these candidates.
 Candidates withCurves(const EncodeInputs& inputs, Candidates candidates);
 
-/// All packets of both, which have curves, in their joint order.
+/// All packets of both components, which have curves, in their joint order.
 Selection orderPackets(const Candidates& candidates);
 
-/// What a component states after the first bytes of its packets. The candidate has a curve.
+/// The quality that a component states after the first bytes of its packets. The candidate has a
+/// curve.
 uint8_t qualityAfter(const EncodeInputs& inputs, const HeightsCandidate& heights, uint64_t bytes);
 uint8_t qualityAfter(const EncodeInputs& inputs, const TextureCandidate& texture, uint64_t bytes);
 
-/// Whether coding without fraction bits restores every sample and is not what was done already.
+/// Whether coding without fraction bits restores every sample and has not been done already.
 bool hasLosslessWay(const CodedHeights& heights);
 bool hasLosslessWay(const CodedTexture& texture);
 
-/// The component without fraction bits, which is the cheaper way to the last bit. It has that way.
+/// Codes the component without fraction bits, which is the cheaper way to the last bit.
+/// hasLosslessWay() holds.
 HeightsCandidate codeLossless(const EncodeInputs& inputs, const CodedHeights& heights);
 TextureCandidate codeLossless(const EncodeInputs& inputs, const CodedTexture& texture);
 
-/// The candidate itself, or the samples as they are where these take fewer bytes: what no model
-/// helps, as noise, takes more bytes coded than stored.
+/// The candidate itself, or the samples stored without coding where these take fewer bytes, as
+/// noise does.
 HeightsCandidate storedIfShorter(const EncodeInputs& inputs, HeightsCandidate heights);
 TextureCandidate storedIfShorter(TextureCandidate texture);
 

@@ -11,32 +11,32 @@ namespace tetrakis::inline targets {
 
 namespace {
 
-/// The budget is no bound of lossless coefficients: they are sent whole or not at all. Lossy ones
-/// of 20 bits have no fraction bits either.
+/// The budget does not limit the audit of lossless coefficients, because they are sent whole or not
+/// at all. Lossy ones of 20 bits have no fraction bits either.
 AuditScope auditScope(const EncodeInputs& inputs, size_t samples, const WaveletHeader& wavelet) {
   const bool lossless = wavelet.fraction_bits == 0 && wavelet.bits > 0 && wavelet.bits < 20;
   return {samples, inputs.budgeted() && !lossless ? inputs.options.bytes : UINT64_MAX,
           inputs.options.max_error > 0};
 }
 
-/// Whether the states of so many samples' tracks are decoded anew for each prefix: to remember them
-/// all takes eight bytes a sample beside what encoding takes, and saves some hundredths of its
-/// time.
+/// Whether the states of the tracks are decoded anew for each prefix, because the samples are many:
+/// remembering all states takes eight bytes a sample beside the memory of encoding, and saves some
+/// hundredths of its time.
 bool areTooLarge(const std::vector<EncodedTrack>& tracks, size_t samples) {
   constexpr size_t kRemembered = size_t{1} << 22;
   return tracks.size() > 1 && samples > kRemembered;
 }
 
-/// A stream with a front index is fetched by ranges.
+/// The order of the tracks: a stream with a front index is fetched by ranges.
 TrackOrder trackOrderOf(const tks_encode_options& options) {
   if (options.index == TKS_INDEX_WINDOWS) return TrackOrder::kTracks;
   return options.index != TKS_INDEX_NONE ? TrackOrder::kClasses : TrackOrder::kSlopes;
 }
 
-/// With a triangle budget, where cameras do not look at meshes (encoder/views/shown_mesh.hpp), the
-/// mean squared error of the heights (in steps) below which more bytes no longer help: a mesh of
+/// The mean squared error of the heights (in steps) below which more bytes no longer help, with a
+/// triangle budget whose meshes cameras do not look at (encoder/views/shown_mesh.hpp). A mesh of
 /// that many triangles is itself off by sixteen times as much, so that its RMSE would fall by 3 %
-/// at most. 0 without a budget.
+/// at most. 0 without a triangle budget.
 double meshFloor(const QuantisedHeights& heights, uint32_t triangles) {
   if (triangles == 0) return 0;
   const Result<MeshSequence> sequence =

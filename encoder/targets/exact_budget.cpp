@@ -22,8 +22,8 @@ namespace tetrakis::inline targets {
 
 namespace {
 
-/// Whether the budget buys so much of a component, or there is none, that its last bit is in reach:
-/// all that there is of it, or nearly all that it shows.
+/// Whether the last bit of each component is in reach of the budget, or the stream lacks the
+/// component: the budget holds all of the component, or its error is nearly that of exact samples.
 struct InReach {
   bool heights, texture;
 };
@@ -50,7 +50,7 @@ std::optional<Selection> selectIfLossless(const EncodeInputs& inputs, Candidates
   return selection;
 }
 
-/// Heights whose shortest stream takes clearly less than the budget.
+/// Exact heights whose shortest stream takes clearly fewer bytes than the budget.
 std::optional<Selection> shortIfExact(const EncodeInputs& inputs, const HeightsCandidate& lossy,
                                       const HeightsCandidate& few) {
   HeightsCandidate heights = shortExactHeights(inputs, lossy, few);
@@ -58,7 +58,8 @@ std::optional<Selection> shortIfExact(const EncodeInputs& inputs, const HeightsC
   return selectIfLossless(inputs, {std::move(heights), {}});
 }
 
-/// A part of exact heights of few values, if that is nearer than as much of the lossy ones.
+/// A part of exact heights of few values, if this part is nearer to the samples than an equally
+/// long part of the lossy heights.
 std::optional<Selection> nearerPart(const EncodeInputs& inputs, const Candidates& lossy,
                                     const Selection& selection, const HeightsCandidate& few) {
   const uint64_t header = headerBytesOf(inputs, selection);
@@ -67,8 +68,8 @@ std::optional<Selection> nearerPart(const EncodeInputs& inputs, const Candidates
   return orderPackets({few, {}});
 }
 
-/// The way to the last bit, if there is one that takes less than the room; else the lossy component
-/// as it stands, if all of it does: it may be exact as well, in more bytes.
+/// The exact way that takes fewer bytes than the room; without one, the lossy component as it
+/// stands if all of it fits: it may be exact as well, in more bytes.
 template <class Coded>
 std::optional<Candidate<Coded>> within(uint64_t room, std::optional<Candidate<Coded>> exact,
                                        const Candidate<Coded>& lossy) {
@@ -79,8 +80,9 @@ std::optional<Candidate<Coded>> within(uint64_t room, std::optional<Candidate<Co
   return lossy;
 }
 
-/// Everything to the last bit, if that fits the budget and takes nothing from prefixes: of each
-/// component, whatever the other one does. few: heights of few values, which are taken as they are.
+/// Both components to the last bit, if they fit the budget together and their prefixes lose
+/// nothing, whatever the other component does. few: heights of few values, which are taken whatever
+/// their prefixes lose.
 std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Candidates& lossy,
                                           const std::optional<HeightsCandidate>& few,
                                           const ByNeighbours& neighbours) {
@@ -105,8 +107,8 @@ std::optional<Selection> losslessIfItFits(const EncodeInputs& inputs, const Cand
   return selectIfLossless(inputs, std::move(exact));
 }
 
-/// What the picture lacks with rising parts of the budget, the last of which is all of it; nothing
-/// if nobody can look at the terrain.
+/// The errors of the picture with rising parts of the budget, the last of which is all of it;
+/// nothing if nobody can look at the terrain.
 std::vector<double> errorsWithin(const EncodeInputs& inputs, const PrefixErrors& errors,
                                  Selection selection) {
   selection.packets = joinNeighbours(selection.packets);
@@ -116,8 +118,8 @@ std::vector<double> errorsWithin(const EncodeInputs& inputs, const PrefixErrors&
   return errors.of(selection, lengths);
 }
 
-/// As good with all bytes, and better by as many decibels as prefixes lose in all, up to what can
-/// be seen.
+/// Whether the tried pictures are as good with all bytes, and better by as many decibels as
+/// prefixes lose in all. Errors that nobody can see do not count.
 bool pays(const std::vector<double>& tried, const std::vector<double>& lossy) {
   constexpr double kUnseen = 65025e-6;  // 60 dB
   double logarithms = 0;
@@ -134,7 +136,7 @@ Selection endWithin(const EncodeInputs& inputs, Selection selection) {
   return selection;
 }
 
-/// What the picture lacks at the end, and the bytes that come so far: the least is best.
+/// The error of the picture at the end, and the bytes to there: the least is best.
 using Ending = std::pair<double, uint64_t>;
 
 Ending endingOf(const EncodeInputs& inputs, const Selection& selection,
@@ -142,9 +144,10 @@ Ending endingOf(const EncodeInputs& inputs, const Selection& selection,
   return {errors.back(), std::min(inputs.options.bytes, bytesOfPackets(selection.packets))};
 }
 
-/// Exact heights beside as much of the texture as they leave, if that looks better than lossy ones,
-/// or as good in fewer bytes: where all has room, but the hidden colours of a cut-out are not kept.
-/// few: heights of few values, of which only the end counts. ways: of many values.
+/// Exact heights beside as much of the texture as they leave room for, if the picture is better
+/// than with lossy heights, or as good in fewer bytes: this is where everything has room, but the
+/// hidden colours of a cut-out are not kept. few: heights of few values, of which only the end
+/// counts. ways: to code heights of many values.
 std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const Candidates& lossy,
                                                std::optional<HeightsCandidate> few,
                                                std::vector<HeightsCandidate> ways) {

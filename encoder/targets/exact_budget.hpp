@@ -14,11 +14,11 @@
 
 namespace tetrakis::inline targets {
 
-/// All packets of components that end exact: of both, if that fits the budget and takes nothing
-/// from prefixes; else of the heights, if the cameras see fewer errors for it or, without a
-/// texture, if the shortest ones take clearly less than the budget or are of few values and nearer
-/// than lossy ones as far as the budget holds them. Nothing where none of this pays. lossy: with
-/// curves, and what they come to: selection.
+/// All packets of components that end exact. Both components are exact if they fit the budget and
+/// prefixes lose nothing. Else the heights are exact if the cameras see fewer errors for it or,
+/// without a texture, if the shortest exact heights take clearly less than the budget, or are of
+/// few values and nearer than lossy ones as far as the budget holds them. Nothing if no exact
+/// component pays. lossy: with curves; selection: the packets chosen of them.
 std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Candidates& lossy,
                                            const Selection& selection);
 

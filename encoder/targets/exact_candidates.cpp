@@ -15,7 +15,8 @@ namespace tetrakis::inline targets {
 
 namespace {
 
-/// The lossy heights with what restores them, each way in less than so many bytes.
+/// The lossy heights with corrections that restore their samples, made in each way that takes fewer
+/// than `room` bytes.
 std::vector<HeightsCandidate> restoredWithin(const EncodeInputs& inputs, const CodedHeights& lossy,
                                              const ByNeighbours& neighbours, uint64_t room) {
   const uint32_t threads = inputs.options.threads;
@@ -32,11 +33,12 @@ std::vector<HeightsCandidate> restoredWithin(const EncodeInputs& inputs, const C
   return ways;
 }
 
-/// Parts of a lossless component that are longer look like the whole of it: photographs have 40 dB.
+/// Longer parts of a lossless component than these look like the whole of it: photographs have 40
+/// dB.
 constexpr double kMostOfHeights = 1. / 2, kMostOfTexels = 1. / 8;
 
-/// Whether prefixes of the first candidate are as good, in the mean, as prefixes of the second that
-/// have 3 % fewer bytes: those up to a part of it. Both have curves.
+/// Whether prefixes of the first candidate, up to a part of it, are as good in the mean as prefixes
+/// of the second that have 3 % fewer bytes. Both have curves.
 template <class Coded>
 bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
                    const Candidate<Coded>& lossy, double most) {
@@ -58,13 +60,14 @@ bool canBeCorrected(const CodedHeights& heights) {
 }
 
 /// The RMSE, in steps, from which on corrections follow. Finer cuts take as many bytes or more in
-/// all, and behind coarser ones prefixes lose quality.
+/// all, and behind coarser cuts prefixes lose quality.
 constexpr double kExactCut = 0.3;
-/// Beside a texture that is not exact: it makes more of the 3 % of bytes than prefixes lose.
+/// The same beside a texture that is not exact: the texture gains more from 3 % of the bytes than
+/// prefixes lose.
 constexpr double kSharedExactCut = 0.5;
 
-/// The heights with corrections in less than so many bytes: behind a fine cut, so that prefixes are
-/// those of the lossy heights for long, unless that takes far more bytes than another.
+/// The heights with corrections in fewer than `room` bytes. The cut is fine, so that prefixes are
+/// those of the lossy heights for long, unless this takes far more bytes than another cut.
 std::optional<HeightsCandidate> correctedHeights(const EncodeInputs& inputs,
                                                  const CodedHeights& lossy, uint64_t room) {
   std::optional<CodedHeights> corrected = codeCorrected(inputs, lossy, kExactCut);

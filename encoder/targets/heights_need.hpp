@@ -10,8 +10,8 @@
 
 namespace tetrakis::inline targets {
 
-/// The first bytes of the heights' packets that reach the PSNR; nothing where none do. Where voids
-/// are belongs to what is asked for. heights: with a curve.
+/// The first bytes of the heights' packets that reach the PSNR; nothing where none do. The PSNR is
+/// reached only when the place of the voids is known. heights: with a curve.
 std::optional<uint64_t> heightsNeed(const EncodeInputs& inputs, const HeightsCandidate& heights);
 
 }  // namespace tetrakis::inline targets

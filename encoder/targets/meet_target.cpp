@@ -45,8 +45,9 @@ uint64_t bytesToMask(std::span<const Packet> packets, const GeometryLayers& laye
   return bytes;
 }
 
-/// The packets in an order in which a late mask of the heights ends within the budget, if that has
-/// room for it: a texture may be worth more to cameras, but is none without its ground.
+/// The packets in an order in which a late mask of the heights ends within the budget, if the
+/// budget has room for the mask. Cameras may value a texture more, but a texture without its ground
+/// is of no use.
 Selection withMaskInBudget(const EncodeInputs& inputs, Selection selection) {
   if (!selection.heights || !selection.texture || !selection.heights->layers.late_mask)
     return selection;
@@ -58,7 +59,7 @@ Selection withMaskInBudget(const EncodeInputs& inputs, Selection selection) {
   return selection;
 }
 
-/// Selects as much as the budget has room for.
+/// Selects as many packets as the budget has room for.
 Selection meetBudget(const EncodeInputs& inputs, Candidates lossy) {
   lossy = withCurves(inputs, std::move(lossy));
   Selection selection = withMaskInBudget(inputs, orderPackets(lossy));
@@ -76,7 +77,7 @@ uint64_t textureNeed(const EncodeInputs& inputs, const TextureCandidate& texture
   return least.value_or(payloadOf(packets));
 }
 
-/// The first bytes that are needed of the heights, or heights to the last bit where these take
+/// The heights with the bytes that the PSNR needs, or heights to the last bit where these take
 /// fewer.
 HeightsCandidate preferExact(const EncodeInputs& inputs, HeightsCandidate lossy) {
   const double steps = rmseOf(qualityAfter(inputs, lossy, lossy.bytes()));
@@ -86,8 +87,8 @@ HeightsCandidate preferExact(const EncodeInputs& inputs, HeightsCandidate lossy)
   return fewestBytes<CodedHeights>({std::move(lossy), {exact}});
 }
 
-/// Heights of the PSNR: to the last bit where nothing lossy reaches it, as of floats that are on no
-/// grid, unless the caller's step forbids it.
+/// Heights of the PSNR. They are coded to the last bit where no lossy heights reach it, as with
+/// floats that are on no grid, unless the caller's step forbids it.
 Result<HeightsCandidate> reachingPsnr(const EncodeInputs& inputs, HeightsCandidate lossy) {
   if (const std::optional<uint64_t> need = heightsNeed(inputs, lossy)) {
     lossy.need = *need;
@@ -100,8 +101,8 @@ Result<HeightsCandidate> reachingPsnr(const EncodeInputs& inputs, HeightsCandida
                 "This PSNR is above what the step of the heights allows; give a smaller step.");
 }
 
-/// The candidate, or its lossless sibling if the need lies next to the last bit and that takes
-/// fewer bytes.
+/// The candidate, or its lossless sibling if the need lies next to the last bit and the sibling
+/// takes fewer bytes.
 TextureCandidate preferExact(const EncodeInputs& inputs, TextureCandidate lossy) {
   if (!hasLosslessWay(*lossy.coded)) return lossy;
   const double rmse = rmseOf(qualityAfter(inputs, lossy, lossy.bytes()));
@@ -126,8 +127,8 @@ Result<Selection> meetPsnr(const EncodeInputs& inputs, Candidates candidates) {
   return selectNeeded(inputs, withCurves(inputs, std::move(candidates)));
 }
 
-/// Heights whole, because they were made for the target. Unless all is to be lossless, the texture
-/// gets what suits them, or every bit where that takes no more bytes.
+/// Keeps the heights whole, because they were made for the target. The texture gets as many bytes
+/// as suit the heights, or every bit where all of it takes no more bytes or all is to be lossless.
 Selection meetWholeHeights(const EncodeInputs& inputs, Candidates candidates) {
   auto& [heights, texture, errors] = candidates;
   if (inputs.options.max_error > 0 && texture.coded) {

@@ -19,8 +19,8 @@ bool isGenerous(const EncodeInputs& inputs, const CodedHeights& heights) {
   return static_cast<double>(inputs.options.bytes) >= kGenerous * heights.counted();
 }
 
-/// Whether exact heights may take no more than the room, as far as that is known without another
-/// look at all samples.
+/// Whether exact heights may fit the room, as far as one can tell without another look at all
+/// samples.
 bool mayBeShort(const EncodeInputs& inputs, const HeightsCandidate& lossy, uint64_t room) {
   const HeightSteps& steps = lossy.coded->quantised->steps;
   if (!steps.exact) return isGenerous(inputs, *lossy.coded) || lossy.bytes() < room;

@@ -59,7 +59,7 @@ CodedTexture codeReversibly(const EncodeInputs& inputs, const CodedTexture& loss
   return codedBy(lossy.source, encodeReversibly(*lossy.source, lossy.header, options));
 }
 
-/// Coding for a PSNR ends by the account, which the samples may miss: then it goes on.
+/// Coding for a PSNR ends by the account. If the samples then miss the PSNR, coding goes on.
 CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
                                   std::shared_ptr<const TextureSource> source) {
   CodedTexture coded = codeTexture(inputs, std::move(source), purposeOf(inputs));

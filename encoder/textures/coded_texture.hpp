@@ -22,7 +22,7 @@ struct CodedTexture {
   TextureHeader header;
   std::vector<EncodedTrack> tracks;  ///< distortion: squared error over the samples that count
 
-  /// Bytes of the header that not every way to code it has.
+  /// Bytes of the header that only some ways to code a texture need.
   uint64_t inHeader() const { return header.tables.code.size(); }
   /// The texels whose colours count in the error.
   Mask seen() const;
@@ -52,18 +52,18 @@ CodedTexture codeReversibly(const EncodeInputs& inputs, const CodedTexture& loss
 /// How far apart values of the texture are that tables would hold; 1 if tables would not pay.
 double gapOfValues(const CodedTexture& texture);
 
-/// The samples written as they are.
+/// Stores the samples without coding them.
 CodedTexture storeTexture(std::shared_ptr<const TextureSource> source);
 
 /// Sum of squared errors of the samples that count. prefix: of the codeword of each track. memory:
-/// of calls for fewer bytes of a component with one track.
+/// that of calls for fewer bytes of a component with one track.
 double squaresOf(const CodedTexture& texture, const Codewords& prefix, uint32_t threads,
                  TextureMemory* memory = nullptr);
 
-/// The memory with which the first of such calls begins.
+/// The memory for the first call of squaresOf().
 TextureMemory memoryFor(const CodedTexture& texture);
 
-/// Whether such a prefix reaches the PSNR of the options.
+/// Whether the prefix reaches the PSNR of the options.
 bool reachesPsnr(const EncodeInputs& inputs, const CodedTexture& texture, const Codewords& prefix);
 
 }  // namespace tetrakis::inline textures

@@ -8,8 +8,9 @@
 
 namespace tetrakis::inline textures {
 
-/// The lines of the image to code; none where all are. A PSNR is that of all texels, of which those
-/// of long runs count more: beside an alpha nobody knows by how much.
+/// The lines of the image to code; none where all are. A PSNR counts all texels, so for a PSNR all
+/// lines are coded if runs differ clearly in length, or beside an alpha, where nobody knows by how
+/// much a run counts.
 CodedLines texelLines(const EncodeInputs& inputs);
 
 }  // namespace tetrakis::inline textures

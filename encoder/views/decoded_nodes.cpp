@@ -11,9 +11,10 @@ namespace tetrakis::inline views {
 
 namespace {
 
-/// At 6 texels or 12 heights a byte, detail that the prefix holds would be missing where the next
-/// level is just not reached: errors of every other node were up to two thirds too large.
-/// Priorities put the bytes where cameras are near.
+/// Texels and samples for each byte of a prefix, of the level that is decoded. With 6 texels or 12
+/// heights a byte, detail that the prefix holds would be missing where the next level is just not
+/// reached: errors of every other node were up to two thirds too large. Priorities put the bytes
+/// where cameras are near.
 constexpr uint64_t kTexelsPerByte = 24, kSamplesPerByte = 24, kNearCameras = 4, kLeast = 4096;
 
 /// The heights that a view of a coarser level shows, with the last ones once more where they do not
@@ -30,8 +31,8 @@ std::vector<float> toBorder(std::vector<float> shown, Extent extent, Extent reac
   return heights;
 }
 
-/// What few bytes can show is shown by the coarser levels as well, in less time: one that every
-/// wavelet has, of at least so many samples.
+/// The coarsest level that shows all that few bytes can show, in less time than the whole plane: a
+/// level that every wavelet has, with `samples` samples or more.
 View enoughOf(Extent whole, uint64_t samples) {
   View view;
   const uint64_t enough = std::max(samples, kLeast);
@@ -41,7 +42,8 @@ View enoughOf(Extent whole, uint64_t samples) {
   return view;
 }
 
-/// What a decoder is given of a component, and told of it.
+/// The codewords that a decoder gets with the first bytes of a component. memory: learns where
+/// whole passes end.
 template <class Coded>
 Codewords prefixOf(const Rated<Coded>& rated, uint64_t bytes, TrackMemory& memory) {
   const CodedTracks tracks = rated.coded.accounted();

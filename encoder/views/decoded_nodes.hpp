@@ -28,14 +28,14 @@ struct Rated {
   const ComponentCurve& curve;
 };
 
-/// Where the curve is one of whole passes, these are decoded, else prefixes of any length.
+/// Where the curve is one of whole passes these passes are decoded, else prefixes of any length.
 template <class Coded>
 bool endsWithPasses(const Rated<Coded>& rated) {
   return !rated.curve.passes.empty() && rated.coded.holdsCoefficientsAlone();
 }
 
-/// What decoders show of the inputs after so many bytes of either component; calls must come with
-/// rising bytes, and with those of ends of passes where the curve has them.
+/// Decodes the inputs from the first bytes of either component. Calls must come with rising bytes,
+/// and with ends of passes where the curve has them.
 class DecodedNodes {
  public:
   DecodedNodes(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
@@ -46,9 +46,9 @@ class DecodedNodes {
     std::vector<uint8_t> valid;   ///< empty: all are
   };
   Samples heightsAt(uint64_t bytes, const View& view);
-  /// What viewers see of the heights.
+  /// The heights as viewers see them.
   Relief shownAt(uint64_t bytes);
-  /// What they see of all heights, if that is a mesh.
+  /// All heights as viewers see them, if viewers see a mesh.
   std::optional<Relief> meshOfAll() const { return mesh_ ? mesh_->ofOriginal() : std::nullopt; }
   Relief original() const;
 

@@ -10,11 +10,11 @@ namespace tetrakis::inline views {
 
 namespace {
 
-/// Pixels for whole streams, which differ by less than pairs of prefixes do.
+/// Pixels that are looked at for whole streams, which differ by less than pairs of prefixes do.
 constexpr size_t kPrefixPixels = 4 * kViewPixels;
 
-/// A component's part of some prefixes of a stream, as points of a curve: one for each. With
-/// priorities errors count by what viewers see of them.
+/// The points of a component's curve at prefixes of a stream: one for each. With priorities errors
+/// count as viewers see them.
 template <class Coded>
 ComponentCurve curveOfPrefixes(const Coded& coded, const std::vector<Packet>& packets,
                                std::span<const uint64_t> lengths) {

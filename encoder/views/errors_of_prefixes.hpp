@@ -14,8 +14,8 @@
 
 namespace tetrakis::inline views {
 
-/// The pictures of the inputs themselves, which take longer than those of some prefixes: one for
-/// all streams that are held against each other.
+/// Holds the pictures of the inputs themselves, which take longer than those of some prefixes: all
+/// streams that are compared share them.
 class PrefixErrors {
  public:
   /// inputs: of both components; they outlive this. any: a selection of them.

@@ -13,8 +13,8 @@ namespace tetrakis::inline views {
 /// Bytes of the header that hold the maps of both components.
 uint64_t bytesOfMaps(const Selection& selection);
 
-/// Whether the cameras see fewer errors in prefixes of a stream that has maps of priorities than
-/// in those of one without, in the mean of half of the budget and all of it.
+/// Whether the cameras see fewer errors in prefixes of a stream with maps of priorities than in
+/// those of a stream without maps, in the mean of half of the budget and all of it.
 bool mapsPay(const EncodeInputs& inputs, const Selection& with, const Selection& without);
 
 }  // namespace tetrakis::inline views

@@ -34,16 +34,17 @@ std::vector<double> withTrueTexture(const PictureErrors& pictures, const Surface
   return errors;
 }
 
-/// What a texture adds to the error of a picture changes little from one surface to the next. So
-/// every other surface is not looked at through each texture, but for the last prefix and the
-/// original. count: of all surfaces, the original last.
+/// The error that a texture adds to a picture changes little from one surface to the next. So every
+/// other surface is not looked at through each texture, except the last prefix and the original.
+/// count: of all surfaces, the original last.
 bool isLookedAt(size_t surface, size_t count) {
   return surface % 2 == 0 || surface + 2 >= count;
 }
 
-/// Gives the other surfaces what their neighbours have: of what a shift of the ground does to a
-/// picture and of what it does to a texture's errors, both grow with its square as long as it is
-/// small. errors: with a texture, whole: with the original one, by surfaces.
+/// Interpolates the errors of the other surfaces between their neighbours. A shift of the ground
+/// changes the picture, and changes how much of a texture's errors one sees; both effects grow with
+/// its square as long as it is small. errors: with a texture, whole: with the original one, by
+/// surfaces.
 void fillBetween(const std::vector<double>& whole, std::vector<double>& errors) {
   for (size_t g = 1; g + 1 < errors.size(); ++g) {
     if (isLookedAt(g, errors.size())) continue;

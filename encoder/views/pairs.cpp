@@ -16,9 +16,10 @@ namespace tetrakis::inline views {
 
 namespace {
 
-/// Prefixes of a component that are looked at: points of its curve, from the opening on, each of
-/// `ratio` times the bytes of the one before, up to the first beyond a third of the budget: behind
-/// that errors fall as they did (PairErrors), and the last nodes take most time.
+/// The prefixes of a component that are looked at: points of its curve, from the opening on, each
+/// of `ratio` times the bytes of the one before, up to the first point beyond a third of the
+/// budget. Behind that point errors go on to fall as they did (PairErrors), and the last nodes take
+/// most time.
 template <class Coded>
 std::vector<RatePoint> nodesOf(const Rated<Coded>& rated, double ratio, uint64_t budget) {
   constexpr double kFirst = 64;  // bytes
@@ -54,7 +55,8 @@ std::vector<RatePoint> drawnOf(const std::vector<RatePoint>& nodes) {
   return drawn;
 }
 
-/// Without pictures: squared errors of each component relative to its first, which add.
+/// Errors without pictures: the squared errors of each component relative to its first one, which
+/// add.
 PairErrors relativeErrors(const ComponentCurve& heights, const ComponentCurve& texture) {
   const auto first = [](const ComponentCurve& curve) {
     const double square = curve.points[curve.opened].distortion;

@@ -20,7 +20,8 @@ namespace tetrakis::inline views {
 
 namespace {
 
-/// Takes columns, rows and heights to the camera's picture. metres of a height: at + by * height.
+/// A view that takes columns, rows and heights to the camera's picture. metres of a height: at + by
+/// * height.
 ScreenView screenViewOf(const Camera& camera, const GroundFrame& frame, double at, double by) {
   const ViewAxes axes = viewAxes(camera.eye, camera.target, camera.up);
   const double tan_y = portable::tan(camera.fov_y * std::numbers::pi / 360);

@@ -21,8 +21,8 @@
 
 namespace tetrakis::inline views {
 
-/// Meshes are what cameras look at: there is a budget, and no voids nor a table of values. The
-/// caller's renderer looks at full grids.
+/// Whether cameras look at meshes: there is a triangle budget, and there are neither voids nor a
+/// table of values. The caller's renderer looks at full grids.
 bool looksAtMeshes(const EncodeInputs& inputs, const QuantisedHeights& heights);
 
 class ShownMesh {
@@ -30,10 +30,10 @@ class ShownMesh {
   /// looksAtMeshes() holds. The inputs, the heights and the texels outlive this object.
   ShownMesh(const EncodeInputs& inputs, const QuantisedHeights& heights, const Texels& texels);
 
-  /// The heights that ofDecoded() takes.
+  /// The view of the heights that ofDecoded() takes.
   View view() const { return {static_cast<int>(level_), {}}; }
 
-  /// The mesh as heights in metres at all samples; none if there is no such mesh.
+  /// The mesh as heights in metres at all samples; none if no mesh can be made.
   std::optional<Relief> ofDecoded(const DecodedGeometry& decoded) const;
   std::optional<Relief> ofOriginal() const;
 

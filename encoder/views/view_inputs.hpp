@@ -24,7 +24,8 @@ inline constexpr size_t kViewPixels = 3072;
 
 std::vector<Camera> givenCameras(const tks_encode_options& options);
 
-/// The given cameras, or those of a viewer of whom nothing is known; none if these find no bounds.
+/// The given cameras, or those of a viewer of whom nothing is known; none if the terrain has no
+/// bounds.
 std::vector<Camera> camerasOf(const tks_encode_options& options, const Bounds& bounds);
 
 }  // namespace tetrakis::inline views

@@ -20,12 +20,13 @@ namespace {
 constexpr size_t kMapPixels = 1 << 16;
 /// A typical error of heights, as a share of their range: what 16 to 64 kB leave.
 constexpr double kTypicalError = 0.005;
-/// What a pixel shows is off as the texels are, whatever their errors. Those of the heights cost in
-/// proportion to their squares only as long as they move the texture by less than its details are
-/// wide: costs of one size of errors promise half of what they say (docs/EXPERIMENTS.md).
+/// The share of the computed priorities that heights get. A pixel is off as its texels are,
+/// whatever the size of their errors. Errors of heights cost in proportion to their squares only as
+/// long as they move the texture by less than the width of its details: the cost of one size of
+/// errors promises twice the gain that there is (docs/EXPERIMENTS.md).
 constexpr double kFullOfHeights = 0.5;
-/// Tiles on a side, of a power of two samples. Smaller ones fit the view better, but take bytes,
-/// and coefficients are coded worse where neighbours have another priority.
+/// Tiles along a side, of a power of two samples. Smaller tiles fit the view better, but take
+/// bytes, and coefficients are coded worse where neighbours have another priority.
 constexpr uint32_t kMostTiles = 24;
 
 PriorityMap tilesOf(Extent plane) {
@@ -34,10 +35,10 @@ PriorityMap tilesOf(Extent plane) {
   return map;
 }
 
-/// What errors cost in each tile, from what they cost at points of the ground.
+/// The costs of errors in each tile, from their costs at points of the ground.
 class TileWorths {
  public:
-  /// grid: in which the points are given.
+  /// grid: the grid in which the points are given.
   TileWorths(Extent grid, Extent plane) : grid_(grid), map_(tilesOf(plane)) {
     worths_.resize(size_t{map_.columns()} * map_.rows());
   }
@@ -49,7 +50,7 @@ class TileWorths {
   }
 
   /// A bit-plane takes three quarters off squared errors: a tile where a squared error costs four
-  /// times as much has `full` = 1 more, if costs are those of all errors.
+  /// times as much has `full` = 1 more, if the costs hold for errors of all sizes.
   PriorityMap map(double full) && {
     const std::vector<double> densities = perSample();
     const double most = *std::max_element(densities.begin(), densities.end());
@@ -72,7 +73,7 @@ class TileWorths {
     return static_cast<uint32_t>(sample) >> map_.tile_log2;
   }
 
-  /// Few points fall on what the border leaves of a tile: it counts as a quarter tile at least.
+  /// Few points fall on a tile that the border cuts: it counts as a quarter tile at least.
   std::vector<double> perSample() const {
     const double edge = std::ldexp(1, map_.tile_log2);
     std::vector<double> densities;

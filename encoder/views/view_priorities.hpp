@@ -11,8 +11,8 @@
 
 namespace tetrakis::inline views {
 
-/// Maps without tiles where there are no cameras, where only one component is coded, or where the
-/// target is one of all samples alike (a PSNR, a largest error).
+/// The maps have no tiles if there are no cameras, if only one component is coded, or if the target
+/// counts all samples alike (a PSNR, a largest error).
 ViewPriorities prioritiesOf(const EncodeInputs& inputs);
 
 }  // namespace tetrakis::inline views
