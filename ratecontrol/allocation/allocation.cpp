@@ -10,7 +10,7 @@ namespace tetrakis::inline allocation {
 
 namespace {
 
-/// One component on its way through its points.
+/// Follows one component through the points of its curve.
 class Progress {
  public:
   Progress(const ComponentCurve& curve, std::vector<PairErrors::Place> places)
@@ -19,7 +19,7 @@ class Progress {
   bool done() const { return at_ + 1 >= curve_.points.size(); }
   const PairErrors::Place& place() const { return places_[worthFrom()]; }
 
-  /// The steepest slope to a point further on, of 1, 2, 4, ... of them; error: of a place.
+  /// The steepest slope to the point 1, 2, 4, ... places further on; error: the error at a place.
   template <class Error>
   double slope(Error&& error) const {
     double steepest = -std::numeric_limits<double>::infinity();
@@ -44,7 +44,7 @@ class Progress {
   }
 
  private:
-  /// The opening is worth what comes behind it.
+  /// The opening has the slope of the packets behind it, which need it.
   size_t worthFrom() const { return std::max(at_, curve_.opened); }
 
   const ComponentCurve& curve_;
@@ -86,7 +86,7 @@ std::vector<Packet> allocate(const std::array<ComponentCurve, kComponents>& curv
 std::vector<Packet> joinNeighbours(std::span<const Packet> packets) {
   constexpr int kQualitySteps = 2;
   std::vector<Packet> joined;
-  // Stated of each component ahead of the last packet, and with it.
+  // The qualities that each component states ahead of its last packet, and with it.
   std::array<int, kComponents> before = {511, 511}, stated = {511, 511};
   for (const Packet& packet : packets) {
     const auto component = static_cast<size_t>(packet.component);

@@ -16,15 +16,15 @@
 
 namespace tetrakis::inline allocation {
 
-/// Within a component the order of its packets. Equal slopes: geometry first. A slope is the
-/// steepest of those to points further on: where heights are still so coarse that the next packet
-/// changes little, the ones behind it count. Openings come before what needs them, whatever they
-/// cost.
+/// Orders the packets of both components. Within a component their order stays. Of equal slopes,
+/// geometry comes first. A slope is the steepest to any point further on: where heights are still
+/// so coarse that the next packet changes little, the packets behind it count. Openings come before
+/// the packets that need them, whatever they cost.
 std::vector<Packet> allocate(const std::array<ComponentCurve, kComponents>& curves,
                              const PairErrors& errors);
 
-/// The same bytes in fewer packets: neighbours of one track become one, as long as it takes less
-/// than two steps of stated quality (1.5 dB). Packets that count only when whole stay as they are.
+/// The same bytes in fewer packets: neighbours of one track are joined if they take less than two
+/// steps of stated quality (1.5 dB) together. Packets that count only when whole stay as they are.
 std::vector<Packet> joinNeighbours(std::span<const Packet> packets);
 
 }  // namespace tetrakis::inline allocation

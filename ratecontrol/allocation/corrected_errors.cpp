@@ -11,7 +11,7 @@ namespace tetrakis::inline allocation {
 
 namespace {
 
-/// Where a place lies among the measured ones.
+/// The place of a prefix among the measured ones.
 struct Between {
   size_t before, after;
   double rest;  ///< of the way to the one after

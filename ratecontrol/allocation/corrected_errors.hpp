@@ -9,8 +9,8 @@
 
 namespace tetrakis::inline allocation {
 
-/// Places of the prefixes to measure among so many, at least one: every other one and the last; and
-/// at the end that of the original, which is behind them.
+/// The places of the prefixes to measure among `prefixes` prefixes, at least one: every other one
+/// and the last; and at the end the place of the original, which is behind them.
 std::vector<size_t> measuredPlaces(size_t prefixes);
 
 /// Errors of the pictures of all pairs, in the order that PairErrors takes.
@@ -19,9 +19,9 @@ struct ErrorGrid {
   std::vector<double> errors;
 };
 
-/// measured: of the pairs at measuredPlaces() of either component. Between them the logarithm of
-/// the factor between measured and modelled errors is linear; at them the result is what was
-/// measured, unless the model sees no error there.
+/// measured: errors of the pairs at measuredPlaces() of either component. Between these places the
+/// logarithm of the quotient of measured and modelled errors is linear; at them the result is the
+/// measured error, unless the model sees no error there.
 std::vector<double> correctedErrors(const ErrorGrid& modelled, const std::vector<double>& measured);
 
 }  // namespace tetrakis::inline allocation

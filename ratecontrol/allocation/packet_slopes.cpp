@@ -42,7 +42,8 @@ struct Pool {
   double slope() const { return removed / bytes; }
 };
 
-/// The steepest slopes that fall: the concave hull of what is removed (pool adjacent violators).
+/// Makes slopes fall along the packets, each as steep as possible: the concave hull of the removed
+/// error (pool adjacent violators).
 void settleSlopes(std::span<Packet* const> packets, const std::vector<double>& removed) {
   std::vector<Pool> pools;
   for (size_t i = 0; i < packets.size(); ++i) {

@@ -12,10 +12,10 @@
 
 namespace tetrakis::inline allocation {
 
-/// Sets the slopes of packets, which are in their joint order: what each takes off the error of the
-/// picture per byte, where it stands. Within a component slopes do not rise, because what looks
-/// cheap behind something dear needs that first. A null curve: there is no such component; null
-/// errors: there is but one, and its own squared error counts.
+/// Sets the slopes of packets, which are in their joint order: the error of the picture that each
+/// packet takes off per byte, at its place in the order. Within a component slopes do not rise,
+/// because a cheap packet behind a dear one needs the dear one first. A null curve: the stream
+/// lacks the component; null errors: there is only one component, and its own squared error counts.
 void stateSlopes(std::span<Packet> packets,
                  const std::array<const ComponentCurve*, kComponents>& curves,
                  const PairErrors* errors);

@@ -44,7 +44,7 @@ PairErrors::Place PairErrors::placeOf(const std::vector<double>& nodes, double s
   const auto node = static_cast<size_t>(next - nodes.begin()) - 1;
   if (next != nodes.end())
     return {node, portable::log(nodes[node] / square) / portable::log(nodes[node] / *next)};
-  // The first node, that of no coefficients, says nothing of others.
+  // The first node, that of no coefficients, predicts nothing for the others.
   const double ratio = node > 1 ? nodes[node - 1] / nodes[node] : 1;
   return {node, 1 - square / nodes[node], true, ratio};
 }

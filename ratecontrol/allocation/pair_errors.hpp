@@ -32,7 +32,7 @@ class PairErrors {
     bool last = false;  ///< the next one is the original
     double ratio = 1;   ///< above 1: by which the squared error fell to the last node
 
-    /// The power of the squared error by which errors of pictures fall behind the last node.
+    /// The exponent with which errors of pictures follow the squared error behind the last node.
     double power(double before, double from, double to) const;
   };
   Place heightsAt(double square) const { return placeOf(nodes_.heights, square); }

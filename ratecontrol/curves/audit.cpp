@@ -19,10 +19,11 @@ namespace {
 // or by the smaller one where not every byte is measured.
 constexpr double kDip = 1.0067, kSparseDip = 1.005;
 constexpr uint64_t kFirstBytes = 8192;  // each of which is measured
-// Samples that the audit of a small track decodes in all: that takes a few tenths of a second.
+// Samples that the audit of a small track decodes in all, which takes a few tenths of a second.
 constexpr uint64_t kDecodedSamples = uint64_t{1} << 23;
 
-/// The points that improve on all points before them, and whether prefixes between them dip.
+/// Collects the points that improve on all points before them, and notes whether prefixes between
+/// them dip.
 class Records {
  public:
   void add(const RatePoint& point, double dip) {
@@ -74,9 +75,10 @@ class MeasuringPlan {
   uint64_t between(size_t i) const { return parts_[i]; }
 
  private:
-  /// All prefixes of tiny tracks and of the first bytes, where single coefficients count most; else
-  /// so many that the quality of neighbours differs by 0.03 dB (in 12 288 samples, less in fewer)
-  /// and that they are no more than a few bytes apart: passes of little gain are those that dip.
+  /// The number of prefixes to measure. All prefixes of tiny tracks and of the first bytes are
+  /// measured, where single coefficients count most. Elsewhere the quality of neighbours differs by
+  /// 0.03 dB (in 12 288 samples, less in fewer), and they are no more than a few bytes apart,
+  /// because passes of little gain often dip.
   uint64_t wantedBetween(const RatePoint& a, const RatePoint& b) const {
     constexpr double kDecibelsPerSample = 2.5e-6, kMost = 6;
     const double gain = b.distortion > 0
@@ -113,8 +115,8 @@ std::vector<RatePoint> measureClosely(const EncodedTrack& track, const AuditScop
   return records.take();
 }
 
-/// Estimates say nothing of dips: where one rises above those before it, nobody has seen a prefix
-/// that does.
+/// The points whose distortion falls. An estimate is no evidence of a dip: a point that rises above
+/// those before it is left out, and marks no dip.
 std::vector<RatePoint> falling(std::span<const RatePoint> points, bool whole) {
   Records records;
   for (const RatePoint& point : points) records.add(point, std::numeric_limits<double>::infinity());
@@ -122,8 +124,8 @@ std::vector<RatePoint> falling(std::span<const RatePoint> points, bool whole) {
   return records.take();
 }
 
-/// Ratio of measured to stated distortion at a few points, interpolated over the logarithm of the
-/// stated one.
+/// Interpolates the ratio of measured to stated distortion between a few points, over the logarithm
+/// of the stated one.
 class Correction {
  public:
   Correction(std::span<const RatePoint> points, const std::vector<size_t>& measured,
@@ -154,8 +156,8 @@ class Correction {
   std::vector<Knot> knots_;
 };
 
-/// The last points of an account all of which is sent: the fewer coefficients are missing the more
-/// counts what samples lose by being rounded. An exact end needs no measuring.
+/// The last points of an account that is sent as a whole: the fewer coefficients are missing, the
+/// more of the error comes from rounding samples. An exact end needs no measuring.
 std::vector<size_t> pointsNearEnd(std::span<const RatePoint> points) {
   std::vector<size_t> near;
   if (points.size() > 1) near.push_back(points.size() - 2);
@@ -163,7 +165,8 @@ std::vector<size_t> pointsNearEnd(std::span<const RatePoint> points) {
   return near;
 }
 
-/// Points of an account that is not measured as a whole. Where all of it is sent they come later.
+/// The points to measure of an account that is not measured as a whole. If all of it is sent, they
+/// lie later.
 std::vector<size_t> pointsToMeasure(std::span<const RatePoint> points, bool whole) {
   static constexpr std::array kWhole = {0.5, 0.65, 0.8, 0.9};
   static constexpr std::array kOther = {0.25, 0.5, 0.75};
@@ -189,7 +192,7 @@ std::vector<RatePoint> scaled(std::span<const RatePoint> points, const Correctio
 
 std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
                              const Measure& measure) {
-  // Measures know nothing of priorities.
+  // Squared errors of samples ignore priorities.
   const bool alike = std::all_of(track.points.begin(), track.points.end(),
                                  [](const RatePoint& point) { return point.beyond == 0; });
   if (alike && scope.samples <= kSmallSamples) return measureClosely(track, scope, measure);

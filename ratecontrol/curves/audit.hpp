@@ -13,11 +13,11 @@
 
 namespace tetrakis::inline curves {
 
-/// Squared error of the decoded samples for a prefix of that many bytes, in the units of the
-/// points. Asked for rising bytes.
+/// Squared error of the samples decoded from the first `bytes` bytes, in the units of the points.
+/// Asked for rising bytes.
 using Measure = std::function<double(uint64_t bytes)>;
 
-/// What is audited.
+/// The extent of an audit.
 struct AuditScope {
   uint64_t samples = 0;
   uint64_t budget = UINT64_MAX;  ///< bytes of the track that can be sent at most
@@ -38,8 +38,8 @@ struct AuditScope {
 std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
                              const Measure& measure);
 
-/// The account of several tracks in their order, corrected likewise by two points if it ends exact
-/// or there is no budget; any other as it is.
+/// The account of several tracks in their order, corrected at two points as audit() does if it ends
+/// exact or there is no budget; any other account as it is.
 std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const AuditScope& scope,
                                      const Measure& measure);
 

@@ -22,11 +22,12 @@ struct CodedTracks {
 /// All codewords, in the order of the tracks, which they refer to.
 Codewords codewordsOf(std::span<const EncodedTrack> tracks);
 
-/// Squared error that an account states for that many bytes; linear between its points.
+/// Squared error that an account states after `bytes` bytes; linear between its points.
 double distortionAt(std::span<const RatePoint> points, uint64_t bytes);
 
-/// What a decoder has of the codewords after the first `bytes` payload bytes of the component's
-/// packets. packets: all of the component's in their order; others among them are skipped.
+/// The codewords that a decoder has after the first `bytes` payload bytes of the component's
+/// packets. packets: all of the component's in their order; packets of other components among them
+/// are skipped.
 Codewords prefixAfter(const CodedTracks& coded, std::span<const Packet> packets, uint64_t bytes);
 
 }  // namespace tetrakis::inline curves

@@ -18,8 +18,8 @@ namespace {
 /// A packet is at least this fraction of its track's bytes before it: heads stay below 1 %.
 constexpr double kPacketGrowth = 0.1;
 
-/// Raises the first point so that the first `opening` bytes are worth the most of all: what they
-/// hold, the rest needs.
+/// Raises the first point so that the first `opening` bytes have the steepest slope of all, because
+/// all other bytes need them.
 void favour(std::vector<RatePoint>& points, uint64_t opening) {
   double steepest = 0;
   const auto opened = std::find_if(points.begin(), points.end(),
@@ -41,15 +41,15 @@ double costOf(double squares, const Pricing& pricing) {
   return std::max(squares / pricing.samples, pricing.floor);
 }
 
-/// points: of a hull.
+/// The first point behind the opening. points: of a hull.
 size_t openedAt(const std::vector<RatePoint>& points, uint64_t opening) {
   size_t first = 0;
   while (first + 1 < points.size() && points[first].bytes < opening) ++first;
   return first;
 }
 
-/// Where a packet is divided, so that no step of the allocation is long: single passes over the
-/// finest bands take a quarter of all bytes so far. Divided packets that stay neighbours are joined
+/// The places where a packet is divided, so that no step of the allocation is long: single passes
+/// over the finest bands take a quarter of all bytes so far. Parts that stay neighbours are joined
 /// again.
 std::vector<uint64_t> divided(uint64_t begin, uint64_t end) {
   constexpr uint64_t kLeast = 256;  // bytes: the head takes 2 % of that
@@ -61,12 +61,12 @@ std::vector<uint64_t> divided(uint64_t begin, uint64_t end) {
   return ends;
 }
 
-/// The quality that the last point within so many bytes states.
+/// The quality that the last point within `bytes` bytes states.
 uint8_t qualityWithin(const std::map<uint64_t, uint8_t>& quality, uint64_t bytes) {
   return std::prev(quality.upper_bound(bytes))->second;
 }
 
-/// The place of so many bytes on the chord of two points.
+/// The point after `bytes` bytes on the chord of two points.
 RatePoint between(const RatePoint& a, const RatePoint& b, uint64_t bytes) {
   const double rest = static_cast<double>(b.bytes - bytes) / static_cast<double>(b.bytes - a.bytes);
   return {bytes, b.distortion + (a.distortion - b.distortion) * rest};

@@ -22,12 +22,12 @@ struct ComponentCurve {
   std::vector<RatePoint> points;  ///< from {0, ...}; convex; fewer than two: no packets
   std::vector<Packet> packets;
   size_t opened = 0;  ///< the first point behind the opening
-  /// A large component in one track has the points of its account, which are ends of passes, behind
-  /// the opening. A point within a pass takes longer to decode. Else empty.
+  /// For a large component in one track: the points of its account behind the opening, which are
+  /// ends of passes. A point within a pass takes longer to decode. Else empty.
   std::vector<RatePoint> passes = {};
 };
 
-/// How the errors of a component become what its packets are worth, and how it is divided into
+/// How packets are priced by the errors of a component, and how the component is divided into
 /// packets.
 struct Pricing {
   double samples = 1;   ///< squared errors are divided by it: packets state means
@@ -37,13 +37,13 @@ struct Pricing {
   TrackOrder order = TrackOrder::kSlopes;  ///< of several tracks among each other
 };
 
-/// Squared error of the decoded samples for the first bytes of such packets; without packets, of
+/// Squared error of the samples decoded from the first bytes of the packets; without packets, of
 /// the only track. Asked for rising bytes.
 using MeasurePackets = std::function<double(const std::vector<Packet>& packets, uint64_t bytes)>;
 
-/// Several tracks are ordered among each other by their accounts (orderTracks()). What these come
-/// to together is audited with `measure`, and so is a single one first. The opening comes first,
-/// whatever it costs.
+/// Makes the curve of a component. Several tracks are ordered among each other by their accounts
+/// (orderTracks()), and the joint account is audited with `measure`, as the account of a single
+/// track is. The opening comes first, whatever it costs.
 ComponentCurve curveOf(const CodedTracks& coded, const AuditScope& scope,
                        const MeasurePackets& measure, const Pricing& pricing);
 

@@ -17,9 +17,9 @@ std::vector<RatePoint> lowerHull(std::span<const RatePoint> points, double growt
 
 inline constexpr uint64_t kLeastPacket = 24;
 
-/// Where packets end on the way from one vertex of the hull of `points` to another: at `to`, and
-/// around what dips, because a packet that dips counts only when complete: it should be short.
-/// RatePoint::dips is that of the packet.
+/// The ends of packets on the way from one vertex of the hull of `points` to another one: at `to`,
+/// and around prefixes that dip, because a packet that dips counts only when complete and should be
+/// short. RatePoint::dips is that of the packet.
 std::vector<RatePoint> packetEnds(std::span<const RatePoint> points, const RatePoint& from,
                                   const RatePoint& to);
 

@@ -18,7 +18,7 @@ namespace {
 /// lose 1.3 % of the bytes at 0.2, 1.1 at 0.12, 0.8 at 0.06 and below.
 constexpr double kRegionGrowth = 0.04;
 
-/// A packet and what it takes off the distortion.
+/// A packet and the distortion that it removes.
 struct PricedPacket {
   double slope;  ///< distortion removed per byte
   Packet packet;
@@ -95,7 +95,8 @@ std::vector<PricedPacket> orderedPackets(const CodedTracks& coded, TrackOrder or
 OrderedTracks orderTracks(const CodedTracks& coded, TrackOrder by) {
   assert(!coded.tracks.empty());
   const std::vector<PricedPacket> packets = orderedPackets(coded, by);
-  // Summed from the end, so that rounding leaves every packet but the last something to do.
+  // The points are summed from the end, so that in spite of rounding every packet but the last
+  // leaves an error to remove.
   OrderedTracks order;
   order.packets.resize(packets.size());
   order.points.resize(packets.size() + 1);

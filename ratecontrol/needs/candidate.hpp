@@ -27,13 +27,13 @@ struct Candidate {
   uint64_t bytes() const { return std::min(need, bytesOf(coded->tracks)) + coded->inHeader(); }
 };
 
-/// A candidate of all bytes, without a curve.
+/// A candidate whose target needs all of its bytes, without a curve.
 template <class Coded>
 Candidate<Coded> candidateOf(Coded coded) {
   return {std::make_shared<const Coded>(std::move(coded))};
 }
 
-/// The candidate of the fewest bytes; the first of equals. There is at least one.
+/// The candidate of the fewest bytes; of equal ones the first. There is at least one.
 template <class Coded>
 Candidate<Coded> fewestBytes(std::vector<Candidate<Coded>> candidates) {
   assert(!candidates.empty());

@@ -23,12 +23,12 @@ inline constexpr uint64_t kAllBytes = UINT64_MAX;
 std::optional<uint64_t> leastBytes(std::span<const Packet> packets,
                                    const std::function<bool(uint64_t bytes)>& meets);
 
-/// What has been sent of each component when the first `bytes` of `component` have; all of it if
-/// there are fewer.
+/// The bytes of each component that have been sent when the first `bytes` of `component` have; all
+/// bytes if there are fewer.
 Needs sentWith(std::span<const Packet> packets, Component component, uint64_t bytes);
 
-/// The packets that hold what is needed. The last packet of a component ends where its need does,
-/// and quality_after says what it then states.
+/// The packets that hold the needed bytes. The last packet of a component ends where its need ends,
+/// and quality_after gives the quality that it then states.
 std::vector<Packet> keepNeeded(
     std::span<const Packet> packets, const Needs& needs,
     const std::function<uint8_t(Component component, uint64_t bytes)>& quality_after);

@@ -18,14 +18,14 @@ uint64_t bytesOfPackets(std::span<const Packet> packets);
 /// Keeps the packets that begin within the budget.
 std::vector<Packet> keepWithinBudget(std::span<const Packet> packets, uint64_t budget);
 
-/// Orders packets so that those that hold the first `needed` payload bytes of a component, or all
-/// of its packets, end within the budget, if it has room for them: what of the other component
-/// would push the last of them out comes behind it.
+/// Orders packets so that the packets that hold the first `needed` payload bytes of a component, or
+/// all of its packets, end within the budget, if the budget has room for them: packets of the other
+/// component that would push the last of them out come behind it.
 std::vector<Packet> endWithin(std::span<const Packet> packets, Component component, uint64_t needed,
                               uint64_t budget);
 
-/// The RMSE of each component that the last packet within the budget states; without one the
-/// largest that can be stated.
+/// The RMSE of each component that its last packet within the budget states; without a packet, the
+/// largest RMSE that can be stated.
 std::array<double, kComponents> statedWithin(std::span<const Packet> packets, uint64_t budget);
 
 }  // namespace tetrakis::inline needs

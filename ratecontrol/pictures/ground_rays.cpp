@@ -60,7 +60,7 @@ struct Cell {
   int64_t column, row;
 };
 
-/// A square of 2^level cells a side, less what lies beyond the border.
+/// A square of 2^level cells a side, without the part that lies beyond the border.
 struct Block {
   int64_t west, north, east, south;  ///< cells before east and south
 };
@@ -71,7 +71,7 @@ Block blockAround(const Cell& cell, size_t level, const Extent& cells) {
           std::min<int64_t>(cells.height, (row + 1) << level)};
 }
 
-/// When a ray leaves the columns of a block, and its rows.
+/// The times at which a ray leaves the columns of a block, and its rows.
 struct Exit {
   double columns, rows;
 };
@@ -91,7 +91,7 @@ struct GroundRays::Path {
         inverse{1 / direction[0], 1 / direction[1], 1 / direction[2]} {}
 
   double at(size_t axis, double t) const { return origin[axis] + t * direction[axis]; }
-  /// When it comes to a column (axis 0), height or row; kNever if it does not.
+  /// The time at which the ray comes to a column (axis 0), height or row; kNever if it does not.
   double reaches(size_t axis, double value) const {
     return direction[axis] == 0 ? kNever : (value - origin[axis]) * inverse[axis];
   }
@@ -133,7 +133,7 @@ std::optional<GroundHit> GroundRays::hitInCell(uint32_t column, uint32_t row, co
   std::optional<GroundHit> first;
   double soonest = leave + 1e-9 * std::abs(leave);
   for (const CellPlane& p : planesOf(corners, (column + row) % 2 == 0)) {
-    // Height of the ray above the plane falls to 0; NaN where a corner is void.
+    // The plane is met where the height of the ray above it falls to 0; NaN where a corner is void.
     const double c = path.origin[0] - column, r = path.origin[2] - row;
     const double above = path.origin[1] - (p.at + p.slope_c * c + p.slope_r * r);
     const double fall =
@@ -182,7 +182,7 @@ std::optional<GroundRays::Stay> GroundRays::stayOf(const Path& path) const {
   return stay;
 }
 
-/// Blocks of which all cells lie below the ray are passed over; others are divided.
+/// Passes over blocks of which all cells lie below the ray; divides others.
 std::optional<GroundHit> GroundRays::firstHit(const Path& path) const {
   const std::optional<Stay> stay = stayOf(path);
   if (!stay) return {};

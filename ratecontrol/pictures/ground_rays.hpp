@@ -19,8 +19,8 @@ namespace tetrakis::inline pictures {
 struct Relief {
   GroundFrame frame;
   std::vector<float> heights;
-  /// Columns and rows of the frame from one height to the next. The last ones lie on the border or
-  /// beyond it.
+  /// Columns and rows of the frame from one height to the next. The last heights lie on the border
+  /// or beyond it.
   uint32_t step = 1;
 
   /// How many heights there are.
@@ -50,7 +50,8 @@ class GroundRays {
   /// row of heights has no triangles.
   std::optional<GroundHit> hit(const Ray& ray) const;
 
-  /// Where the ray meets the plane of a hit, in columns and rows; nothing if it runs along it.
+  /// The place where the ray meets the plane of a hit, in columns and rows; nothing if it runs
+  /// along the plane.
   std::optional<std::array<double, 2>> onPlane(const GroundHit& plane, const Ray& ray) const;
 
   /// Height of the ground between the samples; nothing beyond the border and at voids.
@@ -61,13 +62,13 @@ class GroundRays {
 
  private:
   struct Path;  ///< a ray in columns and rows
-  /// When a ray is between the borders, and no higher or lower than any height.
+  /// The time during which a ray is between the borders, and within the range of the heights.
   struct Stay {
     double enter, leave;
   };
   std::optional<Stay> stayOf(const Path& path) const;
 
-  /// Hits are in the columns and rows of the relief's own heights, as those of hitInCell().
+  /// Hits are in the columns and rows of the relief's own heights, as hitInCell() gives them.
   std::optional<GroundHit> firstHit(const Path& path) const;
   std::optional<GroundHit> hitInCell(uint32_t column, uint32_t row, const Path& path, double enter,
                                      double leave) const;

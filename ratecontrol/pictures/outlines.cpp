@@ -9,9 +9,9 @@ namespace tetrakis::inline pictures {
 
 namespace {
 
-/// Rows between the places at which a column looks for ground; what is lower is passed over.
+/// Rows between the places at which a column looks for ground; smaller pieces of ground are missed.
 constexpr double kRows = 32;
-/// Pixels to which places of outlines are known, and the least shift that is found.
+/// The precision of the places of outlines, in pixels, and the least shift that is found.
 constexpr double kLeastShift = 1. / 256;
 
 /// Pixels by which an edge errs that has moved by `shift`.
@@ -20,8 +20,8 @@ double smoothedEdge(double shift) {
   return shift * (1 + 3 * smoothed) / 4;
 }
 
-/// Halves the way between two rows, of which one shows ground and the other one sky, until they are
-/// so near. ground(row): whether ground is there.
+/// Halves the interval between two rows, of which one shows ground and the other one sky, until it
+/// is short enough. ground(row): whether the row shows ground.
 template <class Ground>
 std::pair<double, double> halved(double sky, double solid, double near, Ground&& ground) {
   while (std::abs(solid - sky) > near) {
@@ -83,7 +83,7 @@ double Outlines::shiftOf(const View& view, const Crossing& crossing, const Groun
     return surface.hit(view.points.at(crossing.column, row).ray).has_value();
   };
   const bool at_first = ground(crossing.row);
-  // Ground where the true outline is: this one lies on the side of the sky.
+  // Ground where the true outline is: the other outline lies on the side of the sky.
   const double away = at_first == crossing.ground_below ? -1 : 1;
   double from = 0;
   for (double to = kLeastShift;; from = to, to *= kFaster) {

@@ -25,11 +25,11 @@ class Outlines {
            const ScreenTexture& texture, Extent texels);
 
   /// Squared error of a sample of R, G or B, spread over the pixels that show the true ground; the
-  /// mean over the cameras that see any, by their weights. 0 if none does.
+  /// mean over the cameras that see any ground, by their weights. 0 if none does.
   ///
-  /// Pixels smooth a shift s of less than a pixel: an edge then errs by s^2 - s^3 / 3 pixels, by
-  /// s - 1 / 3 beyond; but as they are means of 2 x 2 samples, of which one makes a sixteenth, by
-  /// s / 4 at least.
+  /// Pixels smooth a shift s of less than a pixel: an edge then errs by s^2 - s^3 / 3 pixels, and
+  /// by s - 1 / 3 beyond. But pixels are means of 2 x 2 samples, one of which makes a sixteenth, so
+  /// an edge errs by s / 4 at least.
   double errorOf(const GroundRays& surface) const;
 
  private:
@@ -48,10 +48,10 @@ class Outlines {
     std::vector<Crossing> crossings = {};
   };
 
-  /// What all points of a column show, from its first row to the last.
+  /// Finds the crossings of ground and sky in a column, from its first row to the last.
   static void follow(View& view, double column, const GroundRays& truth,
                      const ScreenTexture& texture, Extent texels);
-  /// Pixels by which the outline of another surface has moved.
+  /// Pixels by which the outline of another surface has moved at a crossing.
   static double shiftOf(const View& view, const Crossing& crossing, const GroundRays& surface);
 
   std::vector<View> views_;  ///< those that see ground

@@ -18,7 +18,8 @@ namespace tetrakis::inline pictures {
 
 class PictureErrors {
  public:
-  /// pixels: that are looked at, of all pictures together. At least one camera has a weight.
+  /// pixels: the number of pixels that are looked at, of all pictures together. At least one camera
+  /// has a weight.
   PictureErrors(const std::vector<Camera>& cameras, size_t pixels, const GroundRays& ground,
                 const Texels& texels);
 
@@ -32,7 +33,7 @@ class PictureErrors {
   const Surface& trueSurface() const { return true_surface_; }
   const ScreenTexture& trueTexture() const { return true_texture_; }
 
-  /// The error inside the ground, of a surface with a texture.
+  /// The error of the pictures inside the ground, of a surface with a texture.
   double errorInside(const Surface& surface, const ScreenTexture& texture) const;
 
  private:

@@ -39,7 +39,8 @@ SeenPoint seenAt(const PicturePoint& point, const GroundRays& ground, Extent tex
   seen.ground = true;
   seen.u = hit->column / columns;
   seen.v = hit->row / rows;
-  // Along the plane of the triangle. One that is seen edge on is as wide as the texture at most.
+  // Distances are measured along the plane of the triangle. A triangle that is seen edge on is as
+  // wide as the texture at most.
   const auto texelsTo = [&](const Vec3& change) {
     const Ray ray{point.ray.origin, add(point.ray.direction, scale(change, 0.5))};
     const auto place = ground.onPlane(*hit, ray);

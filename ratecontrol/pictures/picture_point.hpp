@@ -45,7 +45,7 @@ struct SeenPoint {
 /// texture: its size in texels.
 SeenPoint seenAt(const PicturePoint& point, const GroundRays& ground, Extent texture);
 
-/// What the point looks like: a sample as wide as half a pixel.
+/// The colour of the point: a sample as wide as half a pixel.
 Colour colourOf(const PicturePoint& point, const SeenPoint& seen, const ScreenTexture& texture);
 
 /// Squared difference, the sum of R, G and B.

@@ -11,10 +11,10 @@ namespace tetrakis::inline pictures {
 namespace {
 
 /// The generalised golden ratio of the plane: places i * (1/g, 1/g^2), modulo 1, fill a square
-/// evenly, however many they are (M. Roberts 2018).
+/// evenly for any number of places (M. Roberts 2018).
 constexpr double kGolden = 1.32471795724474602596;
 
-/// Where the four samples of a pixel lie along either side, and the pairs of them.
+/// The places of the four samples of a pixel along either side, and the pairs of samples.
 constexpr std::array<double, 2> kPlaces = {0.25, 0.75};
 constexpr std::array<std::array<size_t, 2>, 6> kPairs = {
     {{0, 3}, {1, 2}, {0, 1}, {2, 3}, {0, 2}, {1, 3}}};
@@ -23,8 +23,8 @@ double fraction(double x) {
   return x - std::floor(x);
 }
 
-/// The squared error, over R, G and B, of a pixel whose two samples begin at `first`, as if all
-/// four had been taken.
+/// The squared error, over R, G and B, of a pixel whose two samples begin at `first`, estimated for
+/// all four samples.
 double squaredErrorOf(const std::vector<Colour>& truth, const std::vector<Colour>& other,
                       size_t first) {
   double squares = 0, product = 0;

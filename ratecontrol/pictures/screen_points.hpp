@@ -27,10 +27,11 @@ class ScreenPoints {
   /// count: the pixels of all cameras, shared by their weights. At least one weight is positive.
   ScreenPoints(const std::vector<Camera>& cameras, size_t count);
 
-  /// What the two samples of each pixel show, one behind the other. texture: its size in texels.
+  /// The ground that the two samples of each pixel show, one behind the other. texture: its size in
+  /// texels.
   std::vector<SeenPoint> seenOf(const GroundRays& ground, Extent texture) const;
 
-  /// What each point looks like.
+  /// The colour of each point.
   std::vector<Colour> coloursOf(const std::vector<SeenPoint>& seen,
                                 const ScreenTexture& texture) const;
 
@@ -50,15 +51,15 @@ class ScreenPoints {
     const ScreenTexture& texture;
     double shift;
   };
-  /// What errors cost where a point shows the ground, as parts of the error over all cameras: of
-  /// heights that are off by the shift; of texels, per square, as if pixels resolved them all.
+  /// The costs of errors where a point shows the ground, as parts of the error over all cameras: of
+  /// heights that are off by the shift; of texels, per square, if pixels resolved all of them.
   struct Worth {
     double column = 0, row = 0;  ///< GroundHit
     double heights = 0, texture = 0;
   };
   std::vector<Worth> worthsOf(const Surface& surface, Extent texels) const;
 
-  /// Places in the list of cameras of those that have a weight and see no ground.
+  /// The indices of the cameras that have a weight and see no ground.
   std::vector<size_t> blindCameras(const std::vector<SeenPoint>& seen) const;
 
  private:

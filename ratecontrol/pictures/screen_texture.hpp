@@ -16,8 +16,8 @@ using Colour = std::array<float, 3>;  ///< of 0 to 255
 class ScreenTexture {
  public:
   /// texels: the whole image, or its samples at multiples of 2^level in x and y (base/view.hpp),
-  /// which show what coarser levels of it show. Grey becomes three equal colours; alpha darkens
-  /// them.
+  /// which hold what coarser levels of the image show. Grey becomes three equal colours; alpha
+  /// darkens them.
   ScreenTexture(const Texels& texels, Extent whole, int level = 0);
 
   /// u, v: from 0 to 1 over the image; clamped. level: of detail, 0 the finest resolution.
