@@ -29,14 +29,14 @@ void holdShown(const HeldSamples& flat, Extent plane, const View& view,
   }
 }
 
-/// What a track holds, and which bands of it the view needs; empty: none.
+/// The bands of a track, with marks of the parts that the view needs; empty: it needs none.
 std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart> parts,
                              const ViewSynthesis& synthesis) {
   std::vector<BandPlan> plan = withNeeds(synthesis, parts, layout.plan(parts));
   return plan.empty() ? plan : layout.marked(parts, std::move(plan));
 }
 
-/// What is held outlives the layout. memory: null, or what earlier calls know.
+/// The layout of the plane. Held samples outlive it. memory: null, or that of earlier calls.
 PlaneLayout layoutOf(const GeometryHeader& header, const SharedBits& lifted, HeldSamples flat,
                      TrackMemory* memory) {
   PlaneLayout layout(specOf(header.wavelet), Pyramid(lifted, header.extent(), flat),

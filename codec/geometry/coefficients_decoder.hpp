@@ -18,14 +18,14 @@
 
 namespace tetrakis::inline geometry {
 
-/// What is known of a plane before its coefficients.
+/// The samples of a plane that are known before its coefficients.
 struct KnownSamples {
   SharedBits valid = {};                  ///< which samples are valid; the others are void
   HeldSamples flat = {};                  ///< of flat areas, which outlive the call
   std::optional<SharedBits> lifted = {};  ///< of liftedSamples(), if voids are bridged
 };
 
-/// Decodes what a view shows; in a window the time follows its size if the plane has regions.
+/// Decodes the heights of a view; in a window the time follows its size if the plane has regions.
 /// codewords: any prefix of the coefficients of each track, one for each of regionsOf(). known: of
 /// the whole plane. Safe on any bytes and on any header that readHeader() accepts. The memory is
 /// that of earlier calls with the same header, known samples and view, which is no window.

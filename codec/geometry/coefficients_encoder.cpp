@@ -15,7 +15,7 @@ namespace tetrakis::inline geometry {
 
 namespace {
 
-/// A plane of heights as the transform leaves it, and what tracks are made of it with.
+/// A plane of transformed heights, with the parameters for coding its tracks.
 struct Transformed {
   const PlaneLayout& layout;
   std::vector<int32_t> plane;

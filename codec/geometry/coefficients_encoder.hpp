@@ -20,7 +20,7 @@ struct CoefficientOptions {
   double share = 1;                 ///< that the error counts: HeightSteps::liftedShare()
   bool windows = false;             ///< withShortReach()
   const FlatAreas* flat = nullptr;  ///< areas that are known, and not coded; null: there are none
-  /// What comes earlier; null: nothing.
+  /// The coefficients that come earlier; null: none do.
   const PriorityMap* priorities = nullptr;
   /// Squared error in steps, of all samples together, below which coding ends.
   double enough = TrackOptions::kNever;

@@ -23,7 +23,7 @@ namespace tetrakis::inline geometry {
 
 namespace {
 
-/// Finds which bytes decide each sample: the passes of decoders, which take nothing.
+/// Finds which bytes decide each sample. It runs the passes of decoders, and corrects nothing.
 class WatchedCorrections {
  public:
   WatchedCorrections(const DecodedGeometry& geometry, const GeometryHeader& header,
@@ -57,7 +57,7 @@ class WatchedCorrections {
   }
 
  private:
-  /// What a pass asks ahead of each sample.
+  /// Notes the bytes so far when a pass asks for a sample.
   template <class Value>
   auto noting(const auto& reader) {
     return [&](size_t sample) {

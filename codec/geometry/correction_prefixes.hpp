@@ -14,10 +14,10 @@
 
 namespace tetrakis::inline geometry {
 
-/// Returns what gives the same as decodeHeights() of the first bytes of the track behind
-/// coefficients that are whole: so many bytes of the corrections, 1 or more. track: the only one of
-/// the heights, which have corrections, as an encoder wrote it; it and the headers outlive the
-/// result. It begins its work at the first call.
+/// Returns a function that gives the same heights as decodeHeights() of the first bytes of the
+/// track, where `bytes` bytes of corrections, 1 or more, follow the whole coefficients. track: the
+/// only one of the heights, which have corrections, as an encoder wrote it; it and the headers
+/// outlive the result. The work begins at the first call.
 std::function<DecodedHeights(uint64_t bytes)> prefixesOfCorrections(const GeometryHeader& header,
                                                                     const GeometryLayers& layers,
                                                                     std::span<const uint8_t> track);

@@ -47,7 +47,8 @@ FlatAreas flatAreasOf(const TakenLayers& taken, const SharedBits& known) {
   return decodeFlatAreas(taken.flat, taken.header.extent(), known, taken.stated.flat_areas);
 }
 
-/// The heights that decoded steps are: places in a table, if there is one, else themselves.
+/// Turns decoded steps into heights: they are places in a table if there is one, else heights
+/// already.
 DecodedHeights heightsOf(DecodedGeometry steps, const TakenLayers& taken) {
   if (taken.stated.table_bytes == 0) return {std::move(steps), {}};
   const ValueTable table = decodeValueTable(taken.table, taken.stated.table_values);
@@ -55,14 +56,14 @@ DecodedHeights heightsOf(DecodedGeometry steps, const TakenLayers& taken) {
   return heightsOf(table, taken.header, std::move(steps));
 }
 
-/// What is decoded for a view of the coded lines.
+/// The part of the coded lines that is decoded for a view.
 struct DecodedView {
   View view;
   bool corrected = false;  ///< corrections reach it
 };
 
-/// Whether corrections of a plane in one track end before a row: each takes a decision, of which
-/// the bytes pay for so many.
+/// Whether corrections of a plane in one track end before a row: each correction takes a decision,
+/// and the bytes pay for a limited number.
 bool correctionsEndBefore(uint32_t row, const TakenLayers& taken, const SharedBits& valid) {
   if (taken.corrections.size() > 1) return false;
   const uint64_t most = mostDecisions(taken.corrections.front().size());
@@ -94,12 +95,12 @@ DecodedView decodedViewOf(const TakenLayers& taken, const SharedBits& valid, con
 }
 
 /// The steps that the first codewords hold: a drawing, or coefficients beside flat areas. view: the
-/// one that is asked for, which becomes the one that is decoded.
+/// view that is asked for; on return, the view that is decoded.
 DecodedGeometry decodeSteps(const TakenLayers& taken, DecodedView& view,
                             const DecodeContext<HeightsMemory>& context) {
   const GeometryHeader& header = taken.header;
   const GeometryLayers& stated = taken.stated;
-  // Later calls may go on from here once all is there that coefficients depend on.
+  // Later calls may go on from here once all layers are there that coefficients depend on.
   HeightsMemory* const kept = taken.isOpened() ? context.memory : nullptr;
   HeightsMemory of_this_call;
   HeightsMemory& memory = kept != nullptr ? *kept : of_this_call;
@@ -123,8 +124,7 @@ DecodedGeometry decodeSteps(const TakenLayers& taken, DecodedView& view,
                             {context.threads, kept != nullptr ? &memory.tracks : nullptr});
 }
 
-/// Decodes a view of the coded lines, with everything that the codewords hold for it. view: as of
-/// decodeSteps().
+/// Decodes a view of the coded lines from all codewords. view: as of decodeSteps().
 DecodedHeights decodeTaken(const TakenLayers& taken, DecodedView& view,
                            const DecodeContext<HeightsMemory>& context) {
   const GeometryHeader& header = taken.header;
@@ -140,7 +140,7 @@ DecodedHeights decodeTaken(const TakenLayers& taken, DecodedView& view,
   return corrected(std::move(decoded), taken, view.view, context.threads);
 }
 
-/// Decodes a view of the coded lines; a window is cut out of what is decoded.
+/// Decodes a view of the coded lines; a window is cut out of the decoded part.
 DecodedHeights decodeLines(const TakenLayers& taken, const View& view,
                            const DecodeContext<HeightsMemory>& context) {
   DecodedView all{view};

@@ -18,7 +18,7 @@ namespace tetrakis::inline geometry {
 
 namespace {
 
-/// The heights with corrections in units of so many steps.
+/// The heights with corrections in units of `correction_step` steps.
 DecodedGeometry correctedSteps(DecodedGeometry geometry, uint32_t correction_step,
                                std::span<const uint8_t> codeword) {
   const std::vector<uint8_t> hints = activityHints(geometry.significant, geometry.extent());
@@ -34,8 +34,8 @@ DecodedGeometry correctedSteps(DecodedGeometry geometry, uint32_t correction_ste
   return geometry;
 }
 
-/// The heights with corrections to whole steps: what a fraction is beside its sample is an error of
-/// the cut, which surfaces and meshes need not show.
+/// The heights with corrections to whole steps. The fraction that a height has beside its sample is
+/// an error of the cut, which surfaces and meshes need not show.
 DecodedGeometry exactSteps(DecodedGeometry geometry, std::span<const uint8_t> codeword) {
   const auto put = [&](size_t first, std::span<const int32_t> row) {
     for (size_t x = 0; x < row.size(); ++x) {
@@ -48,8 +48,8 @@ DecodedGeometry exactSteps(DecodedGeometry geometry, std::span<const uint8_t> co
   return geometry;
 }
 
-/// The heights with the corrections of samples that are decoded beside those that a table has made,
-/// if there is one.
+/// The heights with corrections of samples, added to the corrections of a table of values, if there
+/// is one.
 DecodedHeights correctedSamples(DecodedHeights decoded, const GeometryHeader& header,
                                 std::span<const uint8_t> codeword) {
   const DecodedGeometry& geometry = decoded.geometry;
@@ -66,7 +66,7 @@ DecodedHeights correctedSamples(DecodedHeights decoded, const GeometryHeader& he
   return decoded;
 }
 
-/// One part with its corrections, or its first rows.
+/// One part, or its first rows, with its corrections.
 DecodedHeights correctedPart(DecodedHeights part, const GeometryHeader& header,
                              const GeometryLayers& layers, std::span<const uint8_t> codeword) {
   switch (layers.corrections) {
@@ -87,7 +87,7 @@ DecodedHeights correctedPart(DecodedHeights part, const GeometryHeader& header,
   return part;
 }
 
-/// Puts what corrections change in a window of a plane.
+/// Writes the corrected values of a part into a window of a plane.
 void put(const DecodedHeights& part, const Window& window, DecodedHeights& whole) {
   const auto copy = [&](const std::vector<int32_t>& from, std::vector<int32_t>& to) {
     for (uint32_t y = 0; y < window.height && !from.empty(); ++y) {

@@ -12,17 +12,18 @@
 
 namespace tetrakis::inline geometry {
 
-/// What has to be decoded so that the samples of a view of the coded lines can be corrected: whole
-/// parts of the plane (bitstream/stream/correction_tracks.hpp), or, of a plane in one track, all
-/// rows up to the last one.
+/// The view that has to be decoded so that the samples of a view of the coded lines can be
+/// corrected: whole parts of the plane (bitstream/stream/correction_tracks.hpp), or, in a plane in
+/// one track, all rows up to the last one.
 View correctedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view);
 
-/// The heights with their corrections. decoded: what correctedView() says of the layers, of level
-/// 0. threads: nothing depends on them. Safe on any bytes.
+/// The heights with their corrections. decoded: of the view correctedView(), at level 0. threads:
+/// nothing depends on them. Safe on any bytes.
 DecodedHeights corrected(DecodedHeights decoded, const TakenLayers& taken, const View& view,
                          uint32_t threads);
 
-/// The window of heights of a larger view, without its marks of vertices where it has none.
+/// The heights of a window, cut out of a larger view. They have no marks of vertices if the view
+/// has none.
 DecodedHeights windowOf(const DecodedHeights& decoded, const Window& window);
 
 }  // namespace tetrakis::inline geometry

@@ -8,8 +8,8 @@
 
 namespace tetrakis::inline geometry {
 
-/// Makes heights of coded lines those of the view. A vertex is that of a coded sample where that is
-/// shown first.
+/// Turns heights of coded lines into those of the view. Where a coded sample is shown several
+/// times, the vertex lies at its first place.
 DecodedHeights shownHeights(const ShownLines& lines, DecodedHeights decoded);
 
 }  // namespace tetrakis::inline geometry

@@ -24,7 +24,8 @@ class ShownSignificance {
   /// Takes the bands of a track. Called for different tracks at the same time.
   void take(size_t track, const TrackState& state, std::span<const BandPart> parts);
 
-  /// Moves the marks to the heights of the view, and the number of finest levels without a mark.
+  /// Writes the marks of the vertices, and the number of finest levels without a mark, into the
+  /// heights of the view.
   void giveTo(DecodedGeometry& geometry);
 
  private:

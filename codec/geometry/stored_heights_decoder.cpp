@@ -28,7 +28,7 @@ class StoredSamples {
   StoredSamples(const GeometryHeader& header, const BytePlanes& words, DecodedHeights& out)
       : header_(header), words_(words), out_(out) {}
 
-  /// Sample i of what comes out is the stored one with that number.
+  /// Writes the stored sample `number` as sample i of the result.
   void put(size_t i, size_t number) {
     if (!words_.knows(number)) return;
     const uint32_t word = words_[number];
@@ -55,8 +55,8 @@ DecodedHeights emptyHeights(Extent extent) {
   return out;
 }
 
-/// Calls see(i, number) for the valid samples of a view: sample i of those that are shown is the
-/// one with that number of all valid ones.
+/// Calls see(i, number) for the valid samples of a view: sample i of the view is sample `number` of
+/// all valid ones.
 void forEachValid(const GeometryHeader& header, const BitPlane* valid, const View& view,
                   const auto& see) {
   const Extent extent = view.extentIn(header.extent());

@@ -12,9 +12,9 @@
 
 namespace tetrakis::inline geometry {
 
-/// Returns the samples that a view shows. Their steps are those nearest to the samples, and
-/// corrections restore the samples. A sample that has no byte yet is that of step 0. bytes: any
-/// prefix of what is stored of a geometry with header.stored(). valid: of the whole plane.
+/// Returns the samples of a view. Their steps are those nearest to the samples, and corrections
+/// restore the samples. A sample that has no byte yet is that of step 0. bytes: any prefix of the
+/// stored bytes of a geometry with header.stored(). valid: of the whole plane.
 DecodedHeights decodeStoredHeights(const GeometryHeader& header, std::span<const uint8_t> bytes,
                                    const SharedBits& valid, const View& view);
 

@@ -11,7 +11,7 @@ namespace tetrakis::inline geometry {
 
 namespace {
 
-/// Takes so many bytes off the front, or all that are left.
+/// Takes `count` bytes off the front, or all that are left.
 std::span<const uint8_t> takeFront(std::span<const uint8_t>& bytes, uint64_t count) {
   const auto taken = bytes.first(static_cast<size_t>(std::min<uint64_t>(count, bytes.size())));
   bytes = bytes.subspan(taken.size());
@@ -25,7 +25,7 @@ struct LayerAmong {
   std::span<const uint8_t> TakenLayers::*layer;
 };
 
-/// In the order in which they come.
+/// The layers among the coefficients, in their order.
 std::vector<LayerAmong> layersAmong(const GeometryLayers& stated) {
   std::vector<LayerAmong> among;
   if (stated.late_mask)
@@ -37,7 +37,7 @@ std::vector<LayerAmong> layersAmong(const GeometryLayers& stated) {
   return among;
 }
 
-/// Takes the coefficients of the first track, and what lies among them, off its front.
+/// Takes the coefficients of the first track, and the layers among them, off its front.
 void takeCoefficients(std::span<const uint8_t>& first, TakenLayers& taken) {
   const GeometryLayers& stated = taken.stated;
   uint64_t before = 0;  // bytes of coefficients

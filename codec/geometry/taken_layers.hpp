@@ -13,7 +13,8 @@
 
 namespace tetrakis::inline geometry {
 
-/// The bytes of each layer, as many as there are. What it is taken from outlives it.
+/// The bytes of each layer, as far as they are there. The codewords that they are taken from
+/// outlive this object.
 struct TakenLayers {
   const GeometryHeader& header;
   const GeometryLayers& stated;  ///< what the stream header says of the layers
@@ -21,13 +22,13 @@ struct TakenLayers {
   std::span<const uint8_t> lifted = {};  ///< of heights whose mask comes late
   std::span<const uint8_t> flat = {};
   std::span<const uint8_t> table = {};
-  /// The coefficients of the first track: what lies among them cuts them into pieces.
+  /// The coefficients of the first track, in the pieces into which the layers among them cut them.
   Codewords first_coefficients = {};
   Codewords other_coefficients = {};  ///< of each of the other tracks
   Codewords corrections = {};         ///< of each part of the plane
 
   bool isCorrected() const;
-  /// All is there that comes before the coefficients.
+  /// Whether all layers that come before the coefficients are there.
   bool isOpened() const;
 };
 
@@ -35,7 +36,7 @@ struct TakenLayers {
 TakenLayers takeApart(const Codewords& codewords, const GeometryHeader& header,
                       const GeometryLayers& layers);
 
-/// One codeword of coefficients, a drawing or stored samples for each track.
+/// A codeword of coefficients, a drawing or stored samples for each track.
 struct JoinedCoefficients {
   std::vector<uint8_t> bytes;  ///< of the first, if it was in pieces
   Codewords codewords;

@@ -31,7 +31,7 @@ HeightSteps cropped(const HeightSteps& whole, Extent plane, const Window& part) 
   return out;
 }
 
-/// A part of the plane, as if it were one. It stays where it is made.
+/// A part of the plane, treated as a plane of its own. It cannot be moved.
 class PartTrial {
  public:
   PartTrial(HeightSteps steps, const Window& part, const WaveletHeader& wavelet, int32_t largest)
@@ -46,7 +46,8 @@ class PartTrial {
 
   uint64_t corrected(double mean_square) { return cut_.total(cut_.bytesFor(mean_square)); }
 
-  /// As it is, or as a cut with exact corrections, where these are estimated to take fewer bytes.
+  /// Bytes of the rounded part: as coefficients to the last bit, or as a cut with exact corrections
+  /// where the estimate says that these take fewer bytes.
   uint64_t rounded() const {
     std::vector<int32_t> steps = steps_.steps;
     for (int32_t& q : steps) q = nearestMultiple(q, largest_);
@@ -78,7 +79,8 @@ struct BestCut {
   uint64_t bytes;
 };
 
-/// Descent by falling ratios; every turn but the last of each has fewer bytes than the one before.
+/// Descent by falling ratios; with each ratio, every turn but the last takes fewer bytes than the
+/// one before.
 BestCut bestCut(std::deque<PartTrial>& trials, int32_t largest) {
   const auto at = [&](double mean_square) {
     BestCut cut{mean_square, 0};

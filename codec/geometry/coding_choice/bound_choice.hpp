@@ -21,8 +21,8 @@ struct BoundWays {
 
 /// Says which ways to try. largest: the error allowed, in steps. wavelet: that of coefficients that
 /// will be cut. Both ways are worth trying for planes of at most 1025 * 1025 samples, which takes
-/// some twenty times as long as coding them. For larger planes both are tried on typical parts
-/// here, and the way that takes fewer bytes there is taken for the whole plane.
+/// some twenty times as long as coding them. For larger planes both ways are tried on typical parts
+/// here, and the way that takes fewer bytes there is the one to try for the whole plane.
 BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
                     int32_t largest);
 

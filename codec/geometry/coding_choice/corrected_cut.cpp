@@ -21,7 +21,7 @@ int32_t nearestMultiple(int64_t q, int64_t largest) {
 
 namespace {
 
-/// A part of the plane: its steps, and what is decoded of them.
+/// A part of the plane: its steps, and the heights decoded from its cut.
 struct DecodedPart {
   WindowValues<int32_t> steps, heights;
   WindowValues<uint8_t> valid;
@@ -44,7 +44,7 @@ struct DecodedPart {
   }
 };
 
-/// Corrections of a part in units of so many steps.
+/// Corrections of a part, in multiples of 2 * largest + 1 steps.
 std::vector<uint8_t> encodeWithinBound(const DecodedPart& part,
                                        std::span<const uint8_t> significant, int32_t largest) {
   std::vector<int32_t> corrections(part.extent.samples());
@@ -111,7 +111,7 @@ Corrected correct(const HeightSteps& steps, const DecodedGeometry& decoded, int3
   return correct(steps, decoded.width, {decoded, whole, {&whole, 1}}, largest, 1);
 }
 
-/// Decodes a cut, from where the longest known cut ends that is no longer than it.
+/// Decodes a cut. Decoding goes on from the end of the longest known cut that is no longer.
 DecodedGeometry CorrectedCut::decoded(uint64_t bytes) {
   const auto longer = known_.upper_bound(bytes);
   TrackMemory memory = longer == known_.begin() ? TrackMemory() : std::prev(longer)->second;
@@ -124,8 +124,8 @@ DecodedGeometry CorrectedCut::decoded(uint64_t bytes) {
   return geometry;
 }
 
-/// Cuts to be tried lie about the shortest in all: what helps most is known of it and of the next
-/// one before it.
+/// Forgets all decoded cuts but two. Cuts still to be tried lie about the cut with the fewest bytes
+/// in all, so its state and that of the cut before it help most.
 void CorrectedCut::forgetFarthest() {
   constexpr size_t kKept = 2;
   while (known_.size() > kKept) {
@@ -158,7 +158,7 @@ uint64_t CorrectedCut::bytesFor(double mean_square) const {
 }
 
 /// The total has one minimum, near the usual cut: descent from there with ever smaller strides.
-/// Every turn but the last of each stride costs less than the one before. The shorter neighbour is
+/// Within a stride every turn but the last costs less than the one before. The shorter neighbour is
 /// tried first, because the usual cut goes on from it.
 uint64_t CorrectedCut::best(uint64_t rival) {
   constexpr double kWidest = 1.3;

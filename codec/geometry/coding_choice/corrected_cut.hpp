@@ -21,17 +21,17 @@ namespace tetrakis::inline coding_choice {
 /// The multiple of 2 * largest + 1 nearest to q.
 int32_t nearestMultiple(int64_t q, int64_t largest);
 
-/// What corrections make of the heights that a cut leaves.
+/// The corrections of the heights that a cut leaves.
 struct Corrected {
   PartCodewords codewords;       ///< of each part
   bool any = false;              ///< some sample is off by more than allowed
   double before = 0, after = 0;  ///< squared errors in steps
 
-  /// Adds the parts that follow these.
+  /// Appends the corrections of the parts that follow.
   void append(Corrected more);
 };
 
-/// What a decoder makes of a window of the plane.
+/// The heights that a decoder has of a window of the plane.
 struct DecodedWindow {
   const DecodedGeometry& heights;
   Window window;
@@ -39,7 +39,7 @@ struct DecodedWindow {
 };
 
 /// Corrections of decoded heights that leave a largest error, in steps. steps: of the whole plane,
-/// which is so wide. threads: nothing depends on them.
+/// which has `width` columns. threads: nothing depends on them.
 Corrected correct(const HeightSteps& steps, uint32_t width, const DecodedWindow& decoded,
                   int32_t largest, uint32_t threads);
 
@@ -64,10 +64,11 @@ class CorrectedCut {
 
   /// Bytes of the coefficients that leave a mean squared error, in steps.
   uint64_t bytesFor(double mean_square) const;
-  /// Bytes of the coefficients, cut there, and of their corrections.
+  /// Bytes of the coefficients up to the cut, and of the corrections behind it.
   uint64_t total(uint64_t bytes);
 
-  /// The cut of fewest bytes in all; where these are clearly more than the rival's, about it.
+  /// The cut with the fewest bytes in all; only roughly, where these are clearly more than the
+  /// rival's bytes.
   uint64_t best(uint64_t rival);
 
  private:
@@ -84,8 +85,8 @@ class CorrectedCut {
   uint64_t shortest_ = 0;  ///< of the cuts that were tried, if there are any
 };
 
-/// The mean squared error, in steps, that cuts usually leave where the bytes are fewest. Samples
-/// are rounded: below an RMSE of 0.3 steps a cut would have to code that noise.
+/// The mean squared error, in steps, that cuts usually leave where the total bytes are fewest.
+/// Samples are rounded: a cut at an RMSE below 0.3 steps would have to code the noise of rounding.
 inline double usualCut(int32_t largest) {
   const double rmse = largest == 0 ? 0.3 : 0.45 * largest;
   return rmse * rmse;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kHalving = 0.05;
 
-/// Parts of a plane one below the other, so that what is learnt of one helps with the next.
+/// Parts of a plane, one below the other, so that models which learn from one part serve the next.
 struct StackedParts {
   Extent extent;
   std::vector<int32_t> steps, heights;
@@ -55,8 +55,9 @@ class TriedCuts {
       : lossy_(heights, range_bits, Purpose::kLossy),
         samples_(static_cast<double>(markedIn(heights.extent(), heights.valid))),
         whole_(typicalCost(heights, range_bits, 0).bits / 8) {
-    // Estimates of coefficients err by this much, alike for all of their steps. What is beyond it
-    // the plane has elsewhere than in its typical parts, and corrections will be there as well.
+    // Estimates of coefficients err by up to this factor, alike for all steps. If the plane takes
+    // more bytes than that, it takes them outside its typical parts, and corrections will be there
+    // as well.
     constexpr double kOff = 1.15;
     coefficients_ = static_cast<double>(whole_bytes) / whole_;
     corrections_ = coefficients_ / std::clamp(coefficients_, 1 / kOff, kOff);
@@ -101,7 +102,8 @@ std::optional<ExactCut> chooseExactCut(const PlaneView<const int32_t>& heights, 
                                        uint64_t whole_bytes) {
   constexpr int kUsual = 2, kLast = 12;
   constexpr double kHopeless = 1.04;
-  // Planes and plains of so few bits lose more by a cut that shows where levels and surfaces end.
+  // Planes and plains of fewer bits a sample lose more by a cut, which shows where levels and
+  // surfaces end.
   constexpr double kLeastBits = 0.1;
   const auto bytes = static_cast<double>(whole_bytes);
   const auto samples = static_cast<double>(markedIn(heights.extent(), heights.valid));

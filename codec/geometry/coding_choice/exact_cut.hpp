@@ -21,16 +21,17 @@ struct ExactCut {
   double worth;        ///< exactWorth() of these
 };
 
-/// What bytes count of which the first so many are the cut. Behind a cut the error falls row by
-/// row, so that prefixes lose by early cuts: 5 % more for each halving of the cut against all.
+/// The worth of bytes whose first `cut` bytes are a cut. Behind a cut the error falls row by row,
+/// so that prefixes lose by early cuts: 5 % more for each halving of the cut against all bytes.
 double exactWorth(double bytes, double cut);
 
-/// Whether a way of this worth is as good as coefficients to the last bit that take so many bytes,
-/// which lose about as much by their own prefixes as one halving.
+/// Whether a way of this worth is as good as coefficients to the last bit that take `whole_bytes`
+/// bytes, whose own prefixes lose about as much as by one halving.
 bool isWorth(double worth, double whole_bytes);
 
-/// The best cut, by typical parts of the heights; nothing if none comes near the whole coefficients
-/// to the last bit, which take so many bytes. heights: in steps. range_bits: of them.
+/// The best cut, by typical parts of the heights; nothing if no cut comes near the whole
+/// coefficients to the last bit, which take `whole_bytes` bytes. heights: in steps. range_bits: of
+/// them.
 std::optional<ExactCut> chooseExactCut(const PlaneView<const int32_t>& heights, int range_bits,
                                        uint64_t whole_bytes);
 

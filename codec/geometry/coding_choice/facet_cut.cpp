@@ -12,7 +12,7 @@ namespace tetrakis::inline coding_choice {
 
 namespace {
 
-/// Bytes of the corrections behind a cut that leaves such an error, in steps.
+/// Bytes of the corrections behind a cut that leaves the error `rmse`, in steps.
 double correctionBytes(const HeightSteps& steps, double samples, const FacetShare& facets,
                        double rmse) {
   constexpr double kNear = 0.7;    // bits of a sample on a facet

@@ -11,8 +11,8 @@
 namespace tetrakis::inline coding_choice {
 
 /// The mean squared error, in steps, that the cut leaves, by typical parts of the heights. For the
-/// sake of prefixes it is the finest cut that takes, in all, a tenth more bytes than the best, or a
-/// quarter more where there is room for that. room: bytes.
+/// sake of prefixes it is the finest cut that takes a tenth more bytes in all than the best cut, or
+/// a quarter more where there is room for that. room: bytes.
 double chooseFacetCut(const HeightSteps& steps, Extent extent, const FacetShare& facets,
                       double room);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plane is transformed as it is, and with areas held; what its coefficients cost
-// (wavelet/choice/plane_cost.hpp) decides, with the bytes of the areas: at the step of the target,
-// and at coarser ones, because every prefix pays for the areas first. Large areas are tried first;
-// then smaller ones are added, or shapes are simplified, whichever gains.
+// The plane is transformed as it is, and with areas held. The estimated bytes of its coefficients
+// (wavelet/choice/plane_cost.hpp) and the bytes of the areas decide: at the step of the target, and
+// at coarser ones, because every prefix pays for the areas first. Large areas are tried first; then
+// smaller ones are added, or shapes are simplified, whichever gains.
 #include "codec/geometry/coding_choice/flat_choice.hpp"
 
 #include <algorithm>
@@ -22,18 +22,19 @@ namespace tetrakis::inline coding_choice {
 
 namespace {
 
-/// What is tried, from the shapes of the fewest bytes to the most water.
+/// The shapes to try, from those of the fewest bytes to those that cover the most water.
 constexpr uint32_t kLeastSamples = 8;
 constexpr std::array<FlatShape, 8> kShapes = {
     {{4096, 32}, {4096, 16}, {4096, 8}, {4096, 4}, {4096}, {512}, {64}, {kLeastSamples}}};
 constexpr size_t kLargeAreas = 4;
-/// Nothing is tried where areas of kPond samples cover less than that share of the plane.
+/// No shapes are tried where areas of kPond samples cover a smaller share of the plane than this.
 constexpr uint32_t kPond = 64;
 constexpr uint64_t kLeastShare = 1000;
-/// Estimates of bits are no better than that. Parts miss coarse levels, so theirs are worse.
+/// A gain below this is within the error of the estimates. Parts miss coarse levels, so their
+/// estimates are worse.
 constexpr double kClearlyOfPlane = 0.99, kClearlyOfParts = 0.98;
-/// What it is worth, as a share of the bytes, that all samples are flat and stay so: squared errors
-/// do not tell that a sea with waves looks wrong.
+/// The worth, as a share of the bytes, of a plane whose samples are all flat and stay so: squared
+/// errors do not tell that a sea with waves looks wrong.
 constexpr double kWorthOfFlatness = 0.1;
 
 /// The step, in units of the plane, that the purpose asks for.
@@ -44,7 +45,7 @@ double stepOf(const TriedPlane& plane, const HeightPurpose& purpose, int fractio
   return plane.step(8 * static_cast<double>(purpose.bytes));
 }
 
-/// What the purpose leaves to a sample of the plane.
+/// The bits or the error that the purpose leaves for a sample of the plane.
 RateTarget rateOf(const PlaneView<const int32_t>& plane, const HeightPurpose& purpose) {
   if (purpose.mean_square > 0) return {.mean_square = purpose.mean_square};
   if (purpose.bytes == UINT64_MAX) return {};
@@ -52,7 +53,7 @@ RateTarget rateOf(const PlaneView<const int32_t>& plane, const HeightPurpose& pu
   return {.bits = 8 * static_cast<double>(purpose.bytes) / std::max(samples, 1.0)};
 }
 
-/// Tries areas against what was best so far.
+/// Compares trials of areas with the best trial so far.
 class FlatTrials {
  public:
   FlatTrials(const PlaneView<const int32_t>& heights, Mask valid, const HeightPurpose& purpose)
@@ -99,8 +100,8 @@ class FlatTrials {
             static_cast<double>(heights_.extent().samples())};
   }
 
-  /// The shape that pays best; nothing: none does. Smaller areas are added if simpler shapes do not
-  /// gain.
+  /// The shape that pays best; nothing if no shape pays. Smaller areas are added if simpler shapes
+  /// do not gain.
   std::optional<FlatShape> shapeThatPays() {
     const ComparedSteps steps = stepsOfPlain();
     const Trial large = {kShapes[kLargeAreas], priceOf(kShapes[kLargeAreas], steps)};
@@ -115,7 +116,7 @@ class FlatTrials {
     return best.shape;
   }
 
-  /// The best of them all, which are tried until prices rise.
+  /// The best of the shapes, which are tried until prices rise.
   Trial tryAll(const Trial& first, std::vector<FlatShape> shapes, const ComparedSteps& steps) {
     Trial best = first;
     double before = first.price;
@@ -157,7 +158,7 @@ class FlatTrials {
                        kHeaderBits + plane.bitsOfAreas());
   }
 
-  /// Early doubling is cheap where levels are lifted jointly. Beside held samples they are not.
+  /// Early doubling is cheap where levels are lifted jointly. Beside held samples levels are not.
   WaveletHeader waveletBeside(const FlatAreas& areas) const {
     WaveletHeader header = chooseWavelet(heights_, areas.held(), purpose_.range_bits,
                                          purpose_.purpose, rateOf(heights_, purpose_));

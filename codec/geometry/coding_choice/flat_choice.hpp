@@ -18,14 +18,14 @@ struct FlatLayer {
   FlatAreas areas;
   std::vector<uint8_t> codeword;
 
-  /// Options for the coefficients beside them. The layer outlives the options.
+  /// Options for coefficients beside the areas. The layer outlives the options.
   CoefficientOptions beside(CoefficientOptions options) const {
     if (!areas.empty()) options.flat = &areas;
     return options;
   }
 };
 
-/// What heights in steps are coded for.
+/// The purpose for which heights in steps are coded.
 struct HeightPurpose {
   int range_bits;  ///< the steps span less than 2^range_bits
   Purpose purpose;
@@ -40,8 +40,8 @@ struct FlatChoice {
   WaveletHeader wavelet;
 };
 
-/// heights: in steps, with the samples that are lifted. valid: those that are not void; its bytes
-/// outlive the call.
+/// Chooses the areas and the filters. heights: in steps, with the samples that are lifted. valid:
+/// samples that are not void; its bytes outlive the call.
 FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, Mask valid,
                            const HeightPurpose& purpose);
 

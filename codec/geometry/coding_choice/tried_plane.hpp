@@ -28,10 +28,10 @@ struct CopiedPart {
   Extent extent() const { return place.window.extent(); }
 };
 
-/// A part, transformed. What it has been found to cost is kept.
+/// A part, transformed. It keeps its costs once they are computed.
 class TriedPart {
  public:
-  /// The part outlives this.
+  /// The part outlives this object.
   TriedPart(const CopiedPart& part, FlatAreas flat, const WaveletHeader& wavelet);
   TriedPart(const TriedPart&) = delete;  // the layout refers to it
   TriedPart& operator=(const TriedPart&) = delete;
@@ -48,24 +48,26 @@ class TriedPart {
   std::map<double, PlaneCost> costs_;  ///< by the step
 };
 
-/// What a part costs with one wavelet and the areas of several shapes, which it often shows alike.
+/// The costs of a part with one wavelet and the areas of several shapes, which are often alike in
+/// the part.
 class PartTrials {
  public:
-  /// The part outlives this.
+  /// The part outlives this object.
   explicit PartTrials(const CopiedPart& part) : part_(&part) {}
 
   TriedPart& tried(FlatAreas flat, const WaveletHeader& wavelet);
   double standsFor() const { return part_->place.stands_for; }
 
  private:
-  /// The first, which often has no areas, and the last one: more would take memory.
+  /// How many shapes are kept: the first, which often has no areas, and the last one. More would
+  /// take memory.
   static constexpr size_t kKept = 2;
 
   const CopiedPart* part_;
   std::vector<std::unique_ptr<TriedPart>> tried_;
 };
 
-/// Parts that stand for a plane, and what that costs.
+/// The parts that stand for a plane, and the estimated cost of the plane.
 class TriedPlane {
  public:
   /// trials: of the wavelet; they outlive this. areas: of each part. threads: nothing depends on

@@ -29,7 +29,7 @@ inline uint32_t magnitudeOf(int32_t correction) {
   return correction < 0 ? 0u - bits : bits;
 }
 
-/// The same, or its negative modulo 2^32.
+/// The number itself, or its negative modulo 2^32.
 inline int32_t toSide(int32_t number, bool other) {
   return other ? static_cast<int32_t>(0u - static_cast<uint32_t>(number)) : number;
 }
@@ -37,7 +37,7 @@ inline int32_t toSide(int32_t number, bool other) {
 /// Binary digits of magnitudes below the highest one: the first by the class, others at even odds.
 class CorrectionDigits {
  public:
-  /// The magnitude of so many bits. Io, known: of CorrectionCoder.
+  /// The magnitude of `bits` bits. Io, known: of CorrectionCoder.
   template <class Io>
   uint32_t code(Io& io, int32_t known, int bits) {
     uint32_t result = uint32_t{1} << (bits - 1);
@@ -63,7 +63,7 @@ class CorrectionDigits {
 template <class Io>
 class CorrectionCoder {
  public:
-  /// hints: how many there are.
+  /// hints: the number of different hints.
   CorrectionCoder(uint32_t width, size_t hints, Io& io)
       : io_(io),
         above_(size_t{width} + 2),
@@ -77,8 +77,8 @@ class CorrectionCoder {
     std::fill(here_.begin(), here_.end(), Known());
   }
 
-  /// The correction of the sample in column x, right of those before it. known: itself, or anything
-  /// in decoders. Where io has stopped the result means nothing.
+  /// The correction of the sample in column x, right of the coded ones. known: the correction
+  /// itself, or any number in decoders. Where io has stopped the result means nothing.
   int32_t code(uint32_t x, size_t hint, int32_t known) {
     const int32_t correction =
         code(hint, known, {here_[x], above_[x + 1], above_[x], above_[x + 2]});

@@ -14,7 +14,8 @@
 
 namespace tetrakis::inline corrections {
 
-/// The codewords of the parts, in their order. One whose samples are all void may be empty.
+/// The codewords of the parts, in their order. The codeword of a part whose samples are all void
+/// may be empty.
 using PartCodewords = std::vector<std::vector<uint8_t>>;
 
 inline uint64_t bytesOf(const PartCodewords& codewords) {
@@ -22,8 +23,8 @@ inline uint64_t bytesOf(const PartCodewords& codewords) {
                          [](uint64_t sum, const auto& codeword) { return sum + codeword.size(); });
 }
 
-/// code(window): the codeword of a part. Called for different parts at the same time; nothing
-/// depends on the threads.
+/// Codes the parts at the same time. code(window): the codeword of a part. Nothing depends on the
+/// threads.
 template <class Code>
 PartCodewords encodeParts(const GeometryHeader& header, uint32_t threads, const Code& code) {
   const std::vector<Window> parts = correctionParts(header.extent(), header.regions.side_log2);

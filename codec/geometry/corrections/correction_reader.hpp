@@ -9,11 +9,11 @@
 
 namespace tetrakis::inline corrections {
 
-/// Decoder: a RangeDecoder, or what stands in its place.
+/// Decoder: a RangeDecoder, or a class with the same functions.
 template <class Decoder = RangeDecoder>
 class CorrectionReader {
  public:
-  /// codeword: any prefix of one; outlives the reader.
+  /// codeword: any prefix of a codeword of corrections; outlives the reader.
   explicit CorrectionReader(std::span<const uint8_t> codeword) : decoder_(codeword) {}
 
   bool more(AdaptiveBit& model, int32_t, int) { return decoder_.decode(model); }

@@ -16,8 +16,8 @@ namespace tetrakis::inline corrections {
 /// are void.
 using TakeCorrections = std::function<void(size_t first, std::span<const int32_t> row)>;
 
-/// Hands over the corrections row by row, as far as they are decided. codeword: any prefix of one
-/// that encodeCorrections() made. Safe on any bytes.
+/// Hands over the corrections row by row, as far as they are decided. codeword: any prefix of a
+/// codeword of encodeCorrections(). Safe on any bytes.
 void decodeCorrections(std::span<const uint8_t> codeword, const CorrectionHints& hints,
                        const TakeCorrections& take);
 

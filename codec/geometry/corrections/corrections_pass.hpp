@@ -13,13 +13,13 @@
 
 namespace tetrakis::inline corrections {
 
-/// What both sides know of the samples: a hint for each, below kHints. Samples that do not exist
-/// have no correction.
+/// The knowledge of both sides about the samples: a hint for each, below kHints. Samples that do
+/// not exist have no correction.
 using CorrectionHints = PlaneView<const uint8_t>;
 inline constexpr int kHints = 32;
 
-/// Io: as of CorrectionCoder. known(sample): the correction, or anything in decoders.
-/// take(first, row): takes the corrections row by row, up to the first undecided one.
+/// Codes all corrections. Io: as of CorrectionCoder. known(sample): the correction, or any number
+/// in decoders. take(first, row): takes the corrections row by row, up to the first undecided one.
 template <class Io, class KnownCorrection, class TakeRow>
 void codeCorrections(const CorrectionHints& hints, Io& io, const KnownCorrection& known,
                      const TakeRow& take) {

@@ -42,7 +42,7 @@ class ErrorForecast {
     std::fill(missed_[0].begin(), missed_[0].end(), 0);
   }
 
-  /// Looks at the neighbours of the sample in column x.
+  /// Computes the forecast for the sample in column x from its neighbours.
   void look(uint32_t x) {
     const size_t i = x + kLeft;
     const auto &here = errors_[0], &above = errors_[1], &upper = errors_[2];
@@ -56,11 +56,11 @@ class ErrorForecast {
   }
   int32_t foretold() const { return foretold_; }
 
-  /// By how much forecasts nearby have missed the errors.
+  /// The level of the error by which forecasts nearby have missed.
   size_t missedLevel() const { return levelOf(missed_nearby_); }
   size_t level() const { return std::min(missedLevel(), kLevels - 1); }
 
-  /// Learns the error of the sample that it has looked at.
+  /// Learns the error of the sample that look() was called for.
   void learn(uint32_t x, int64_t error) {
     constexpr int64_t kRate = 1 << 12, kQuiet = 64, kLargestWeight = 1 << 18;
     const auto clamped = static_cast<int32_t>(std::clamp<int64_t>(error, -kLargest, kLargest));

@@ -29,7 +29,7 @@
 
 namespace tetrakis::inline corrections {
 
-/// The step nearest to a height with its foretold error, halves up.
+/// The step nearest to a height plus its foretold error, halves up.
 struct ForetoldStep {
   int32_t step;
   bool below;    ///< the height lies below it
@@ -63,7 +63,8 @@ class ExactCorrectionCoder {
  public:
   explicit ExactCorrectionCoder(Io& io) : io_(io) {}
 
-  /// known: the correction, or anything in decoders. Where io has stopped the result means nothing.
+  /// known: the correction, or any number in decoders. Where io has stopped the result means
+  /// nothing.
   int32_t code(const NearSteps& near, size_t level, size_t place, int32_t known) {
     models_.look(near, level, place);
     if (const std::optional<int32_t> far = codeFar(near, known)) return *far;
@@ -74,8 +75,8 @@ class ExactCorrectionCoder {
   }
 
  private:
-  /// The correction, if it leads to the step of a neighbour that one question after the other would
-  /// not ask for.
+  /// The correction, if it leads to the step of a neighbour that lies beyond the questions asked
+  /// one after the other.
   std::optional<int32_t> codeFar(const NearSteps& near, int32_t known) {
     const std::array<int64_t, StepModels::kFar> steps = {near.west, near.north, near.north_east};
     for (size_t which = 0; which < steps.size(); ++which) {
@@ -123,9 +124,9 @@ class ExactCorrectionCoder {
   std::array<AdaptiveBit, kMostBits> high_;  ///< the second digit of a rest, by its bits
 };
 
-/// heights: in units of 2^-fraction_bits steps. exact(sample): the whole steps that it comes from,
-/// or anything in decoders. take(first, row): takes these row by row, up to the first undecided
-/// one; 0 where samples are void.
+/// Codes all steps. heights: in units of 2^-fraction_bits steps. exact(sample): the whole steps
+/// that the sample comes from, or any number in decoders. take(first, row): takes the steps row by
+/// row, up to the first undecided one; 0 where samples are void.
 template <class Io, class ExactStep, class TakeRow>
 void codeExactSteps(const PlaneView<const int32_t>& heights, int fraction_bits, Io& io,
                     const ExactStep& exact, const TakeRow& take) {

@@ -51,9 +51,9 @@ class ExactRows {
 
   void put(uint32_t x, int32_t step) { rows_[0][x + kLeft] = step; }
 
-  /// The steps near the one in column x, as counted from `from`, in the other direction if
-  /// `backwards`. Where there is none, as at voids, the next one on the way to the sample stands
-  /// in; `from` itself, if there is neither W nor N.
+  /// The steps near the sample in column x, as counted from `from`, in the opposite direction if
+  /// `backwards`. Where a neighbour is missing, as at voids, the next neighbour on the way to the
+  /// sample stands in for it; `from` itself, if there is neither W nor N.
   NearSteps near(uint32_t x, int32_t from, bool backwards) const {
     const auto &here = rows_[0], &above = rows_[1], &upper = rows_[2];
     const size_t i = x + kLeft;

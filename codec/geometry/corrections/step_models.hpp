@@ -40,7 +40,7 @@ struct Question {
     const auto which = static_cast<size_t>(std::min(magnitude, 4));
     return {(negative ? 5 : 1) + which, negative ? 3u : 2u, negative ? -magnitude : magnitude};
   }
-  /// Has the rest of the magnitude more than so many bits?
+  /// Does the rest of the magnitude have more than `bits` bits?
   static constexpr Question beyond(int bits, bool negative) {
     return {9 + static_cast<size_t>(std::min(bits, 8)), 4, negative ? -kOneByOne : kOneByOne};
   }
@@ -66,7 +66,7 @@ class StepModels {
         far_alike_(NearSteps::kAlike * kSizesOfFar * kFar),
         far_weights_(kSpreads * kFar, freshWeights<kFarModels>()) {}
 
-  /// What is known of a sample before it is asked about.
+  /// Sets the contexts of a sample before the first question about it.
   void look(const NearSteps& near, size_t level, size_t place) {
     near_ = near;
     level_ = level;

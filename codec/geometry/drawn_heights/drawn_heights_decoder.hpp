@@ -13,13 +13,13 @@
 
 namespace tetrakis::inline drawn_heights {
 
-/// Decodes what a view shows. Of a level only its vertices are decoded; for a window all are, but
-/// only those that it needs get heights. codeword: any prefix of that of a geometry with
-/// header.drawn. valid: of the whole plane. Safe on any bytes.
+/// Decodes the heights of a view. For a level only its vertices are decoded; for a window all
+/// vertices are, but only those that the window needs get heights. codeword: any prefix of the
+/// codeword of a geometry with header.drawn. valid: of the whole plane. Safe on any bytes.
 DecodedGeometry decodeDrawnHeights(const GeometryHeader& header, std::span<const uint8_t> codeword,
                                    const SharedBits& valid, const View& view);
 
-/// What a surface shows.
+/// The heights of the shown part of a surface.
 DecodedGeometry decodedHeights(const DrawnSurface& surface);
 
 }  // namespace tetrakis::inline drawn_heights

@@ -10,8 +10,8 @@
 
 namespace tetrakis::inline drawn_heights {
 
-/// Lossless, whole. Nothing if there are more than kMostDrawnValues values. Distortion is in
-/// squared units of the heights, summed over the valid samples.
+/// Codes all heights without loss, whole. Nothing if there are more than kMostDrawnValues values.
+/// Distortion is in squared units of the heights, summed over the valid samples.
 std::optional<EncodedTrack> encodeDrawnHeights(const PlaneView<const int32_t>& heights);
 
 }  // namespace tetrakis::inline drawn_heights

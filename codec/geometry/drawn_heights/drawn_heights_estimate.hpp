@@ -10,14 +10,14 @@
 
 namespace tetrakis::inline drawn_heights {
 
-/// About how many bytes the steps take as a drawing. Drawings take 0.7 to 1.05 times as many;
-/// terrain, 1.7 times.
+/// About how many bytes the steps take as a drawing. Drawings take 0.7 to 1.05 times this number;
+/// drawn terrain takes 1.7 times.
 inline double estimateDrawing(const PlaneView<const int32_t>& heights) {
   return estimateDrawing(heights, Alone::kDifference);
 }
 
-/// Whether they may take at most so many bytes. Shapes whose borders the estimate sees as noise
-/// take two thirds of it.
+/// Whether the drawing may take at most `bytes` bytes. Shapes whose borders look like noise to the
+/// estimate take two thirds of it.
 inline bool drawingMayFit(const PlaneView<const int32_t>& heights, uint64_t bytes) {
   return estimateDrawing(heights) <= 1.5 * static_cast<double>(bytes);
 }

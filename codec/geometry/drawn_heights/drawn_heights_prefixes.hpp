@@ -13,8 +13,9 @@
 
 namespace tetrakis::inline drawn_heights {
 
-/// Returns what gives the same as decodeDrawnHeights() of the first bytes of the codeword at level
-/// 0, in less time. codeword: all of it, as an encoder wrote it. valid: of the plane.
+/// Returns a function that gives the same heights as decodeDrawnHeights() of the first bytes of the
+/// codeword at level 0, in less time. codeword: all of it, as an encoder wrote it. valid: of the
+/// plane.
 std::function<DecodedGeometry(uint64_t bytes)> prefixesOfDrawing(const GeometryHeader& header,
                                                                  std::span<const uint8_t> codeword,
                                                                  Mask valid);

@@ -31,7 +31,7 @@ class DrawnSteps {
 
   int32_t operator[](DrawnIndex i) const { return steps_[i]; }
 
-  /// Codes a step that the list lacks as the difference to the mean of the first two candidates,
+  /// Codes a step that the list lacks as its difference from the mean of the first two candidates,
   /// modulo 2^32.
   template <class Io>
   void code(const Candidates& around, size_t vertex, Io& io) {

@@ -16,7 +16,7 @@ int32_t meanOf(int64_t sum, int n) {
   return static_cast<int32_t>(quotient - (doubled % n < 0));
 }
 
-/// The heights of coarser vertices, looked at from those of one level.
+/// Reads the heights of coarser vertices around those of one level.
 class Around {
  public:
   Around(const Level& level, const DrawnSurface& surface, const int32_t* heights)

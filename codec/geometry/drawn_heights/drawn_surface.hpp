@@ -29,12 +29,13 @@ struct DrawnSurface {
 
   bool isWhole() const { return shown.extent() == extent; }
 
-  /// Writes the heights of the part, and those that they depend on, where they lie in a grid of
-  /// heights. A vertex without an index becomes the mean of the coarser vertices next to it: of
-  /// those that are valid, or if none is, of all. A root is 0. Voids get such a height as well.
+  /// Writes the heights of the part, and the heights that they depend on, at their places in a grid
+  /// of heights. A vertex without an index becomes the mean of the coarser vertices next to it: of
+  /// the valid ones, or of all if none is valid. A root is 0. Voids get heights in the same way.
   void fill(int32_t* heights) const;
 
-  /// Of the part, 1 where a step is another than the height that its vertex would have without one.
+  /// Marks of the part: 1 where a step differs from the height that its vertex would have without
+  /// it.
   std::vector<uint8_t> significant(const int32_t* heights) const;
 };
 

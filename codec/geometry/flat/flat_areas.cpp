@@ -37,8 +37,8 @@ uint32_t forEachLabel(const PlaneView<const uint8_t>& flat, const Visit& visit) 
 
 }  // namespace
 
-/// Labels are joined where they touch, and the first one of those that are joined stands for an
-/// area. The plane is gone through three times, because labels are fewer than samples.
+/// Labels are joined where they touch, and the first of the joined labels stands for an area. The
+/// plane is visited three times, so that labels need not be kept for all samples.
 NumberedAreas numberAreas(const PlaneView<const uint8_t>& flat) {
   assert(flat.extent().samples() <= GeometryLayers::kMostFlatSamples);
   JoinedLabels joined(forEachLabel(flat, [](uint32_t, uint32_t, uint32_t) {}));

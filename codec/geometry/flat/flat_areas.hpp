@@ -25,7 +25,7 @@ struct FlatAreas {
   HeldSamples held() const { return {numbers, heights}; }
 };
 
-/// Labels that stand for one thing where they are joined (R. E. Tarjan's disjoint sets).
+/// Disjoint sets of labels: labels that are joined stand for one area (R. E. Tarjan).
 class JoinedLabels {
  public:
   explicit JoinedLabels(size_t count) : earlier_(count) {
@@ -44,15 +44,15 @@ class JoinedLabels {
     b = first(b);
     (a < b ? earlier_[b] : earlier_[a]) = a < b ? a : b;
   }
-  /// Of each label an earlier one that it is joined with; itself where it is the first.
+  /// For each label an earlier one that it is joined with; the label itself where it is the first.
   std::vector<uint32_t> earlier() && { return std::move(earlier_); }
 
  private:
   std::vector<uint32_t> earlier_;
 };
 
-/// The numbers of the areas of a mask of flat samples, and how many areas there are; no numbers if
-/// these are too many.
+/// The numbers of the areas of a mask of flat samples, and how many areas there are. There are no
+/// numbers if the areas are too many.
 struct NumberedAreas {
   std::vector<uint16_t> numbers;
   uint32_t count = 0;

@@ -10,8 +10,9 @@
 
 namespace tetrakis::inline flat {
 
-/// codeword: any prefix of that of a plane with so many areas and these valid samples. There are
-/// none unless every decision counts and the areas are so many. Safe on any bytes.
+/// codeword: any prefix of the codeword of a plane with this number of areas and these valid
+/// samples. The result has no areas unless every decision counts and the number of areas is right.
+/// Safe on any bytes.
 FlatAreas decodeFlatAreas(std::span<const uint8_t> codeword, Extent plane, const SharedBits& valid,
                           uint32_t areas);
 

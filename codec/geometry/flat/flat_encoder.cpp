@@ -50,7 +50,7 @@ uint64_t FlatFinder::samplesOf(uint32_t least, const Window& window) const {
   return sum;
 }
 
-/// 1 for samples of areas of at least so many, but where two areas touch.
+/// Marks the samples of areas of `least` samples or more, except where two areas touch.
 std::vector<uint8_t> FlatFinder::marked(uint32_t least, const Window& window) const {
   std::vector<uint8_t> flat(window.extent().samples());
   const std::span<const int32_t> values = heights_.values();

@@ -10,7 +10,7 @@
 
 namespace tetrakis::inline flat {
 
-/// Which samples of areas are wanted.
+/// The areas that are wanted.
 struct FlatShape {
   uint32_t least;     ///< samples of an area, at least
   uint8_t reach = 0;  ///< > 0: opened by squares of that reach (wavelet/morphology.hpp)
@@ -19,16 +19,16 @@ struct FlatShape {
 /// The areas of one height in a plane, of any size.
 class FlatFinder {
  public:
-  /// heights: their values outlive this.
+  /// The values of the heights outlive this object.
   explicit FlatFinder(const PlaneView<const int32_t>& heights);
 
   Extent extent() const { return heights_.extent(); }
 
-  /// Samples in a window of areas of at least so many.
+  /// The number of samples in a window that belong to areas of `least` samples or more.
   uint64_t samplesOf(uint32_t least, const Window& window) const;
 
-  /// What a window shows of areas of that shape, without the samples that touch larger ones of
-  /// another height. None if it shows no such area, or too many.
+  /// The areas of a shape as a window shows them, without the samples that touch larger areas of
+  /// another height. None if the window shows no area, or too many.
   FlatAreas areas(const FlatShape& shape, const Window& window) const;
 
  private:
@@ -37,7 +37,7 @@ class FlatFinder {
   static constexpr uint32_t kMostSize = kFirst - 1;
 
   bool none() const { return areas_.empty(); }
-  /// 0 of voids.
+  /// The size of the area of a sample; 0 for voids.
   uint32_t sizeAt(size_t sample) const {
     const uint32_t area = areas_[sample];
     return (area >= kFirst ? area : areas_[area]) & kMostSize;

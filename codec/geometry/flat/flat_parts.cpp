@@ -13,7 +13,7 @@ constexpr uint32_t kPartSide = 128;
 constexpr std::array<size_t, 3> kMost = {8, 4, 4};
 constexpr size_t kMostParts = 16;
 
-/// The parts of a grid whose last row and column take what is left.
+/// The parts of a grid. The last row and column of parts take the rest of the plane.
 std::vector<Window> partsOf(Extent plane) {
   const auto count = [](uint32_t side) { return std::max((side + kPartSide / 2) / kPartSide, 1u); };
   const uint32_t columns = count(plane.width), rows = count(plane.height);
@@ -29,7 +29,7 @@ std::vector<Window> partsOf(Extent plane) {
   return parts;
 }
 
-/// Takes at most so many of the parts, at equal distances.
+/// Takes at most `most` of the parts, at equal distances.
 void takeEvenly(const std::vector<Window>& parts, size_t most, std::vector<SampledPart>& taken) {
   const size_t count = std::min(parts.size(), most), before = taken.size();
   double all = 0, some = 0;

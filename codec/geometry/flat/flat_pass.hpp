@@ -20,12 +20,12 @@
 
 namespace tetrakis::inline flat {
 
-/// The mask's side of a decision. Io: as below, and
+/// FlatMaskIo is the side of ValidityPass for the mask of flat samples. Io: as below, and
 ///   uint32_t run(AdaptiveBit&, bool answer, uint32_t most)   as of ValidityPass
 template <class Io>
 class FlatMaskIo {
  public:
-  /// flat: what the encoder knows; the decoder ignores it.
+  /// flat: the mask that the encoder knows; the decoder ignores it.
   FlatMaskIo(Io& io, const BitPlane* valid, const uint8_t* flat)
       : io_(io), valid_(valid), flat_(flat) {}
   uint64_t asked(const SampleLine& line) const { return marksOf(valid_, line); }
@@ -50,8 +50,8 @@ class FlatHeightsPass {
  public:
   explicit FlatHeightsPass(Io& io) : io_(io) {}
 
-  /// heights: of the encoder those of the areas, of the decoder as many zeros, which it fills. They
-  /// mean nothing behind the first decision that does not count.
+  /// heights: in the encoder those of the areas, in the decoder as many zeros, which run()
+  /// replaces. Behind the first decision that does not count they mean nothing.
   void run(std::vector<int32_t>& heights) {
     for (int32_t& height : heights) {
       if (io_.stopped()) return;

@@ -9,7 +9,7 @@
 
 namespace tetrakis::inline quantiser {
 
-/// The steps with bridges of such a reach over voids; 0: without any.
+/// The steps with bridges of the given reach over voids; 0: without any.
 HeightSteps withBridges(HeightSteps steps, Extent plane, uint8_t reach);
 
 /// The steps with the bridges that pay, if any do.

@@ -32,10 +32,10 @@ struct Exceptions {
   }
 };
 
-/// The coefficients of steps, without what restores samples behind them.
+/// The bits of the coefficients of steps, without the corrections that restore samples behind them.
 double bitsOfSteps(const tks_heights& heights, const HeightSteps& steps);
 
-/// The steps, multiples of `step`, and the corrections that restore the samples.
+/// The bits of the steps, multiples of `step`, and of the corrections that restore the samples.
 double exactBits(const tks_heights& heights, const HeightSteps& steps);
 
 }  // namespace tetrakis::inline quantiser

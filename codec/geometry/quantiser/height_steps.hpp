@@ -31,15 +31,15 @@ struct HeightSteps {
 
   size_t validCount() const;
   size_t liftedCount() const;
-  /// Of the squared error of the samples that are lifted, those that are valid have about so much.
+  /// The share of the squared error of the lifted samples that falls, roughly, on the valid ones.
   double liftedShare() const;
-  /// The steps as the transform takes them.
+  /// The steps as a plane for the transform.
   PlaneView<const int32_t> lifting(Extent plane) const {
     return {steps, plane, bridge == 0 ? valid : lifted};
   }
 };
 
-/// The whole steps of the heights as decoders know them, who have a table turned into heights.
+/// The whole steps of the heights as decoders have them, which turn places in a table into heights.
 std::vector<int32_t> decodedSteps(const HeightSteps& steps, const GeometryHeader& header);
 
 /// The corrections that restore the samples.

@@ -15,7 +15,7 @@ namespace tetrakis::inline quantiser {
 namespace {
 
 /// The share of multiples among the samples that differ from the one before. Flat ground says
-/// nothing about steps. Some thousands of samples are looked at.
+/// nothing about steps. Only some thousands of samples are examined.
 double shareOfMultiples(const tks_heights& heights, const HeightSteps& found, double step) {
   constexpr size_t kLookedAt = 1 << 16;
   const auto* samples = static_cast<const float*>(heights.data);

@@ -11,8 +11,8 @@
 
 namespace tetrakis::inline quantiser {
 
-/// found: the steps that toSteps() has found, with corrections behind them where they are not
-/// exact. Returns these, or coarser or finer ones that by the estimate clearly take fewer bits.
+/// found: the steps of toSteps(), with corrections behind them where they are not exact. Returns
+/// these steps, or coarser or finer ones that by the estimate clearly take fewer bits.
 HeightSteps fewerBitsByOtherSteps(const tks_heights& heights, HeightSteps found);
 
 }  // namespace tetrakis::inline quantiser

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A polyline is refined greedily: the next knot is the value that errs most in the segment that
 // errs most (U. Ramer, "An iterative procedure for the polygonal approximation of plane curves",
-// 1972; errors are weighted with the samples that have a value). Each polyline on the way is a
-// candidate. A knot pays if it takes off more error a byte than the table itself will do: then
-// error times bytes falls.
+// 1972; errors are weighted with the number of samples of each value). Each polyline on the way is
+// a candidate. A knot pays if it takes off more error a byte than the table itself does later: then
+// the product of error and bytes falls.
 #include "codec/geometry/quantiser/stand_in_choice.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace tetrakis::inline quantiser {
 
 namespace {
 
-/// Knots take at most that part of the table's bytes: tables take up to 3 % of a stream, and a
+/// The part of the table's bytes that knots take at most: tables take up to 3 % of a stream, and a
 /// stream of heights with many values is not to pay for its early prefixes.
 constexpr size_t kMostOfTable = 32;
 
@@ -48,7 +48,7 @@ class Polylines {
     }
   }
 
-  /// Squared error of samples, in steps, with these knots.
+  /// Squared error of samples, in steps, with the given knots.
   double squaresOf(const std::vector<TableKnot>& knots) const {
     return withSampleType(static_cast<tks_sample>(header_.sample), [&](auto type) {
       using T = decltype(type);
@@ -67,7 +67,8 @@ class Polylines {
     });
   }
 
-  /// A polyline and its error, estimated: that of heights rounded to whole steps is a twelfth.
+  /// Receives a polyline and its estimated error; the rounding of heights to whole steps counts as
+  /// a twelfth.
   using Attempt = std::function<void(const std::vector<TableKnot>& knots, double squares)>;
 
   /// Attempts polylines, from the one between the ends of the table on, each with one knot more.

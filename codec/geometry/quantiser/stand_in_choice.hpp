@@ -15,8 +15,8 @@ struct StandInChoice {
   double squares = 0;  ///< squared error of the samples with complete coefficients, in steps
 };
 
-/// steps: with a table. table_bytes: of its codeword. most: what a sample adds to the squares at
-/// most.
+/// steps: with a table. table_bytes: of its codeword. most: the squared error that one sample adds
+/// at most.
 StandInChoice chooseStandIn(const HeightSteps& steps, const GeometryHeader& header,
                             size_t table_bytes, double most);
 

@@ -27,7 +27,8 @@ namespace {
 constexpr double kMostSteps = 1 << 26;
 constexpr double kLossySteps = 1 << 20;  // finer than any lossy stream resolves
 
-/// One sample in so many may be an exception: one that the steps of all others do not restore.
+/// One in this number of samples may be an exception, which the step of all others does not
+/// restore.
 constexpr size_t kExceptionsIn = 256;
 
 template <class T>
@@ -50,8 +51,8 @@ class Stepper {
   double range() const { return range_; }
   bool fits(double step) const { return range_ / step < kMostSteps; }
 
-  /// Leaves a few samples out of the range that are so far from all others that no 2^26 steps show
-  /// both. Undeclared voids are such: one of 3.4e38 among heights of metres.
+  /// Leaves a few samples out of the range that are so far from all others that 2^26 steps cannot
+  /// show both. Undeclared voids are examples: a 3.4e38 among heights of metres.
   void leaveOutliers() {
     constexpr double kFar = 1 << 20;
     std::vector<T> sorted;
@@ -75,9 +76,9 @@ class Stepper {
     setRange(core);
   }
 
-  /// How far the base lies above the lowest sample. Decoders show it until they know more, so that
-  /// it is the mean where that is far from the middle of the range, as on open ground among trees;
-  /// elsewhere it is the middle, where steps take the fewest bits.
+  /// How far the base lies above the lowest sample. Decoders show the base until they know more. So
+  /// the base is the mean where the mean is far from the middle of the range, as on open ground
+  /// among trees; elsewhere it is the middle, where steps take the fewest bits.
   double typicalAbove(double step) const {
     constexpr double kFar = 0.25, kFewSteps = 1 << 24;
     double sum = 0, count = 0;
@@ -111,7 +112,7 @@ class Stepper {
     return out;
   }
 
-  /// The steps of samples that all have one value, their base; or of none.
+  /// The steps of samples that all have one value, the base; or of no samples.
   HeightSteps flat() const {
     HeightSteps out;
     out.steps.assign(count_, 0);
@@ -122,8 +123,8 @@ class Stepper {
     return out;
   }
 
-  /// Whether `step` restores the values of all samples in the range but so many. The sign of a zero
-  /// is none: a correction restores it where every bit counts.
+  /// Whether `step` restores the values of all samples in the range except at most `exceptions`.
+  /// The sign of a zero does not count: a correction restores it where every bit counts.
   bool restores(double step, size_t exceptions) const {
     HeightSteps trial;
     trial.step = step;
@@ -134,8 +135,8 @@ class Stepper {
     return missed <= exceptions;
   }
 
-  /// How many exceptions count as few: one to so many samples that differ from the one before.
-  /// Flat ground says nothing about steps.
+  /// How many exceptions are allowed: a share of the samples that differ from the one before. Flat
+  /// ground says nothing about steps.
   size_t few() const {
     size_t changes = 0;
     for (size_t i = 1; i < count_; ++i) changes += isInRange(i) && samples_[i] != samples_[i - 1];
@@ -153,7 +154,7 @@ class Stepper {
   }
 
   /// The greatest common divisor of all floats in the range, in a unit of which they may be
-  /// multiples: 5 of heights in fives of metres. 1 if there is none.
+  /// multiples: 5 for heights in fives of metres. 1 if there is none.
   double commonMultiple(double unit) const {
     constexpr double kExact = 0x1p53;
     uint64_t divisor = 0;
@@ -166,7 +167,8 @@ class Stepper {
     return divisor == 0 ? 1 : static_cast<double>(divisor);
   }
 
-  /// The largest power of two that divides every float in the range but so many; 1 if all are 0.
+  /// The largest power of two that divides every float in the range except at most `exceptions`; 1
+  /// if all are 0.
   double commonPowerOfTwo(size_t exceptions) const {
     constexpr int kLeast = -149, kMost = 127;  // exponents of the lowest bit of a float
     std::array<size_t, kMost - kLeast + 1> lowest_bits{};
@@ -239,7 +241,7 @@ double lossyStep(double range, double error) {
   return std::max(step, powerOfTwoBelow(range / kMostSteps) * 2);
 }
 
-/// The coarsest step that restores all samples but so many.
+/// The coarsest step that restores all samples except at most `exceptions`.
 std::optional<double> restoringStep(const Stepper<float>& stepper, size_t exceptions) {
   for (const double unit : {1.0, 0.1, 0.01, 0.001}) {
     const double step = exceptions == 0 ? unit * stepper.commonMultiple(unit) : unit;
@@ -250,12 +252,13 @@ std::optional<double> restoringStep(const Stepper<float>& stepper, size_t except
   return {};
 }
 
-/// The step of almost all samples, where that pays: a step says what is true of all samples, and
-/// a few exceptions must not make everything finer.
+/// The step of almost all samples, where it pays: a few exceptions must not make the step of all
+/// samples finer.
 std::optional<double> tolerantStep(const Stepper<float>& stepper, std::optional<double> exact) {
   const size_t few = stepper.few();
   const auto step = few > 0 ? restoringStep(stepper, few) : std::nullopt;
-  // A power of two finer than what corrections want anyway gains nothing.
+  // The step gains nothing if it is less than twice the exact one or, without an exact one, less
+  // than correctedStep().
   if (!step || *step < (exact ? 2 * *exact : stepper.correctedStep())) return exact;
   return step;
 }

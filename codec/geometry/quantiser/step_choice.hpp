@@ -11,14 +11,14 @@
 
 namespace tetrakis::inline quantiser {
 
-/// What the target asks of steps that are chosen.
+/// The demands of the target on the steps that are chosen.
 struct StepNeeds {
   double given = 0;       ///< > 0: the step itself, in sample units; nothing is chosen
   bool lossless = false;  ///< corrections will restore the samples
   bool table = false;     ///< for `lossless`: a table of values may take the place of multiples
   double error = 0;       ///< > 0: largest error wanted, in sample units
-  /// A few samples so far from the others that no steps show both may be lost; for `lossless`
-  /// corrections restore them.
+  /// A few samples may be lost that are so far from the others that no steps show both; for
+  /// `lossless` corrections restore them.
   bool leave_outliers = false;
 };
 

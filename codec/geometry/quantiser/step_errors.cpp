@@ -14,8 +14,8 @@ namespace tetrakis::inline quantiser {
 
 namespace {
 
-/// Compares with the true samples those that are restored some at a time, so that nobody needs room
-/// for all of them. restore_some(first, samples): writes those from `first` on.
+/// Compares restored samples with the true ones, a block at a time, so that no caller needs memory
+/// for all of them. restore_some(first, samples): writes the samples from `first` on.
 template <class T, class RestoreSome>
 StepErrors errorsOf(const tks_heights& heights, Mask valid, const SquareSum& sum,
                     const RestoreSome& restore_some) {

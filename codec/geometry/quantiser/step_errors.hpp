@@ -15,12 +15,12 @@
 
 namespace tetrakis::inline quantiser {
 
-/// Largest distance between a valid sample and what its step becomes, and the sum of the squared
-/// distances; in sample units.
+/// Largest distance between a valid sample and the sample that its step restores, and the sum of
+/// the squared distances; in sample units.
 struct StepErrors {
   double largest = 0, squares = 0;
 };
-/// How squared errors add up.
+/// The rule by which squared errors add up.
 struct SquareSum {
   double most = std::numeric_limits<double>::infinity();  ///< what one sample adds at most
   std::span<const uint32_t> times = {};                   ///< how often each counts; empty: once
@@ -33,7 +33,7 @@ StepErrors errorsOf(const tks_heights& heights, const HeightSteps& steps,
                     const SquareSum& sum = {});
 
 /// The squared distances between decoded samples, corrections included, and the true ones, over the
-/// samples that `valid` says (empty: all). scale: their base and step.
+/// samples that `valid` marks (empty: all). scale: the base and step of the decoded heights.
 double squaresOfSamples(const tks_heights& truth, const DecodedHeights& decoded,
                         const std::vector<uint8_t>& valid, const HeightSteps& scale,
                         const SquareSum& sum);

@@ -21,17 +21,17 @@ namespace tetrakis::inline quantiser {
 
 namespace {
 
-/// A table of more values than one for so many samples is not looked at: it would not pay.
+/// A table with more than one value for this number of samples is not examined: it would not pay.
 constexpr size_t kSamplesForAValue = 4;
-/// At most one sample in so many may have a value that the table leaves out.
+/// At most one in this number of samples may have a value that the table leaves out.
 constexpr size_t kSamplesForAnException = 16;
 /// A table of nearly all numbers in the range saves nothing.
 constexpr double kNearlyAll = 0.9;
-/// Estimates of bits are not better than that.
+/// A gain below this is within the error of the estimates.
 constexpr double kClearly = 0.98;
 
-/// A value that samples have: its word (codec/geometry/steps/sample_order.hpp), and how many they
-/// are.
+/// A value that samples have: its word (codec/geometry/steps/sample_order.hpp), and the number of
+/// these samples.
 struct Value {
   uint32_t word;
   uint32_t samples;
@@ -62,7 +62,7 @@ class Values {
  private:
   static constexpr uint32_t kEmpty = UINT32_MAX;
 
-  /// Where the word is, or may go.
+  /// The slot of the word, or the slot where it may be put.
   size_t slotOf(uint32_t word) const {
     const size_t last = slots_.size() - 1;
     size_t at = (word * 0x9e3779b1u >> 11) & last;
@@ -80,7 +80,8 @@ class Values {
   std::vector<Value> values_;
 };
 
-/// bits: the geometric mean of its own and of what its prefixes make of them.
+/// Steps with a table, and their cost. bits: the geometric mean of the bits of the whole and of its
+/// prefixes.
 struct Candidate {
   HeightSteps steps;
   double bits = std::numeric_limits<double>::infinity();
@@ -94,7 +95,7 @@ class TableChoice {
         samples_(multiples.validCount()),
         values_(std::min<size_t>(samples_ / kSamplesForAValue, GeometryLayers::kMostValues)) {}
 
-  /// Whether a table is worth a closer look.
+  /// Whether the values are few enough for a table to be tried.
   bool hasFewValues() {
     int32_t low = INT32_MAX, high = INT32_MIN;
     withSampleType(heights_.sample, [&](auto type) {
@@ -139,7 +140,7 @@ class TableChoice {
     });
   }
 
-  /// How many samples have a value that fewer than `least` samples have.
+  /// How many samples have a value that occurs in fewer than `least` samples.
   size_t rarerThan(uint32_t least) const {
     size_t rare = 0;
     for (size_t i = 0; i < values_.size(); ++i)
@@ -147,8 +148,8 @@ class TableChoice {
     return rare;
   }
 
-  /// The table of the values that so many samples have at least. All others get the place of the
-  /// next smaller value that is in it.
+  /// The table of the values that occur in `least` samples or more. All other samples get the place
+  /// of the next smaller value in the table.
   Candidate tableOf(uint32_t least) const {
     Candidate out;
     std::vector<uint32_t>& words = out.steps.table.words;
@@ -186,7 +187,8 @@ class TableChoice {
     return samples;
   }
 
-  /// place: of each value, which moves behind the bridges before it.
+  /// Adds bridges to the words of a table. place: of each value, which moves behind the bridges
+  /// before it.
   void addBridges(const ValueGaps& gaps, std::vector<uint32_t>& words,
                   std::vector<int32_t>& place) const {
     std::vector<uint32_t> bridged;
@@ -209,7 +211,8 @@ class TableChoice {
     for (int32_t& p : place) p = moved[static_cast<size_t>(p)];
   }
 
-  /// Steps that count from the middle of the table, and the line that comes nearest to its values.
+  /// Describes the steps, which count from the middle of the table, and the line that comes nearest
+  /// to its values.
   void describe(const std::vector<int32_t>& place, HeightSteps& out) const {
     const std::vector<uint32_t>& words = out.table.words;
     const auto middle = static_cast<int32_t>(words.size() / 2);

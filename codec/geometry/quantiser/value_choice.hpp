@@ -8,9 +8,9 @@
 
 namespace tetrakis::inline quantiser {
 
-/// multiples: the steps that toSteps() has found for the heights, with corrections behind them
-/// where they are not exact. Returns these, or places in a table of values. A few rare values
-/// may be missing in the table: then it is not exact, and corrections restore their samples.
+/// multiples: the steps of toSteps() for the heights, with corrections behind them where they are
+/// not exact. Returns these, or places in a table of values. A few rare values may be missing in
+/// the table: then it is not exact, and corrections restore their samples.
 HeightSteps fewerBits(const tks_heights& heights, HeightSteps multiples);
 
 }  // namespace tetrakis::inline quantiser

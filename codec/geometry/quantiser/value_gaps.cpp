@@ -11,12 +11,12 @@ namespace tetrakis::inline quantiser {
 
 namespace {
 
-/// A gap is wide that is so many times the usual one and those beside it.
+/// The factor by which a wide gap exceeds the usual gap and the gaps beside it.
 constexpr double kWide = 16;
-/// Of a bridge's values so many are the usual gap apart, then each gap is twice the one before.
+/// The first values of a bridge are the usual gap apart; then each gap is twice the one before.
 constexpr int kEvenValues = 16, kMostValues = 32;
 
-/// The values of a bridge beside one of its ends, up to a limit that step leads to.
+/// Adds the values of a bridge beside one of its ends, up to a limit in the direction of `step`.
 void addSide(double from, double step, double limit, std::vector<double>& values) {
   for (int i = 0; i < kMostValues; ++i) {
     from += step;

@@ -15,18 +15,19 @@ class ValueGaps {
   explicit ValueGaps(std::vector<double> values);
 
   /// Values that no sample has, smallest first, to stand between values i - 1 and i where these are
-  /// far apart. Without them a prefix would take the lowest ground for what marks holes in it.
+  /// far apart. Without them a prefix would show the lowest ground at the value that marks holes in
+  /// it.
   std::vector<double> bridge(size_t i) const;
 
-  /// By how many bits a sample prefixes are longer than those of even gaps that take as many bits.
-  /// samples: how many have each value. What lies behind a bridge by itself does not count.
+  /// The bits by which samples of prefixes cost more than with even gaps that take as many bits.
+  /// samples: how many have each value. A value that stands alone behind a bridge does not count.
   double unevenness(const std::vector<uint32_t>& samples) const;
 
  private:
   /// Between values i - 1 and i; 0 at the ends.
   double gap(size_t i) const;
   bool isWide(size_t i) const;
-  /// The mean of the squared gaps around a value that are not wide; 0: there is none.
+  /// The mean of the squared gaps around a value that are not wide; 0 if all of them are.
   double squaredGap(size_t i) const;
 
   std::vector<double> values_;

@@ -10,7 +10,7 @@
 
 namespace tetrakis::inline steps {
 
-/// What a view shows of decoded heights, row by row.
+/// Decoded heights of a view, row by row.
 struct DecodedGeometry {
   uint32_t width = 0, height = 0;
   /// Heights in units of 2^-fraction_bits steps; 0 where samples are void.
@@ -20,7 +20,7 @@ struct DecodedGeometry {
   /// drawn and stored heights.
   std::vector<uint8_t> significant;
   std::vector<uint8_t> valid;  ///< 1 where a sample is valid, 0 where it is void; empty: all valid
-  /// How many of the finest levels of the view have no significant coefficient. 0 in a window.
+  /// The number of finest levels of the view that have no significant coefficient. 0 in a window.
   uint32_t quiet_levels = 0;
 
   Extent extent() const { return {width, height}; }

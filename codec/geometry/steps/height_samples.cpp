@@ -23,15 +23,16 @@ T voidSample(const GeometryLayers& layers) {
   }
 }
 
-/// Whether T has the value that is declared for voids. If not no sample can be taken for one.
+/// Whether the type T has the value that is declared for voids. If not, no sample can be mistaken
+/// for a void.
 template <class T>
 bool holdsNodata(const GeometryLayers& layers) {
   if (layers.has_nodata == 0) return false;
   return std::is_floating_point_v<T> || static_cast<double>(voidSample<T>(layers)) == layers.nodata;
 }
 
-/// What a height becomes that came out as the value of voids: the next larger sample, beside the
-/// largest finite one, or infinity, the next smaller. Both zeros have the same neighbour.
+/// The sample for a height that came out as the value of voids: the next larger sample or, beside
+/// the largest finite one or infinity, the next smaller. Both zeros have the same neighbour.
 template <class T>
 T besides(T nodata) {
   if (nodata >= std::numeric_limits<T>::max()) return fromOrder<T>(orderOf(nodata) - 1);

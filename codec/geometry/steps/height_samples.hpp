@@ -18,8 +18,8 @@ namespace tetrakis::inline steps {
 void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
                const GeometryLayers& layers, void* out);
 
-/// The hints (codec/geometry/corrections/corrections_pass.hpp) of corrections to samples that these
-/// heights become, as decoders know them.
+/// The hints (codec/geometry/corrections/corrections_pass.hpp) of corrections of samples, from the
+/// heights that the samples come from, as decoders know them.
 std::vector<uint8_t> sampleHints(std::span<const int32_t> heights, int fraction_bits,
                                  const GeometryHeader& header);
 

@@ -9,9 +9,9 @@
 
 namespace tetrakis::inline steps {
 
-/// It applies to integer samples of up to 16 bits with a whole base and step: base + q * step is a
-/// whole number that doubles hold exactly, so that 32-bit integers do as well once q is kept where
-/// it makes a difference.
+/// The class applies to integer samples of up to 16 bits with a whole base and step: base + q *
+/// step is a whole number that doubles hold exactly, so that 32-bit integers hold it as well once q
+/// is clamped to the range in which it makes a difference.
 template <class T>
 class IntegerScale {
  public:
@@ -35,7 +35,7 @@ class IntegerScale {
   static constexpr int32_t kHigh = std::numeric_limits<T>::max();
 
   static bool isWhole(double x) { return std::abs(x) <= kMost && x == std::floor(x); }
-  /// Truncated.
+  /// The quotient, truncated.
   int32_t quotient(int32_t difference) const { return difference / step_; }
 
   bool applies_;

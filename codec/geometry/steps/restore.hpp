@@ -29,7 +29,7 @@ T restore(double base, double step, int32_t q) {
   }
 }
 
-/// What heights in units of 2^-fraction_bits steps stand for: sample = base + q * step.
+/// The base and step of heights in units of 2^-fraction_bits steps: sample = base + q * step.
 struct Scale {
   double base, step;
 };
@@ -49,7 +49,7 @@ void restoreAll(std::span<const int32_t> heights, int fraction_bits, const Scale
     samples[i] = restore<T>(scale.base, scale.step, wholeStep(heights[i], fraction_bits));
 }
 
-/// Restores the samples from `first` on, corrections included, as many as `samples` has room for.
+/// Restores the samples from `first` on, corrections included, until `samples` is full.
 template <class T>
 void restoreCorrected(const DecodedHeights& decoded, size_t first, const Scale& scale,
                       std::span<T> samples) {

@@ -12,7 +12,8 @@
 
 namespace tetrakis::inline steps {
 
-/// Integers are themselves; the sign and magnitude of a float become two's complement, -0 below 0.
+/// The word of a sample. Integers stay as they are; the sign and magnitude of a float become two's
+/// complement, -0 below 0.
 template <class T>
 uint32_t orderOf(T sample) {
   if constexpr (std::is_floating_point_v<T>) {

@@ -7,7 +7,7 @@
 
 namespace tetrakis::inline values {
 
-/// place: in units of 2^-fraction_bits.
+/// The rise of the polyline at a place. place: in units of 2^-fraction_bits.
 int64_t StandIn::riseAt(int64_t place, int fraction_bits) const {
   const auto after = std::upper_bound(
       knots_.begin(), knots_.end(), place,

@@ -21,7 +21,8 @@ struct ValueTable {
   std::vector<uint32_t> words;
 
   bool empty() const { return words.empty(); }
-  /// The place of step q, which counts from the middle of the table. Beyond the ends: the end.
+  /// The place of step q, which counts from the middle of the table. Steps beyond the ends have the
+  /// place of the end.
   size_t placeOf(int32_t q) const {
     const int64_t place = int64_t{q} + static_cast<int64_t>(words.size() / 2);
     return static_cast<size_t>(
@@ -35,7 +36,7 @@ inline constexpr int kWordBits = 32;
 /// Heights of a table lie between steps.
 inline constexpr int kTableFractionBits = 4;
 
-/// One for each value of the table, which is not empty. header: sample type, base and step.
+/// Each value of the table, which is not empty, in steps. header: sample type, base and step.
 std::vector<ValueInSteps> valuesInSteps(const ValueTable& table, const GeometryHeader& header);
 
 /// Turns places in the table into heights between steps, with a correction for each sample.

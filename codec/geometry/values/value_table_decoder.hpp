@@ -9,8 +9,8 @@
 
 namespace tetrakis::inline values {
 
-/// codeword: any prefix of it. Empty unless all of the values are known. values: how many there
-/// are. Safe on any bytes; takes memory for that many words and no more.
+/// codeword: any prefix of the codeword of a table. Empty unless all values are known. values: how
+/// many there are. Safe on any bytes; takes memory for that many words and no more.
 ValueTable decodeValueTable(std::span<const uint8_t> codeword, uint32_t values);
 
 }  // namespace tetrakis::inline values
