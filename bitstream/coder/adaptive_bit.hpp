@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// An adaptive model predicts one kind of binary decision. It is a running mean that follows the 1/n
-// rule at first and becomes an exponential mean of about 2^8 decisions (after M. Mahoney's PAQ
-// state counters).
+// AdaptiveBit is a model that predicts one kind of binary decision from those before. It is a
+// running mean that follows the 1/n rule at first and becomes an exponential mean of about 2^8
+// decisions (after M. Mahoney's PAQ state counters).
 #pragma once
 
 #include <algorithm>

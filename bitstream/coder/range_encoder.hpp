@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// This binary range encoder (G. N. N. Martin 1979; carries are handled as in I. Pavlov's LZMA)
-// turns decisions into bytes. One codeword holds a whole track; packets are cut out of it at any
-// byte.
+// RangeEncoder turns decisions into bytes by binary range coding (G. N. N. Martin 1979; carries are
+// handled as in I. Pavlov's LZMA). One codeword holds a whole track; packets are cut out of it at
+// any byte.
 #pragma once
 
 #include <cassert>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contexts of a coefficient come from sums of the magnitudes around it, in units of a
-// bit-plane: near neighbours count twice, far ones once, and each product is at most kMostLocal.
+// localSums() adds up the magnitudes around each coefficient, in units of a bit-plane, for its
+// contexts: near neighbours count twice, far ones once, and each product is at most kMostLocal.
 // Eight bits hold the largest sum, so that vector units add many at a time.
 #pragma once
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// This is the menu of wavelets. Each is a short list of lifting steps (W. Sweldens, "The lifting
-// scheme", 1996; integer form: A. R. Calderbank et al., 1998). Steps alternate between predicting
-// the odd samples from the even ones and updating the even ones from the odd ones:
+// liftingFilter() gives the wavelets of the menu. Each is a short list of lifting steps (W.
+// Sweldens, "The lifting scheme", 1996; integer form: A. R. Calderbank et al., 1998). Steps
+// alternate between predicting the odd samples from the even ones and updating the even ones from
+// the odd ones:
 //
 //   predict   odd[i]  += round(sum_k w_k (even[i - k] + even[i + 1 + k]) / 2^shift)
 //   update    even[i] += round(sum_k w_k (odd[i - 1 - k] + odd[i + k]) / 2^shift)
