@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The classes here are the encoder's side of drawing_pass.hpp: they answer each decision of the
-// pass from the samples, write it to a codeword, and account for the error of every prefix.
+// DrawingEncoding is the encoder's side of drawing_pass.hpp: it answers each decision of the pass
+// from the samples, writes it to a codeword, and accounts for the error of every prefix.
 #pragma once
 
 #include <algorithm>

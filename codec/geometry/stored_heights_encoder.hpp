@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file writes the samples of heights as they are, where no coder takes fewer bytes.
+// encodeStoredHeights() writes the samples of heights without coding them, where no coder takes
+// fewer bytes.
 #pragma once
 
 #include <cstddef>

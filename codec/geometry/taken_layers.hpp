@@ -17,7 +17,7 @@ namespace tetrakis::inline geometry {
 /// outlive this object.
 struct TakenLayers {
   const GeometryHeader& header;
-  const GeometryLayers& stated;  ///< what the stream header says of the layers
+  const GeometryLayers& stated;  ///< the layers as the stream header states them
   std::span<const uint8_t> validity = {};
   std::span<const uint8_t> lifted = {};  ///< of heights whose mask comes late
   std::span<const uint8_t> flat = {};

@@ -30,7 +30,7 @@ struct CodedHeights {
   /// corrections alone.
   std::vector<EncodedTrack> tracks;
   uint64_t correction_bytes = 0;       ///< bytes of corrections in the first track
-  double left = 0;                     ///< QuantisedHeights::left, or what stored samples leave
+  double left = 0;                     ///< QuantisedHeights::left, or the error of stored samples
   double shown_void = 0;               ///< squared error, in steps, of a void shown as ground
   FlatLayer flat = {};                 ///< beside which the coefficients were coded
   std::vector<Account> accounts = {};  ///< of an attempt: of the coefficients of each track

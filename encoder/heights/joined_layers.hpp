@@ -15,7 +15,7 @@ namespace tetrakis::inline heights {
 
 /// The layers around coefficients, and the options for coding the coefficients.
 struct HeightLayers {
-  GeometryLayers stated;    ///< what the header says of them
+  GeometryLayers stated;    ///< as the header states them
   MaskRoom mask_room = {};  ///< of a late mask
   WaveletHeader wavelet;
   PriorityHeader priorities;

@@ -13,7 +13,7 @@ namespace tetrakis::inline heights {
 namespace {
 
 /// An estimate of the bytes of a stream for the target, rather too low than too high, with a mask
-/// of `mask` bytes.
+/// of `mask_bytes` bytes.
 double leastStream(const BridgeTarget& target, size_t valid, uint64_t mask_bytes) {
   constexpr double kLossless = 1. / 4, kLossy = 1. / 16;  // bytes a sample
   const double share = target.mean_square > 0 ? kLossy : kLossless;

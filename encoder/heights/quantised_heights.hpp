@@ -20,8 +20,8 @@
 
 namespace tetrakis::inline heights {
 
-/// The RMSE of the cut, in relative steps. Finer ones code what samples do not have, coarser ones
-/// miss more of the multiples.
+/// The RMSE of the cut, in relative steps. Finer cuts code digits that samples do not have, coarser
+/// cuts miss more of the multiples.
 inline constexpr double kRelativeCut = 0.3;
 
 struct QuantisedHeights {

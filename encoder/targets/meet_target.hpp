@@ -12,8 +12,8 @@
 
 namespace tetrakis::inline targets {
 
-/// heights, texture: null where there are none; coded for the target. TKS_USAGE: the PSNR is above
-/// what the step of the heights allows.
+/// heights, texture: null where the stream has none; coded for the target. TKS_USAGE: the PSNR is
+/// higher than the step of the heights allows.
 Result<Selection> meetTarget(const EncodeInputs& inputs,
                              std::shared_ptr<const CodedHeights> heights,
                              std::shared_ptr<const CodedTexture> texture);

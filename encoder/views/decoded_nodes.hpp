@@ -63,7 +63,7 @@ class DecodedNodes {
   const EncodeInputs& inputs_;
   Rated<CodedHeights> heights_;
   Rated<CodedTexture> texture_;
-  std::optional<ShownMesh> mesh_;  ///< what viewers see, if it is not the grid
+  std::optional<ShownMesh> mesh_;  ///< null: viewers see the grid
   HeightsMemory heights_memory_;
   TextureMemory texture_memory_;
 };

@@ -21,8 +21,8 @@ class PrefixErrors {
   /// inputs: of both components; they outlive this. any: a selection of them.
   PrefixErrors(const EncodeInputs& inputs, const Selection& any);
 
-  /// Squared errors of the picture after so many bytes of the packets, their heads counted.
-  /// lengths: rising. Empty: nobody can look at the terrain.
+  /// Squared errors of the picture after each of `lengths` bytes of the packets, their heads
+  /// counted. lengths: rising. Empty: nobody can look at the terrain.
   std::vector<double> of(const Selection& selection, std::span<const uint64_t> lengths) const;
 
  private:

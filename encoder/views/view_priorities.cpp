@@ -18,7 +18,7 @@ namespace {
 
 /// Pixels of all pictures: some hundreds for each tile. Half of them cost baviaanskloof 0.04 dB.
 constexpr size_t kMapPixels = 1 << 16;
-/// A typical error of heights, as a share of their range: what 16 to 64 kB leave.
+/// A typical error of heights, as a share of their range: that of streams of 16 to 64 kB.
 constexpr double kTypicalError = 0.005;
 /// The share of the computed priorities that heights get. A pixel is off as its texels are,
 /// whatever the size of their errors. Errors of heights cost in proportion to their squares only as

@@ -17,8 +17,8 @@ namespace tetrakis::inline pictures {
 /// Any place in a picture.
 struct PicturePoint {
   Ray ray;
-  Vec3 right{}, down{};  ///< what a pixel changes of the direction
-  Colour sky{};          ///< what the point shows where no ground is
+  Vec3 right{}, down{};  ///< change of the direction from pixel to pixel
+  Colour sky{};          ///< colour of the point where no ground is
 };
 
 /// The points of a camera's picture.

@@ -47,11 +47,11 @@ Corrected correct(const HeightSteps& steps, uint32_t width, const DecodedWindow&
 Corrected correct(const HeightSteps& steps, const DecodedGeometry& decoded, int32_t largest);
 
 /// Tries cuts of one track of coefficients, complete or not. All arguments outlive it. It remembers
-/// what it has decoded of the cuts near the best one, so that others go on from there.
+/// the decoded heights of cuts near the best one, so that decoding goes on from there.
 class CorrectedCut {
  public:
-  /// header: with the planes of the track; flat: what the coefficients were coded beside; largest:
-  /// error allowed, in steps.
+  /// header: with the planes of the track; flat: the areas beside which the coefficients were
+  /// coded; largest: error allowed, in steps.
   CorrectedCut(const HeightSteps& steps, const FlatAreas& flat, const GeometryHeader& header,
                const EncodedTrack& coefficients, int32_t largest)
       : steps_(steps),

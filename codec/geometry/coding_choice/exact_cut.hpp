@@ -17,7 +17,7 @@ namespace tetrakis::inline coding_choice {
 
 struct ExactCut {
   double mean_square;  ///< squared error of a sample, in steps, that the cut leaves
-  double bytes;        ///< of it and of what follows, as far as is known
+  double bytes;        ///< of it and of the corrections, as far as is known
   double worth;        ///< exactWorth() of these
 };
 

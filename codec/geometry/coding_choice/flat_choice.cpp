@@ -148,7 +148,7 @@ class FlatTrials {
   }
 
   double ratioOf(std::vector<FlatAreas> areas, const FlatShape& shape, const ComparedSteps& steps) {
-    constexpr double kHeaderBits = 64;  // what the header says of them
+    constexpr double kHeaderBits = 64;  // of the areas' part of the header
     if (!beside_) {
       beside_ = waveletBeside(finder_.areas(shape, whole()));
       trials_ = std::vector<PartTrials>(parts_.begin(), parts_.end());
@@ -173,7 +173,7 @@ class FlatTrials {
   std::vector<CopiedPart> parts_;
   std::map<double, double> price_of_held_;
   WaveletHeader wavelet_;                ///< of the plane as it is
-  std::optional<WaveletHeader> beside_;  ///< that suits what the first areas leave
+  std::optional<WaveletHeader> beside_;  ///< for the samples that the first areas leave
   std::vector<PartTrials> trials_;       ///< of that wavelet
 };
 

@@ -32,7 +32,7 @@ struct HeightPurpose {
   uint64_t bytes = UINT64_MAX;  ///< that there will be for them
   double mean_square = 0;       ///< > 0: the error wanted, in squared steps
   uint32_t threads = 1;         ///< nothing depends on them
-  bool seen = false;            ///< nothing corrects what is decoded from prefixes
+  bool seen = false;            ///< heights of prefixes are shown without corrections
 };
 
 struct FlatChoice {

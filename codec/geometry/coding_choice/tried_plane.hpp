@@ -77,7 +77,7 @@ class TriedPlane {
 
   PlaneCost cost(double step) const;
   double bitsOfAreas() const;
-  /// The least power of two at which the coefficients cost at most so many bits.
+  /// The least power of two at which the coefficients cost at most `bits` bits.
   double step(double bits) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file decodes a codeword of corrections (corrections_pass.hpp) into one small integer for
-// each sample.
+// decodeCorrections() decodes a codeword of corrections (corrections_pass.hpp) into one small
+// integer for each sample.
 #pragma once
 
 #include <cstddef>

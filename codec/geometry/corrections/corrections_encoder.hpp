@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file codes one small integer for each sample as a codeword of corrections
+// encodeCorrections() codes one small integer for each sample as a codeword of corrections
 // (corrections_pass.hpp).
 #pragma once
 

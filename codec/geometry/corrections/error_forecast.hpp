@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The errors of decoded heights are known where samples are exact; those of its neighbours foretell
-// that of the next sample, row by row:
+// ErrorForecast foretells the error of the decoded height of the next sample, row by row, from the
+// errors of its neighbours, which are known because the samples there are exact:
 //
 //   foretold = sum of weights * errors of twelve neighbours before it
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file codes exact corrections (exact_corrections.hpp), which make decoded heights whole steps
-// again.
+// encodeExactSteps() codes exact corrections (exact_corrections.hpp), which turn decoded heights
+// into whole steps again.
 #pragma once
 
 #include <cstdint>

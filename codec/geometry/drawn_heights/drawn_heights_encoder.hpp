@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes heights in steps as the drawing that decodeDrawnHeights() takes.
+// encodeDrawnHeights() codes heights in steps as a drawing, which decodeDrawnHeights() decodes.
 #pragma once
 
 #include <cstdint>

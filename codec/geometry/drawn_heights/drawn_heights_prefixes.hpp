@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The function here gives the heights that each prefix of a drawing shows, for encoders that
+// prefixesOfDrawing() gives the heights that each prefix of a drawing shows, for encoders that
 // measure many prefixes. It decodes the drawing once.
 #pragma once
 

@@ -22,7 +22,7 @@ struct StepErrors {
 };
 /// The rule by which squared errors add up.
 struct SquareSum {
-  double most = std::numeric_limits<double>::infinity();  ///< what one sample adds at most
+  double most = std::numeric_limits<double>::infinity();  ///< largest error that one sample adds
   std::span<const uint32_t> times = {};                   ///< how often each counts; empty: once
   double of(size_t sample, double error) const {
     const double square = std::min(error * error, most);

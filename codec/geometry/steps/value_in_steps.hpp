@@ -17,7 +17,7 @@ namespace tetrakis::inline steps {
 
 struct ValueInSteps {
   int32_t height;      ///< the nearest multiple of 2^-fraction_bits steps, up to 2^29
-  int32_t correction;  ///< from what the nearest whole step restores to the value
+  int32_t correction;  ///< to the value, from the sample that the nearest whole step restores
 };
 
 /// Any number in units of 2^-fraction_bits steps; 0 for a NaN. header: base and step.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file decodes a table of values from its codeword.
+// decodeValueTable() decodes a table of values from its codeword.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file codes a table of values as a codeword.
+// encodeValueTable() codes a table of values as a codeword.
 #pragma once
 
 #include <cstdint>

@@ -35,7 +35,7 @@ struct Bound {
   Purpose purpose;        ///< of coefficients that will be cut
   WaveletHeader wavelet;  ///< that suits them where nothing is flat
   CoefficientOptions options;
-  double error;  ///< the largest one wanted, in sample units, less what floats lose by rounding
+  double error;  ///< the largest one wanted, in sample units, less the rounding error of floats
 };
 
 /// The distance from the largest sample to the next float; 0 for integers, which are exact.

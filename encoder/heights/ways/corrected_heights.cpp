@@ -31,7 +31,7 @@ EncodedTrack cutAt(const EncodedTrack& whole, uint64_t bytes) {
   return cut;
 }
 
-/// The purpose that a cut usually serves before corrections follow it.
+/// The purpose of coefficients that are cut before corrections: the error that cuts usually leave.
 HeightPurpose cutPurpose(const Correctable& heights) {
   return {heights.quantised->steps.range_bits, heights.purpose, UINT64_MAX,
           usualCut(heights.largest), heights.options.threads};

@@ -13,7 +13,7 @@
 namespace tetrakis::inline ways {
 
 bool mayTakeNoMore(const HeightSteps& steps, Extent extent, uint64_t bytes) {
-  constexpr double kClearly = 1.4;  // 14 DEMs take 0.88 to 1.15 of what is estimated
+  constexpr double kClearly = 1.4;  // 14 DEMs take 0.88 to 1.15 of the estimate
   constexpr double kMostByCut = 4;  // squares of distances take a quarter by a cut
   const PlaneView<const int32_t> plane = steps.lifting(extent);
   const double whole = typicalCost(plane, steps.range_bits, 0).bits / 8;
