@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstdlib>
 #include <optional>
 
@@ -12,6 +11,7 @@
 #include "conformance/reference_decoder/mixed.hpp"
 #include "conformance/reference_decoder/range_decoder.hpp"
 #include "conformance/reference_decoder/samples.hpp"
+#include "conformance/reference_decoder/units.hpp"
 
 namespace tetrakis::reference {
 
@@ -197,7 +197,7 @@ class FacetDecoder {
 
   std::optional<Sample> beyond(const About& about) {
     const int64_t open =
-        about.level + 2 * (std::ilogb(header_.step) - spacingOf(header_, about.bits));
+        about.level + 2 * (Digits(header_.step).log2() - spacingOf(header_, about.bits));
     const int o = static_cast<int>(std::clamp<int64_t>(open, 0, 63));
     int k = 0;
     for (; k < 32; ++k) {

@@ -2,13 +2,13 @@
 #include "conformance/reference_decoder/height_corrections.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "conformance/reference_decoder/facets.hpp"
 #include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/regions.hpp"
 #include "conformance/reference_decoder/relative.hpp"
 #include "conformance/reference_decoder/samples.hpp"
+#include "conformance/reference_decoder/units.hpp"
 
 namespace tetrakis::reference {
 
@@ -16,7 +16,7 @@ namespace {
 
 /// FORMAT 8.1: hints of corrections of samples.
 int openBits(const GeometryHeader& header, uint32_t bits) {
-  return std::clamp(std::ilogb(header.step) - spacingOf(header, bits), 0, 31);
+  return std::clamp(Digits(header.step).log2() - spacingOf(header, bits), 0, 31);
 }
 
 /// FORMAT 8.1: hints of corrections of steps.

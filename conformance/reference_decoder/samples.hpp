@@ -72,11 +72,4 @@ inline double numberOf(const GeometryHeader& header, uint32_t bits) {
   return bits;
 }
 
-/// FORMAT 8.1, "From facets": the steps of the bits of a sample.
-inline int64_t stepsOf(const GeometryHeader& header, uint32_t bits) {
-  constexpr double kMost = 1 << 29;
-  const double steps = (numberOf(header, bits) - header.base) / header.step;
-  return std::isnan(steps) ? 0 : static_cast<int64_t>(std::round(std::clamp(steps, -kMost, kMost)));
-}
-
 }  // namespace tetrakis::reference

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -30,7 +29,7 @@
 #include "codec/geometry/facets/facet_unit.hpp"
 #include "codec/geometry/steps/restore.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
-#include "codec/geometry/steps/value_in_steps.hpp"
+#include "codec/geometry/steps/step_units.hpp"
 
 namespace tetrakis::inline facets {
 
@@ -60,8 +59,9 @@ inline size_t classOfDistance(int32_t predicted, const ForetoldSample& foretold)
 template <class Io>
 class FacetCoder {
  public:
-  FacetCoder(const GeometryHeader& header, const FacetUnit& unit, Io& io)
-      : header_(header), unit_(unit), io_(io), step_exponent_(std::ilogb(header.step)) {}
+  /// grid: of the base and step of the decoded heights.
+  FacetCoder(const StepGrid& grid, const FacetUnit& unit, Io& io)
+      : grid_(grid), unit_(unit), io_(io) {}
 
   /// A sample, and where it lies before it is rounded, in units.
   struct Located {
@@ -101,8 +101,7 @@ class FacetCoder {
     const int32_t rest =
         toSide(static_cast<int32_t>(orderOf(known) - nearest.order), nearest.below);
     const size_t agreeing = std::min(one.agreeing, kAgreeing) - 1;
-    const size_t distance =
-        classOfDistance(heightOf(static_cast<double>(float_there), header_, 0), foretold);
+    const size_t distance = classOfDistance(grid_.nearest(float_there), foretold);
     const bool right = decide(
         Mixture<2>(
             {&right_[(turn.before * kBefore + one.right_before) * kWays + one.way],
@@ -140,7 +139,7 @@ class FacetCoder {
   /// corrections are.
   float codeBeyond(const ForetoldSample& foretold, float known) {
     const uint32_t from = orderOf(foretold.sample);
-    const int spacings = step_exponent_ - spacingExponent(foretold.sample);
+    const int spacings = grid_.exponent() - spacingExponent(foretold.sample);
     const auto open = static_cast<size_t>(
         std::clamp(static_cast<int>(foretold.level) + 2 * spacings, 0, int{kOpen} - 1));
     const auto difference = static_cast<int32_t>(orderOf(known) - from);
@@ -179,10 +178,9 @@ class FacetCoder {
     return weights;
   }
 
-  const GeometryHeader& header_;
+  const StepGrid& grid_;
   const FacetUnit& unit_;
   Io& io_;
-  int step_exponent_;
   Models right_ = Models(kAsked * kBefore * kWays);  ///< by the way, and where it was right before
   Models far_ = Models(kAsked * kAgreeing * kDistances * 2);  ///< by how many agree, how far off
   Models rest_place_ = Models(kAgreeing * kFloatPlaces * kRests);
@@ -209,7 +207,8 @@ void codeFacets(const FacetedHeights& faceted, Io& io, const ExactSample& exact,
   const auto& [header, unit, heights, fraction_bits] = faceted;
   ErrorForecast forecast(heights.width);
   FacetRows rows(heights.width);
-  FacetCoder<Io> coder(header, unit, io);
+  const StepGrid grid(header.base, header.step);
+  FacetCoder<Io> coder(grid, unit, io);
   for (uint32_t y = 0; y < heights.height; ++y) {
     forecast.nextRow();
     rows.nextRow();
@@ -224,8 +223,7 @@ void codeFacets(const FacetedHeights& faceted, Io& io, const ExactSample& exact,
       if (io.stopped()) return;
       take(i, found.sample);
       rows.put(x, found.multiples);
-      const int32_t there = heightOf(static_cast<double>(found.sample), header, 0);
-      forecast.learn(x, int64_t{there} - height);
+      forecast.learn(x, int64_t{grid.nearest(found.sample)} - height);
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "bitstream/coder/decision_decoding.hpp"
 #include "codec/geometry/facets/facet_coder.hpp"
+#include "codec/geometry/steps/value_in_steps.hpp"
 
 namespace tetrakis::inline facets {
 

@@ -3,8 +3,6 @@
 // both sides: row by row, two corrections for each sample that exists.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -26,13 +24,12 @@ struct RelativeHeights {
 };
 
 /// How many multiples the sample lies beside the predicted one, to the side of the height, modulo
-/// 2^32.
-inline int32_t multiplesBeside(const RelativePrediction& prediction, double sample, double step) {
-  constexpr double kFarthest = 1 << 30;
-  const double steps = (sample - prediction.origin) / step;
-  if (std::isnan(steps)) return 0;
-  const double number = std::round(std::clamp(steps, -kFarthest, kFarthest));
-  const auto whole = static_cast<uint32_t>(static_cast<int32_t>(number));
+/// 2^32; 0 for what is no number.
+template <class T>
+int32_t multiplesBeside(const RelativePrediction& prediction, T sample, const StepUnits& units) {
+  if (!isNumber(sample)) return 0;
+  const int64_t rise = inUnits(sample, units.exponent) - prediction.origin;
+  const auto whole = static_cast<uint32_t>(nearestSteps(rise, units.step));
   const uint32_t beside = whole - static_cast<uint32_t>(prediction.nearest);
   return static_cast<int32_t>(prediction.above ? 0u - beside : beside);
 }
@@ -45,6 +42,7 @@ void codeRelativeRows(const RelativeHeights& of, Io& io, const ExactSample& exac
   const auto& [header, relative, heights, fraction_bits] = of;
   const uint32_t width = heights.width;
   KnownMultiples known(width, relative);
+  const StepUnits units = known.units();
   CorrectionCoder<Io> multiples(width, kMultipleHints, io), rests(width, kRestHints, io);
   for (uint32_t y = 0; y < heights.height; ++y) {
     known.nextRow();
@@ -54,18 +52,17 @@ void codeRelativeRows(const RelativeHeights& of, Io& io, const ExactSample& exac
       const size_t i = size_t{y} * width + x;
       if (!heights.valid[i]) continue;
       const int32_t q = wholeStep(heights.data[i], fraction_bits);
-      const auto near = static_cast<double>(restore<T>(header.base, header.step, q));
-      const RelativePrediction prediction = known.predict(x, near);
+      const T near = restore<T>(header.base, header.step, q);
+      const RelativePrediction prediction = known.predict(x, inUnits(near, units.exponent));
       const T truth = exact(i);
       const int32_t beside =
-          multiples.code(x, prediction.multiple_hint,
-                         multiplesBeside(prediction, static_cast<double>(truth), relative.step));
+          multiples.code(x, prediction.multiple_hint, multiplesBeside(prediction, truth, units));
       if (io.stopped()) return;
-      const RoundedMultiple<T> rounded(prediction, prediction.number(beside), relative.step);
+      const RoundedMultiple<T> rounded(prediction, prediction.number(beside), units);
       const int32_t rest = rests.code(x, rounded.rest_hint, rounded.restOf(truth));
       if (io.stopped()) return;
       const T sample = rounded.sample(rest);
-      known.put(x, rounded.multiple, rest, static_cast<double>(sample));
+      known.put(x, rounded.multiple, rest, sample);
       take(i, sample);
     }
   }

@@ -14,20 +14,22 @@
 // A multiple that has a geoid in it is known better than its rounded sample says: it is pulled from
 // where its neighbours predict it only a quarter of the way to the sample. Where the offsets were
 // rounded themselves, as those of LERC, the samples are the multiples.
+//
+// All numbers here are integers that count units of the step (codec/geometry/steps/step_units.hpp).
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/corrections/correction_coder.hpp"
-#include "codec/geometry/steps/restore.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
+#include "codec/geometry/steps/step_units.hpp"
 
 namespace tetrakis::inline relative {
 
@@ -35,9 +37,15 @@ inline constexpr size_t kMultipleHints = 8;
 /// Places between a value and the middle of two; then those of multiples that planes do not say.
 inline constexpr size_t kRestPlaces = 8, kRestHints = kRestPlaces + 2;
 
+/// The whole steps in so many units, to the nearest, and not too many for 32 bits.
+inline int64_t nearestSteps(int64_t units, int64_t step) {
+  constexpr int64_t kFarthest = 1 << 30;
+  return std::clamp(floorDiv(units + step / 2, step), -kFarthest, kFarthest);
+}
+
 /// Where the multiples lie, and which of them is nearest to the decoded height.
 struct RelativePrediction {
-  double origin;         ///< a multiple
+  int64_t origin;        ///< a multiple, in units
   int32_t nearest;       ///< relative steps from it to the multiple nearest to the height
   bool above;            ///< that one lies above the height
   size_t multiple_hint;  ///< how near the height is to the middle of two multiples
@@ -53,20 +61,19 @@ struct RelativePrediction {
 /// A multiple, and the value of type T next to it.
 template <class T>
 struct RoundedMultiple {
-  double multiple;
+  int64_t multiple;  ///< in units
   T value;
   bool below;        ///< the multiple lies below the value
   size_t rest_hint;  ///< how near the multiple is to the middle of two values
 
-  RoundedMultiple(const RelativePrediction& prediction, int32_t number, double step)
-      : multiple(prediction.origin + static_cast<double>(number) * step),
-        value(restore<T>(prediction.origin, step, number)) {
-    const double off = std::ldexp(multiple - static_cast<double>(value), -spacingExponent(value));
+  RoundedMultiple(const RelativePrediction& prediction, int32_t number, const StepUnits& units)
+      : multiple(prediction.origin + number * units.step),
+        value(nearestSample<T>(multiple, units.exponent)) {
+    const int64_t off = multiple - inUnits(value, units.exponent);
     below = off < 0;
-    rest_hint = prediction.missing > 0
-                    ? kRestPlaces + prediction.missing - 1
-                    : static_cast<size_t>(
-                          std::min(std::abs(off) * 2 * kRestPlaces, double{kRestPlaces - 1}));
+    const int spacing = spacingExponent(value) - units.exponent;  // log2 of it, in units
+    rest_hint = prediction.missing > 0 ? kRestPlaces + prediction.missing - 1
+                                       : placeOf(std::abs(off), spacing);
   }
 
   /// The value so many beside the one next to the multiple, to the multiple's side of it.
@@ -77,17 +84,27 @@ struct RoundedMultiple {
   int32_t restOf(T sample) const {
     return toSide(static_cast<int32_t>(orderOf(sample) - orderOf(value)), below);
   }
+
+ private:
+  /// The place of a distance from a value: 2 * kRestPlaces of them are 2^spacing units.
+  static size_t placeOf(int64_t off, int spacing) {
+    constexpr int kPlacesLog2 = 4;
+    const int64_t places = scaled(off, kPlacesLog2) >> std::clamp(spacing, 0, 62);
+    return static_cast<size_t>(std::min<int64_t>(places, kRestPlaces - 1));
+  }
 };
 
-/// What is known of the multiples in three rows.
+/// What is known of the multiples in three rows, in units.
 class KnownMultiples {
  public:
   KnownMultiples(uint32_t width, const RelativeSteps& relative)
-      : step_(relative.step),
-        pull_(relative.quarters / 4.),
+      : units_(stepUnits(relative.step)),
+        quarters_(relative.quarters),
         above_(size_t{width} + kLeft + 1, kMissing),
         here_(above_),
         twice_above_(above_) {}
+
+  const StepUnits& units() const { return units_; }
 
   /// Begins a row, whose multiples are missing until they are put.
   void nextRow() {
@@ -96,62 +113,66 @@ class KnownMultiples {
     std::fill(here_.begin(), here_.end(), kMissing);
   }
 
-  /// Predicts the sample of column x. height: the decoded one, finite.
-  RelativePrediction predict(uint32_t x, double height) const {
-    constexpr double kFarthest = 1 << 30;
-    const double west = here_[x + kLeft - 1], north = above_[x + kLeft];
-    const double mean = meanOfPlanes(x);
+  /// Predicts the sample of column x. height: the decoded one.
+  RelativePrediction predict(uint32_t x, int64_t height) const {
+    const int64_t west = here_[x + kLeft - 1], north = above_[x + kLeft];
     RelativePrediction p{height, 0, false, 0, 2};
-    if (std::isfinite(mean)) {
-      p.origin = mean;
+    if (west != kMissing && north != kMissing && above_[x + kLeft - 1] != kMissing) {
+      p.origin = meanOfPlanes(x);
       p.missing = 0;
-    } else if (!std::isnan(west) || !std::isnan(north)) {
-      p.origin = std::isnan(west) ? north : west;
+    } else if (west != kMissing || north != kMissing) {
+      p.origin = west == kMissing ? north : west;
       p.missing = 1;
     }
-    const double steps = std::clamp((height - p.origin) / step_, -kFarthest, kFarthest);
-    const double nearest = std::floor(steps + 0.5);
-    const double off = nearest - steps;
+    const int64_t rise = height - p.origin, nearest = nearestSteps(rise, units_.step);
+    const int64_t off = nearest * units_.step - rise;
     p.nearest = static_cast<int32_t>(nearest);
     p.above = off > 0;
+    const int64_t halves = std::min(std::abs(off), units_.step / 2);
     p.multiple_hint = static_cast<size_t>(
-        std::min(std::abs(off) * 2 * kMultipleHints, double{kMultipleHints - 1}));
+        std::min<int64_t>(halves * 2 * int64_t{kMultipleHints} / units_.step, kMultipleHints - 1));
     return p;
   }
 
-  /// The sample of column x lies `rest` values beside a multiple. What is no finite number counts
-  /// as missing.
-  void put(uint32_t x, double multiple, int32_t rest, double sample) {
-    const bool rounded = rest >= -1 && rest <= 1;
-    const double known = rounded ? multiple + (sample - multiple) * pull_ : sample;
-    here_[x + kLeft] = std::isfinite(known) ? known : kMissing;
+  /// The sample of column x lies `rest` values beside a multiple. A sample that is no number, or
+  /// lies far beyond the step, counts as missing.
+  template <class T>
+  void put(uint32_t x, int64_t multiple, int32_t rest, T sample) {
+    if (!isNumber(sample)) return;
+    const int64_t units = inUnits(sample, units_.exponent);
+    const bool rounded = rest >= -1 && rest <= 1 && std::abs(multiple) < 2 * kFar;
+    const int64_t known = rounded ? multiple + (((units - multiple) * quarters_ + 2) >> 2) : units;
+    if (std::abs(units) < kFar && std::abs(known) < kFar) here_[x + kLeft] = known;
   }
 
  private:
-  static constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+  static constexpr int64_t kMissing = std::numeric_limits<int64_t>::min();
   static constexpr size_t kLeft = 2;  ///< the margin there
 
-  /// The mean of the plane through W, N and NW and of others that differ from it by some spacings
-  /// of floats, beside whole steps. Not finite where one of the three is missing.
-  double meanOfPlanes(uint32_t x) const {
-    const double west = here_[x + kLeft - 1], north = above_[x + kLeft];
-    const double plane = (west + north) - above_[x + kLeft - 1];
-    const double near = std::abs(plane) * 0x1p-22;  // 2 to 4 spacings
-    double sum = 0;
-    int count = 1;
-    for (const double other : {2 * west - here_[x], 2 * north - twice_above_[x + kLeft],
-                               (west + above_[x + kLeft + 1]) - north}) {
-      const double apart = other - plane;
-      const double off = apart - std::floor(apart / step_ + 0.5) * step_;
-      if (!(std::abs(off) <= near)) continue;  // nor if it is missing
+  /// The mean of the plane through W, N and NW, none of which is missing, and of others that differ
+  /// from it by some spacings of floats, beside whole steps.
+  int64_t meanOfPlanes(uint32_t x) const {
+    const int64_t west = here_[x + kLeft - 1], north = above_[x + kLeft];
+    const int64_t plane = west + north - above_[x + kLeft - 1];
+    const int64_t near = (std::abs(plane) >> 22) + 1;  // 2 to 4 spacings
+    int64_t sum = 0, count = 1;
+    const auto take = [&](int64_t first, int64_t second, int64_t less) {
+      if (second == kMissing || less == kMissing) return;
+      const int64_t apart = first + second - less - plane;
+      const int64_t off = apart - floorDiv(apart + units_.step / 2, units_.step) * units_.step;
+      if (std::abs(off) > near) return;
       sum += off;
       ++count;
-    }
-    return plane + sum / count;
+    };
+    take(west, west, here_[x]);
+    take(north, north, twice_above_[x + kLeft]);
+    take(west, above_[x + kLeft + 1], north);
+    return plane + floorDiv(2 * sum + count, 2 * count);
   }
 
-  double step_, pull_;
-  std::vector<double> above_, here_, twice_above_;  ///< with margins at the left and the right
+  StepUnits units_;
+  int64_t quarters_;
+  std::vector<int64_t> above_, here_, twice_above_;  ///< with margins at the left and the right
 };
 
 }  // namespace tetrakis::inline relative

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -44,10 +43,11 @@ int spacingExponent(T sample) {
   }
 }
 
-/// How many low bits of a sample's word a step leaves open, 0 to 31: the hint of its correction.
+/// How many low bits of a sample's word a step of 2^exponent or more leaves open, 0 to 31: the hint
+/// of its correction.
 template <class T>
-uint8_t openBits(T sample, double step) {
-  return static_cast<uint8_t>(std::clamp(std::ilogb(step) - spacingExponent(sample), 0, 31));
+uint8_t openBits(T sample, int exponent) {
+  return static_cast<uint8_t>(std::clamp(exponent - spacingExponent(sample), 0, 31));
 }
 
 }  // namespace tetrakis::inline steps
