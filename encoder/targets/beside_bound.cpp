@@ -35,12 +35,12 @@ double psnrOf(const EncodeInputs& inputs, const CodedHeights& heights) {
   return peak > 0 ? std::clamp(psnr, kLeastPsnr, kMostPsnr) : kLeastPsnr;
 }
 
-/// Heights coded for a PSNR of kLeastPsnr at least, so that there are packets to order; null where
+/// Heights coded for a PSNR of kOrderedPsnr at least, so that there are packets to order; null where
 /// the step that the caller gave is too coarse for that PSNR.
 std::shared_ptr<const CodedHeights> codeForPsnr(const EncodeInputs& inputs,
                                                 tks_encode_options options) {
-  constexpr double kLeastPsnr = 30;
-  options.psnr = std::max(options.psnr, kLeastPsnr);
+  constexpr double kOrderedPsnr = 30;
+  options.psnr = std::max(options.psnr, kOrderedPsnr);
   const EncodeInputs to_psnr = inputs.with(options, inputs.priorities);
   const Result<std::shared_ptr<const QuantisedHeights>> quantised = quantiseHeights(to_psnr);
   return quantised.ok() ? codeHeightsForTarget(to_psnr, *quantised) : nullptr;
