@@ -35,8 +35,8 @@ double psnrOf(const EncodeInputs& inputs, const CodedHeights& heights) {
   return peak > 0 ? std::clamp(psnr, kLeastPsnr, kMostPsnr) : kLeastPsnr;
 }
 
-/// Heights coded for a PSNR of kOrderedPsnr at least, so that there are packets to order; null where
-/// the step that the caller gave is too coarse for that PSNR.
+/// Heights coded for a PSNR of kOrderedPsnr at least, so that there are packets to order; null
+/// where the step that the caller gave is too coarse for that PSNR.
 std::shared_ptr<const CodedHeights> codeForPsnr(const EncodeInputs& inputs,
                                                 tks_encode_options options) {
   constexpr double kOrderedPsnr = 30;
