@@ -35,12 +35,12 @@ double psnrOf(const EncodeInputs& inputs, const CodedHeights& heights) {
   return peak > 0 ? std::clamp(psnr, kLeastPsnr, kMostPsnr) : kLeastPsnr;
 }
 
-/// Codes the heights for a PSNR of at least kSomething, so that there are packets to order; null
+/// Codes the heights for a PSNR of at least kOrderedPsnr, so that there are packets to order; null
 /// where the step that the caller gave is too coarse for this PSNR.
 std::shared_ptr<const CodedHeights> codeForPsnr(const EncodeInputs& inputs,
                                                 tks_encode_options options) {
-  constexpr double kSomething = 30;
-  options.psnr = std::max(options.psnr, kSomething);
+  constexpr double kOrderedPsnr = 30;
+  options.psnr = std::max(options.psnr, kOrderedPsnr);
   const EncodeInputs to_psnr = inputs.with(options, inputs.priorities);
   const Result<std::shared_ptr<const QuantisedHeights>> quantised = quantiseHeights(to_psnr);
   return quantised.ok() ? codeHeightsForTarget(to_psnr, *quantised) : nullptr;

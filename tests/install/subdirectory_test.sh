@@ -1,8 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # subdirectory_test.sh SOURCE: a C project that has the library as a folder links the static or the
-# shared one. The build is planned, not run: it would compile the decoder anew. `.ci/run` builds a
-# project of this kind by clang.
+# shared one. The build is planned, not run: it would compile the decoder anew.
 set -euo pipefail
 
 source="$(cd "$1" && pwd)"
