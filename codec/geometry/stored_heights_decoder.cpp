@@ -3,37 +3,34 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 
 #include "base/samples.hpp"
 #include "base/view.hpp"
 #include "bitstream/coder/byte_planes.hpp"
 #include "codec/geometry/steps/restore.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
+#include "codec/geometry/steps/step_units.hpp"
 
 namespace tetrakis::inline geometry {
 
 namespace {
 
-/// The step nearest to a sample, in the range that steps have.
-int32_t nearestStep(double sample, const GeometryHeader& header) {
-  constexpr double kMost = 1 << 25;
-  const double steps = std::round((sample - header.base) / header.step);
-  return std::isnan(steps) ? 0 : static_cast<int32_t>(std::clamp(steps, -kMost, kMost));
-}
+/// Steps of stored samples stay within what other steps do.
+constexpr int64_t kMostSteps = 1 << 25;
 
 template <class T>
 class StoredSamples {
  public:
   StoredSamples(const GeometryHeader& header, const BytePlanes& words, DecodedHeights& out)
-      : header_(header), words_(words), out_(out) {}
+      : header_(header), grid_(header.base, header.step), words_(words), out_(out) {}
 
   /// Writes the stored sample `number` as sample i of the result.
   void put(size_t i, size_t number) {
     if (!words_.knows(number)) return;
     const uint32_t word = words_[number];
     int32_t& step = out_.geometry.heights[i];
-    step = nearestStep(static_cast<double>(fromOrder<T>(word)), header_);
+    const T sample = fromOrder<T>(word);
+    step = isNaN(sample) ? 0 : grid_.nearest(sample, 0, kMostSteps);
     const T near = restore<T>(header_.base, header_.step, step);
     out_.corrections[i] = static_cast<int32_t>(word - orderOf(near));
     out_.geometry.significant[i] = 1;
@@ -41,6 +38,7 @@ class StoredSamples {
 
  private:
   const GeometryHeader& header_;
+  StepGrid grid_;
   const BytePlanes& words_;
   DecodedHeights& out_;
 };

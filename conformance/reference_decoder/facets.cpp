@@ -258,7 +258,7 @@ void correctFromFacets(const GeometryHeader& header, const Layers& layers,
       About about;
       about.u = static_cast<int32_t>(q + p);
       about.level = levelOf(forecast.missedNearby(x, y));
-      about.bits = heightSampleOf(header, about.u);
+      about.bits = sampleNear(header, about.u);
       const Ways ways = known.waysTo(x, y, units.of(about.bits));
       std::array<int, kWays> before;
       for (int way = 0; way < kWays; ++way) before[way] = known.before(way, x, y);

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "conformance/reference_decoder/samples.hpp"
+#include "conformance/reference_decoder/units.hpp"
 
 namespace tetrakis::reference {
 
@@ -34,12 +34,10 @@ std::vector<uint32_t> valuesOf(const GeometryHeader& header, const std::vector<u
   return samples;
 }
 
-/// FORMAT 8.1, "Table of values": the sample N near a value.
-uint32_t nearValue(const GeometryHeader& header, uint32_t bits) {
-  constexpr double kMost = 1 << 25;
-  const double steps = (numberOf(header, bits) - header.base) / header.step;
-  const double v16 = std::isnan(steps) ? 0 : std::round(std::clamp(steps, -kMost, kMost) * 16);
-  return heightSampleOf(header, stepOf(static_cast<int32_t>(v16), 4));
+/// FORMAT 8.1, "Table of values": the v of a sample of the table.
+int32_t valueOf(const GeometryHeader& header, uint32_t bits) {
+  const bool nan = header.sample == kF32 && (bits & 0x7FFFFFFF) > 0x7F800000;
+  return nan ? 0 : static_cast<int32_t>(stepsOf(header, bits, 4));
 }
 
 /// FORMAT 8.1, "Voids": whether samples equal the nodata value V.
@@ -99,12 +97,13 @@ std::vector<uint32_t> storedSamples(const GeometryHeader& header, std::span<cons
 
 MadeSamples samplesOf(const GeometryHeader& header, const std::vector<uint32_t>& table,
                       const Surface& surface) {
-  if (table.empty()) {
-    const std::vector<uint32_t> samples = multiplesOf(header, surface);
-    return {samples, samples};
+  MadeSamples samples{
+      table.empty() ? multiplesOf(header, surface) : valuesOf(header, table, surface), {}};
+  for (size_t i = 0; i < samples.bits.size(); ++i) {
+    const int32_t q = table.empty() ? stepOf(surface.plane.values[i], surface.f)
+                                    : stepOf(valueOf(header, samples.bits[i]), 4);
+    samples.near.push_back(sampleNear(header, q));
   }
-  MadeSamples samples{valuesOf(header, table, surface), {}};
-  for (const uint32_t bits : samples.bits) samples.near.push_back(nearValue(header, bits));
   return samples;
 }
 

@@ -31,7 +31,7 @@ class KnownSamples {
  public:
   KnownSamples(const Plane& plane, int64_t g) : plane_(plane), g_(g), known_(plane.values.size()) {}
 
-  /// d: the units of the decoded height.
+  /// d: the count of the decoded height.
   Prediction predict(int x, int y, int64_t d) const {
     const auto w = at(x - 1, y), n = at(x, y - 1), o = at(x - 1, y - 1);
     if (!w || !n || !o) return {w ? *w : n ? *n : d, false, w || n};
@@ -81,7 +81,7 @@ void correctFromRelative(const GeometryHeader& header, const Layers& layers,
     for (int x = 0; x < plane.width; ++x) {
       if (!plane.isValid(x, y)) continue;
       uint32_t& sample = samples[plane.index(x, y)];
-      const int64_t d = unitsOf(header, sample, step.u);
+      const int64_t d = placeOf(header, plane.values[plane.index(x, y)], step.u);
       const Prediction prediction = known.predict(x, y, d);
       const int64_t t = d - prediction.p;
       const int64_t k = std::clamp(floorDiv(t + g / 2, g), -kFarthest, kFarthest);

@@ -27,15 +27,11 @@ inline uint32_t sampleOf(const GeometryHeader& header, double sample) {
 }
 
 /// FORMAT 8, "Samples": the bits of a height, which is no infinite float.
-inline uint32_t heightSampleOf(const GeometryHeader& header, double base, double step, int32_t q) {
+inline uint32_t heightSampleOf(const GeometryHeader& header, int32_t q) {
   constexpr double kLargestFloat = 0x1.FFFFFEp127;
-  const double height = base + q * step;
+  const double height = header.base + q * header.step;
   if (header.sample != kF32) return sampleOf(header, height);
   return sampleOf(header, std::clamp(height, -kLargestFloat, kLargestFloat));
-}
-
-inline uint32_t heightSampleOf(const GeometryHeader& header, int32_t q) {
-  return heightSampleOf(header, header.base, header.step, q);
 }
 
 /// FORMAT 8.1, "Order": the word of a sample, and back (it is its own inverse).
@@ -62,14 +58,6 @@ inline uint32_t narrow(const GeometryHeader& header, uint32_t bits) {
     default:
       return bits;
   }
-}
-
-/// The number that the bits of a sample are.
-inline double numberOf(const GeometryHeader& header, uint32_t bits) {
-  if (header.sample == kF32) return std::bit_cast<float>(bits);
-  if (header.sample == kI8 || header.sample == kI16 || header.sample == kI32)
-    return static_cast<int32_t>(bits);
-  return bits;
 }
 
 }  // namespace tetrakis::reference

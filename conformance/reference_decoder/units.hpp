@@ -11,7 +11,7 @@
 
 namespace tetrakis::reference {
 
-inline constexpr int64_t kFar = int64_t{1} << 59;
+inline constexpr int64_t kFar = int64_t{1} << 59, kWide = (int64_t{1} << 62) - 1;
 
 inline int64_t floorDiv(int64_t n, int64_t d) {
   return n >= 0 ? n / d : -((d - 1 - n) / d);
@@ -49,25 +49,21 @@ struct Step {
   }
 };
 
-/// near(n, s)
-inline int64_t near(int64_t n, int s) {
-  if (s <= 0) {
-    const int down = std::min(-s, 62);
-    const int64_t rounded = down == 0 ? n : (n + (int64_t{1} << (down - 1))) >> down;
-    return std::clamp(rounded, -kFar, kFar);
-  }
-  if (n == 0) return 0;
+/// near(n, s), or wide(n, s) with its limit
+inline int64_t near(int64_t n, int s, int64_t limit = kFar) {
+  if (n == 0 || s < -63) return 0;
+  if (s < 0) return std::clamp((n >> -s) + (n >> (-s - 1) & 1), -limit, limit);
   const uint64_t size = n < 0 ? 0 - static_cast<uint64_t>(n) : static_cast<uint64_t>(n);
-  if (digitsOf(size) + s >= 60) return n < 0 ? -kFar : kFar;
-  return n * (int64_t{1} << s);
+  if (digitsOf(size) + s > 62) return n < 0 ? -limit : limit;
+  return std::clamp(n * (int64_t{1} << s), -limit, limit);
 }
 
 inline bool isNumber(const GeometryHeader& header, uint32_t bits) {
   return header.sample != kF32 || (bits >> 23 & 255) != 255;
 }
 
-/// units(S)
-inline int64_t unitsOf(const GeometryHeader& header, uint32_t bits, int u) {
+/// count(S), or with the limit of wide()
+inline int64_t unitsOf(const GeometryHeader& header, uint32_t bits, int u, int64_t limit = kFar) {
   int64_t n = static_cast<int32_t>(bits);
   if (header.sample == kF32) {
     const int64_t digits = (bits & 0x7FFFFF) + ((bits >> 23 & 255) != 0 ? 0x800000 : 0);
@@ -75,7 +71,7 @@ inline int64_t unitsOf(const GeometryHeader& header, uint32_t bits, int u) {
   } else if (header.sample == kU32) {
     n = bits;
   }
-  return near(n, spacingOf(header, bits) - u);
+  return near(n, spacingOf(header, bits) - u, limit);
 }
 
 /// sample(M) of an f32: the nearest finite one, ties to even.
@@ -104,15 +100,31 @@ inline uint32_t sampleAt(const GeometryHeader& header, int64_t m, int u) {
   return static_cast<uint32_t>(std::clamp(rounded, kLeast[header.sample], kLargest[header.sample]));
 }
 
-/// steps(S) of the bits of an f32
-inline int64_t stepsOf(const GeometryHeader& header, uint32_t bits) {
-  constexpr int64_t kMost = 1 << 29;
-  const Step step(header.step);
+/// B: the count of the base.
+inline int64_t baseOf(const GeometryHeader& header, const Step& step) {
   const Digits of(header.base);
   const auto digits = static_cast<int64_t>(of.digits);
-  const int64_t base = near(header.base < 0 ? -digits : digits, of.exponent - step.u);
-  const int64_t rise = unitsOf(header, bits, step.u) - base;
-  return std::clamp(floorDiv(rise + step.g / 2, step.g), -kMost, kMost);
+  return near(std::bit_cast<uint64_t>(header.base) >> 63 ? -digits : digits, of.exponent - step.u,
+              kWide);
+}
+
+/// The bits of place(q) as a sample, and place(q) in units of 2^u.
+inline uint32_t sampleNear(const GeometryHeader& header, int32_t q) {
+  const Step step(header.step);
+  return sampleAt(header, baseOf(header, step) + q * step.g, step.u);
+}
+
+inline int64_t placeOf(const GeometryHeader& header, int32_t q, int u) {
+  const Step step(header.step);
+  return near(baseOf(header, step) + q * step.g, step.u - u);
+}
+
+/// steps(S, f) of bits
+inline int64_t stepsOf(const GeometryHeader& header, uint32_t bits, int f = 0) {
+  constexpr int64_t kMost = 1 << 29;
+  const Step step(header.step);
+  const int64_t rise = unitsOf(header, bits, step.u, kWide) - baseOf(header, step);
+  return std::clamp(floorDiv(near(rise, f, kWide) + step.g / 2, step.g), -kMost, kMost);
 }
 
 }  // namespace tetrakis::reference

@@ -27,7 +27,7 @@
 #include "codec/geometry/corrections/error_forecast.hpp"
 #include "codec/geometry/facets/facet_rows.hpp"
 #include "codec/geometry/facets/facet_unit.hpp"
-#include "codec/geometry/steps/restore.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
 #include "codec/geometry/steps/step_units.hpp"
 
@@ -37,14 +37,14 @@ namespace tetrakis::inline facets {
 struct ForetoldSample {
   int32_t step;  ///< with the forecast error
   size_t level;  ///< by how much forecasts nearby have missed (levelOf())
-  float sample;  ///< what the step stands for
+  float sample;  ///< the one nearest to the step
 
   /// forecast: which has looked at the sample. height: in whole steps.
-  ForetoldSample(int32_t height, const ErrorForecast& forecast, const GeometryHeader& header)
+  ForetoldSample(int32_t height, const ErrorForecast& forecast, const StepGrid& grid)
       : step(static_cast<int32_t>(static_cast<uint32_t>(height) +
                                   static_cast<uint32_t>(forecast.foretold()))),
         level(forecast.missedLevel()),
-        sample(restore<float>(header.base, header.step, step)) {}
+        sample(grid.sampleNear<float>(step)) {}
 };
 
 /// How far a prediction lies from the foretold sample, beside how far those miss: 16 classes.
@@ -217,7 +217,7 @@ void codeFacets(const FacetedHeights& faceted, Io& io, const ExactSample& exact,
       if (!heights.valid[i]) continue;
       const int32_t height = wholeStep(heights.data[i], fraction_bits);
       forecast.look(x);
-      const ForetoldSample foretold(height, forecast, header);
+      const ForetoldSample foretold(height, forecast, grid);
       rows.look(x, unit.multiplesOf(foretold.sample));
       const auto found = coder.code(rows, foretold, exact(i));
       if (io.stopped()) return;

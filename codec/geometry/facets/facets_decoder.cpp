@@ -15,11 +15,12 @@ DecodedHeights restoreFacets(DecodedHeights decoded, const GeometryHeader& heade
   DecodedGeometry& geometry = decoded.geometry;
   decoded.corrections.assign(geometry.heights.size(), 0);
   DecisionDecoding reader(codeword);
+  const StepGrid grid(header.base, header.step);
   const PlaneView<const int32_t> plane(geometry.heights, geometry.extent(), geometry.valid);
   codeFacets(
-      {header, FacetUnit(unit), plane, geometry.fraction_bits}, reader, [](size_t) { return 0.f; },
+      {header, FacetUnit(unit), plane, geometry.fraction_bits}, reader, [](size_t) { return float{}; },
       [&](size_t i, float sample) {
-        const ValueInSteps value = inSteps(sample, header, geometry.fraction_bits);
+        const ValueInSteps value = inSteps(sample, header, grid, geometry.fraction_bits);
         geometry.heights[i] = value.height;
         decoded.corrections[i] = value.correction;
       });

@@ -13,13 +13,14 @@ DecodedHeights restoreRelative(DecodedHeights decoded, const GeometryHeader& hea
   DecodedGeometry& geometry = decoded.geometry;
   decoded.corrections.assign(geometry.heights.size(), 0);
   CorrectionReader reader(codeword);
+  const StepGrid grid(header.base, header.step);
   const PlaneView<const int32_t> plane(geometry.heights, geometry.extent(), geometry.valid);
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
     using T = decltype(type);
     codeRelativeRows<T>(
         {header, relative, plane, geometry.fraction_bits}, reader, [](size_t) { return T{}; },
         [&](size_t i, T sample) {
-          const ValueInSteps value = inSteps(sample, header, geometry.fraction_bits);
+          const ValueInSteps value = inSteps(sample, header, grid, geometry.fraction_bits);
           geometry.heights[i] = value.height;
           decoded.corrections[i] = value.correction;
         });

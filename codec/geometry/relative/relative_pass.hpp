@@ -11,7 +11,7 @@
 #include "codec/geometry/corrections/correction_coder.hpp"
 #include "codec/geometry/relative/relative_prediction.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
-#include "codec/geometry/steps/restore.hpp"
+#include "codec/geometry/steps/step_units.hpp"
 
 namespace tetrakis::inline relative {
 
@@ -43,6 +43,7 @@ void codeRelativeRows(const RelativeHeights& of, Io& io, const ExactSample& exac
   const uint32_t width = heights.width;
   KnownMultiples known(width, relative);
   const StepUnits units = known.units();
+  const StepGrid grid(header.base, header.step);
   CorrectionCoder<Io> multiples(width, kMultipleHints, io), rests(width, kRestHints, io);
   for (uint32_t y = 0; y < heights.height; ++y) {
     known.nextRow();
@@ -52,8 +53,7 @@ void codeRelativeRows(const RelativeHeights& of, Io& io, const ExactSample& exac
       const size_t i = size_t{y} * width + x;
       if (!heights.valid[i]) continue;
       const int32_t q = wholeStep(heights.data[i], fraction_bits);
-      const T near = restore<T>(header.base, header.step, q);
-      const RelativePrediction prediction = known.predict(x, inUnits(near, units.exponent));
+      const RelativePrediction prediction = known.predict(x, grid.inUnitsOf(units.exponent, q));
       const T truth = exact(i);
       const int32_t beside =
           multiples.code(x, prediction.multiple_hint, multiplesBeside(prediction, truth, units));

@@ -67,12 +67,12 @@ void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
 std::vector<uint8_t> sampleHints(std::span<const int32_t> heights, int fraction_bits,
                                  const GeometryHeader& header) {
   std::vector<uint8_t> hints(heights.size());
-  const int exponent = stepExponent(header.step);
+  const StepGrid grid(header.base, header.step);
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
     using T = decltype(type);
     for (size_t i = 0; i < heights.size(); ++i) {
       const int32_t q = wholeStep(heights[i], fraction_bits);
-      hints[i] = openBits(restore<T>(header.base, header.step, q), exponent);
+      hints[i] = openBits(grid.sampleNear<T>(q), grid.exponent());
     }
   });
   return hints;

@@ -5,7 +5,8 @@
 // 2^30th of the step, far below what the rounding of a float leaves where the step is worth its
 // bytes.
 //
-//   kFar  2^59   samples beyond are clamped; planes through three samples stay below 2^62
+//   kFar   2^59       samples beyond are clamped; planes through three samples stay below 2^62
+//   kWide  2^62 - 1   the base and samples beside it: differences of two have 64 bits
 #pragma once
 
 #include <algorithm>
@@ -20,8 +21,9 @@
 namespace tetrakis::inline steps {
 
 inline constexpr int64_t kFar = int64_t{1} << 59;
+inline constexpr int64_t kWide = (int64_t{1} << 62) - 1;
 
-/// A relative step: `step` units of 2^exponent each.
+/// A step: `step` units of 2^exponent each.
 struct StepUnits {
   int64_t step;
   int exponent;
@@ -67,17 +69,17 @@ inline int64_t floorDiv(int64_t n, int64_t d) {
   return n / d - (n % d < 0);
 }
 
-/// n * 2^shift, rounded to the nearest integer, halves up, and clamped to +-kFar.
-inline int64_t scaled(int64_t n, int shift) {
-  if (shift <= 0) {
-    const int down = std::min(-shift, 62);
-    const int64_t half = down > 0 ? int64_t{1} << (down - 1) : 0;
-    return std::clamp((n + half) >> down, -kFar, kFar);
+/// n * 2^shift, rounded to the nearest integer, halves up, and clamped to +-limit.
+inline int64_t scaled(int64_t n, int shift, int64_t limit = kFar) {
+  if (n == 0 || shift < -63) return 0;  // at most half of 1 is left
+  if (shift < 0) {
+    const int64_t half = n >> (-shift - 1) & 1;
+    return std::clamp((n >> -shift) + half, -limit, limit);
   }
-  if (n == 0) return 0;
-  if (digitsOf(static_cast<uint64_t>(std::abs(n))) + int64_t{shift} <= 59)
-    return n * (int64_t{1} << shift);
-  return n < 0 ? -kFar : kFar;
+  const uint64_t size = n < 0 ? 0 - static_cast<uint64_t>(n) : static_cast<uint64_t>(n);
+  const bool beyond = shift > 62 || size > static_cast<uint64_t>(limit) >> shift;
+  if (beyond) return n < 0 ? -limit : limit;
+  return n * (int64_t{1} << shift);
 }
 
 /// Whether a sample is a finite number.
@@ -89,16 +91,24 @@ bool isNumber(T sample) {
     return true;
 }
 
-/// A sample that is a number, in units of 2^exponent; kFar and beyond are +-kFar.
 template <class T>
-int64_t inUnits(T sample, int exponent) {
+bool isNaN(T sample) {
+  if constexpr (std::is_floating_point_v<T>)
+    return (std::bit_cast<uint32_t>(sample) & 0x7fffffff) > 0x7f800000;
+  else
+    return false;
+}
+
+/// A sample in units of 2^exponent, beyond +-limit that. Infinities and NaNs have their digits.
+template <class T>
+int64_t inUnits(T sample, int exponent, int64_t limit = kFar) {
   const int shift = spacingExponent(sample) - exponent;
   if constexpr (std::is_floating_point_v<T>) {
     const auto bits = std::bit_cast<uint32_t>(sample);
     const int64_t digits = (bits & 0x7fffff) | ((bits >> 23 & 0xff) != 0 ? 0x800000 : 0);
-    return scaled(bits >> 31 ? -digits : digits, shift);
+    return scaled(bits >> 31 ? -digits : digits, shift, limit);
   } else {
-    return scaled(static_cast<int64_t>(sample), shift);
+    return scaled(static_cast<int64_t>(sample), shift, limit);
   }
 }
 
@@ -132,28 +142,42 @@ T nearestSample(int64_t n, int exponent) {
   }
 }
 
-/// The grid of a header's base and step.
+/// What steps stand for, and which steps samples lie at: base + q * step, in units of the step.
 class StepGrid {
  public:
   StepGrid(double base, double step) : units_(stepUnits(step)), exponent_(stepExponent(step)) {
     const DoubleDigits of(base);
     const auto digits = static_cast<int64_t>(of.digits);
     base_ = scaled(std::bit_cast<uint64_t>(base) >> 63 ? -digits : digits,
-                   of.exponent - units_.exponent);
+                   of.exponent - units_.exponent, kWide);
   }
 
   /// stepExponent() of the step.
   int exponent() const { return exponent_; }
 
-  /// The step nearest to a sample, halves up, up to 2^29. Infinities and NaNs have their digits.
-  int32_t nearest(float sample) const {
-    constexpr int64_t kMost = 1 << 29;
-    const int64_t rise = inUnits(sample, units_.exponent) - base_;
-    return static_cast<int32_t>(
-        std::clamp(floorDiv(rise + units_.step / 2, units_.step), -kMost, kMost));
+  /// Step q in units of 2^exponent, beyond +-kFar that.
+  int64_t inUnitsOf(int exponent, int32_t q) const {
+    return scaled(at(q), units_.exponent - exponent);
+  }
+
+  /// The sample nearest to step q.
+  template <class T>
+  T sampleNear(int32_t q) const {
+    return nearestSample<T>(at(q), units_.exponent);
+  }
+
+  /// The multiple of 2^-fraction_bits steps nearest to a sample, halves up, up to `most` of them.
+  /// Infinities and NaNs have their digits.
+  template <class T>
+  int32_t nearest(T sample, int fraction_bits = 0, int64_t most = 1 << 29) const {
+    const int64_t rise = inUnits(sample, units_.exponent, kWide) - base_;
+    const int64_t parts = scaled(rise, fraction_bits, kWide) + units_.step / 2;
+    return static_cast<int32_t>(std::clamp(floorDiv(parts, units_.step), -most, most));
   }
 
  private:
+  int64_t at(int32_t q) const { return base_ + q * units_.step; }  // less than 2^63
+
   StepUnits units_;
   int exponent_;
   int64_t base_;  ///< in units

@@ -4,14 +4,13 @@
 // sample, because everything behind the decoder of heights works on steps.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
 #include "codec/geometry/steps/restore.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
+#include "codec/geometry/steps/step_units.hpp"
 
 namespace tetrakis::inline steps {
 
@@ -20,18 +19,11 @@ struct ValueInSteps {
   int32_t correction;  ///< to the value, from the sample that the nearest whole step restores
 };
 
-/// Any number in units of 2^-fraction_bits steps; 0 for a NaN. header: base and step.
-inline int32_t heightOf(double sample, const GeometryHeader& header, int fraction_bits) {
-  constexpr double kMost = 1 << 29;
-  const double steps = (sample - header.base) / header.step;
-  if (std::isnan(steps)) return 0;
-  const double scaled = std::ldexp(steps, fraction_bits);
-  return static_cast<int32_t>(std::round(std::clamp(scaled, -kMost, kMost)));
-}
-
+/// grid: of the header's base and step.
 template <class T>
-ValueInSteps inSteps(T value, const GeometryHeader& header, int fraction_bits) {
-  ValueInSteps out{heightOf(static_cast<double>(value), header, fraction_bits), 0};
+ValueInSteps inSteps(T value, const GeometryHeader& header, const StepGrid& grid,
+                     int fraction_bits) {
+  ValueInSteps out{isNaN(value) ? 0 : grid.nearest(value, fraction_bits), 0};
   const T near = restore<T>(header.base, header.step, wholeStep(out.height, fraction_bits));
   out.correction = static_cast<int32_t>(orderOf(value) - orderOf(near));
   return out;

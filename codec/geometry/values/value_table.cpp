@@ -11,12 +11,13 @@ namespace tetrakis::inline values {
 
 std::vector<ValueInSteps> valuesInSteps(const ValueTable& table, const GeometryHeader& header) {
   assert(!table.empty());
+  const StepGrid grid(header.base, header.step);
   std::vector<ValueInSteps> values;
   values.reserve(table.words.size());
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {
     using T = decltype(type);
     for (const uint32_t word : table.words)
-      values.push_back(inSteps(fromOrder<T>(word), header, kTableFractionBits));
+      values.push_back(inSteps(fromOrder<T>(word), header, grid, kTableFractionBits));
   });
   return values;
 }
