@@ -82,8 +82,11 @@ export function fitCamera(camera, object, direction = USUAL) {
   eachPlace(object, (point) => {
     nearest = Math.min(nearest, point.sub(camera.position).dot(axes.ahead));
   });
+  // The place of the camera may be the tip of a peak that points at it.
+  const back = Math.max(0, reach / 2500 - nearest);
+  camera.position.addScaledVector(axes.ahead, -back);
   camera.up.set(0, 1, 0);
-  camera.near = Math.min(reach / 5000, nearest / 2);
+  camera.near = Math.min(reach / 5000, (nearest + back) / 2);
   camera.far = 4 * reach;
   camera.lookAt(camera.position.clone().add(axes.ahead));
   camera.updateProjectionMatrix();

@@ -426,7 +426,7 @@ test('bytes come on while frames are made; who leaves ends their coming', async 
 });
 
 test('what comes soon is waited for, instead of a frame without it', async () => {
-  await writeFile(join(folder, 'large.tks'), await encode({...terrainOf(193), bytes: 90000}));
+  await writeFile(join(folder, 'large.tks'), await encode({...terrainOf(385), bytes: 90000}));
   await withServer({pause: [70000, 30]}, async (server) => {
     const terrain = await open(server.url + 'large.tks');
     const frames = await framesOf(terrain);

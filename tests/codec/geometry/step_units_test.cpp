@@ -14,7 +14,7 @@
 namespace tetrakis::test {
 namespace {
 
-using Wide = __extension__ __int128;
+__extension__ typedef __int128 Wide;
 
 /// n * 2^shift, halves up, clamped.
 int64_t expectedScaled(int64_t n, int shift, int64_t limit) {
@@ -51,19 +51,19 @@ TEST(StepUnits, FloatsComeBackFromUnits) {
   }
 }
 
-/// Steps have 31 digits in units, so that a float next to a height is that of doubles, or the next.
+/// Steps have 31 digits in units: a height is off by a unit and 2^-30 of its way from the base.
 TEST(StepUnits, SamplesNearStepsAreThoseOfDoubles) {
   for (const double base : {0.0, 812.7, -1e5, 31.0417}) {
     for (const double step : {1.0, 0.2, 0.3048, 0.001, 255.0}) {
       const StepGrid grid(base, step);
       for (int32_t q = -70000; q < 70000; q += 7) {
-        const auto sample = restore<float>(base, step, q);
-        const auto apart = static_cast<int64_t>(orderOf(grid.sampleNear<float>(q))) -
-                           static_cast<int64_t>(orderOf(sample));
-        if (std::abs(sample) > step) ASSERT_LE(std::abs(apart), 1) << base << " + " << q << step;
-        ASSERT_EQ(grid.sampleNear<int32_t>(q),
-                  static_cast<int32_t>(std::floor(base + q * step + 0.5 + 1e-6 * step)));
-        ASSERT_EQ(grid.nearest(sample), q) << base << " + " << q << " * " << step;
+        const double exact = base + q * step;
+        const double off = (std::abs(q) + 1) * step * 0x1p-30;
+        ASSERT_NEAR(grid.sampleNear<float>(q), exact, off + std::abs(exact) * 0x1p-24);
+        ASSERT_NEAR(grid.sampleNear<int32_t>(q), exact, 0.5 + off);
+        if (std::abs(exact) * 0x1p-23 < step) {
+          ASSERT_EQ(grid.nearest(restore<float>(base, step, q)), q) << base << " + q * " << step;
+        }
       }
     }
   }
