@@ -15,8 +15,8 @@
 #include "bitstream/stream/pieces.hpp"
 #include "bitstream/stream/scattered_packets.hpp"
 #include "codec/geometry/heights_decoder.hpp"
+#include "codec/wavelet/pyramid.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
-#include "wavelet/pyramid.hpp"
 
 namespace tetrakis::inline api {
 

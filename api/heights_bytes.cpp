@@ -6,9 +6,9 @@
 #include "bitstream/stream/correction_tracks.hpp"
 #include "codec/geometry/heights_decoder.hpp"
 #include "codec/geometry/values/value_table.hpp"
+#include "codec/lattice/validity_decoder.hpp"
 #include "codec/lines/shown_lines.hpp"
-#include "lattice/validity_decoder.hpp"
-#include "wavelet/morphology.hpp"
+#include "codec/wavelet/morphology.hpp"
 
 namespace tetrakis::inline api {
 

@@ -3,8 +3,8 @@
 // the call allocates anything, and hold them against the limit.
 //
 // Bounds follow what the rooms below keep at the same time: planes of 32-bit values, masks, the
-// state of one track a thread (wavelet/region_decoder.hpp), a window's blocks. What meshes take is
-// measured (tests/api/decode_memory_test.cpp).
+// state of one track a thread (codec/wavelet/region_decoder.hpp), a window's blocks. What meshes
+// take is measured (tests/api/decode_memory_test.cpp).
 #pragma once
 
 #include <cstdint>

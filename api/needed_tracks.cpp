@@ -6,8 +6,8 @@
 #include "bitstream/stream/correction_tracks.hpp"
 #include "codec/geometry/heights_decoder.hpp"
 #include "codec/lines/shown_lines.hpp"
-#include "wavelet/synthesis/view_synthesis.hpp"
-#include "wavelet/wavelet_header.hpp"
+#include "codec/wavelet/synthesis/view_synthesis.hpp"
+#include "codec/wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline api {
 

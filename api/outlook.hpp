@@ -5,7 +5,7 @@
 #pragma once
 
 #include "api/decoder.hpp"
-#include "receiver/fetch_plan.hpp"
+#include "ratecontrol/receiver/fetch_plan.hpp"
 
 namespace tetrakis::inline api {
 

@@ -7,10 +7,10 @@
 #include <cstdint>
 
 #include "api/decoder.hpp"
+#include "codec/wavelet/region_decoder.hpp"
+#include "codec/wavelet/synthesis/view_synthesis.hpp"
+#include "codec/wavelet/wavelet_header.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
-#include "wavelet/region_decoder.hpp"
-#include "wavelet/synthesis/view_synthesis.hpp"
-#include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline api {
 

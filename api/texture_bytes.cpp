@@ -5,10 +5,10 @@
 
 #include "api/plane_bytes.hpp"
 #include "api/texture_strips.hpp"
+#include "codec/lattice/validity_decoder.hpp"
 #include "codec/lines/shown_lines.hpp"
-#include "lattice/validity_decoder.hpp"
+#include "codec/wavelet/morphology.hpp"
 #include "texture_wavelet/tables/channel_tables.hpp"
-#include "wavelet/morphology.hpp"
 
 namespace tetrakis::inline api {
 

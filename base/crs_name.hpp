@@ -7,7 +7,7 @@
 
 namespace tetrakis::inline base {
 
-/// Whether web pages turn a reference system into degrees by themselves (web/src/place.js):
+/// Whether web pages turn a reference system into degrees by themselves (apps/web/src/place.js):
 /// degrees, web Mercator, UTM. Streams in others take fitted longitudes and latitudes along.
 bool knownToBrowsers(const std::string& crs);
 

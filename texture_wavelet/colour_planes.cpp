@@ -5,12 +5,12 @@
 #include <bit>
 #include <utility>
 
+#include "codec/wavelet/choice/bridge_fill.hpp"
 #include "texture_wavelet/colour/colour_fit.hpp"
 #include "texture_wavelet/colour/further_colour_fit.hpp"
 #include "texture_wavelet/colour/lossless_colour.hpp"
 #include "texture_wavelet/mask/cutout.hpp"
 #include "texture_wavelet/texture_plan.hpp"
-#include "wavelet/choice/bridge_fill.hpp"
 
 namespace tetrakis::inline texture {
 

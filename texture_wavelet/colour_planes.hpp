@@ -9,11 +9,11 @@
 
 #include "base/plane.hpp"
 #include "bitstream/stream/texture_header.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
 #include "texture_wavelet/colour/colour.hpp"
 #include "texture_wavelet/tables/few_values.hpp"
 #include "texture_wavelet/texture_bridges.hpp"
 #include "texture_wavelet/texture_source.hpp"
-#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline texture {
 

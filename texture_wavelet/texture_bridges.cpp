@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "wavelet/bridges.hpp"
-#include "wavelet/choice/bridge_fill.hpp"
-#include "wavelet/choice/typical_parts.hpp"
+#include "codec/wavelet/bridges.hpp"
+#include "codec/wavelet/choice/bridge_fill.hpp"
+#include "codec/wavelet/choice/typical_parts.hpp"
 
 namespace tetrakis::inline texture {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions here choose the texels that are hidden or drawn over and that the wavelet of a
-// texture nevertheless codes (wavelet/bridges.hpp): thin lines and single holes would cut its
+// texture nevertheless codes (codec/wavelet/bridges.hpp): thin lines and single holes would cut its
 // planes into pieces. Encoder only.
 #pragma once
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/plane.hpp"
-#include "wavelet/choice/bridge_choice.hpp"
+#include "codec/wavelet/choice/bridge_choice.hpp"
 
 namespace tetrakis::inline texture {
 

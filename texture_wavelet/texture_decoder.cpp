@@ -10,13 +10,13 @@
 
 #include "base/parallel.hpp"
 #include "codec/lines/shown_lines.hpp"
+#include "codec/wavelet/synthesis/view_synthesis.hpp"
+#include "codec/wavelet/wavelet_header.hpp"
 #include "texture_wavelet/colour/colour_levels.hpp"
 #include "texture_wavelet/drawn/drawn_decoder.hpp"
 #include "texture_wavelet/stored_texture_decoder.hpp"
 #include "texture_wavelet/tables/channel_tables.hpp"
 #include "texture_wavelet/texture_plan.hpp"
-#include "wavelet/synthesis/view_synthesis.hpp"
-#include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline texture {
 

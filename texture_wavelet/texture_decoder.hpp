@@ -11,9 +11,9 @@
 #include "base/view.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/stream/texture_header.hpp"
+#include "codec/wavelet/region_decoder.hpp"
+#include "codec/wavelet/synthesis/plane_synthesis.hpp"
 #include "texture_wavelet/texture_opening.hpp"
-#include "wavelet/region_decoder.hpp"
-#include "wavelet/synthesis/plane_synthesis.hpp"
 
 namespace tetrakis::inline texture {
 

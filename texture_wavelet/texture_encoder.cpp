@@ -12,7 +12,10 @@
 
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
-#include "lattice/validity_encoder.hpp"
+#include "codec/lattice/validity_encoder.hpp"
+#include "codec/wavelet/choice/rounding_choice.hpp"
+#include "codec/wavelet/priority_map_encoder.hpp"
+#include "codec/wavelet/wavelet_header.hpp"
 #include "texture_wavelet/colour/colour_levels.hpp"
 #include "texture_wavelet/colour_planes.hpp"
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
@@ -20,9 +23,6 @@
 #include "texture_wavelet/tables/channel_tables_encoder.hpp"
 #include "texture_wavelet/texture_plan.hpp"
 #include "texture_wavelet/visual_weights.hpp"
-#include "wavelet/choice/rounding_choice.hpp"
-#include "wavelet/priority_map_encoder.hpp"
-#include "wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline texture {
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 
 #include "bitstream/stream/encoded_texture.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
 #include "texture_wavelet/tables/few_values.hpp"
 #include "texture_wavelet/texture_source.hpp"
-#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline texture {
 

@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cstddef>
 
-#include "lattice/validity_decoder.hpp"
-#include "wavelet/bridges.hpp"
+#include "codec/lattice/validity_decoder.hpp"
+#include "codec/wavelet/bridges.hpp"
 
 namespace tetrakis::inline texture {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "wavelet/wavelet_header.hpp"
+#include "codec/wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline texture {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "bitstream/stream/texture_header.hpp"
+#include "codec/wavelet/band_plan.hpp"
 #include "texture_wavelet/colour/colour.hpp"
-#include "wavelet/band_plan.hpp"
 
 namespace tetrakis::inline texture {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "base/texels.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
+#include "codec/wavelet/priority_map.hpp"
 #include "texture_wavelet/mask/cutout.hpp"
-#include "wavelet/choice/filter_choice.hpp"
-#include "wavelet/priority_map.hpp"
 
 namespace tetrakis::inline texture {
 

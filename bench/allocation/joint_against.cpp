@@ -8,10 +8,10 @@
 #include <optional>
 #include <utility>
 
+#include "apps/tools/files/stream.hpp"
+#include "apps/tools/report/viewed_mesh.hpp"
 #include "bench/allocation/joint_peers.hpp"
 #include "bench/allocation/joint_studies.hpp"
-#include "tools/files/stream.hpp"
-#include "tools/report/viewed_mesh.hpp"
 
 namespace tetrakis::bench {
 namespace {

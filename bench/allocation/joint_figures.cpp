@@ -10,10 +10,10 @@
 #include <set>
 #include <utility>
 
+#include "apps/tools/files/stream.hpp"
+#include "apps/tools/report/report.hpp"
+#include "apps/tools/report/viewed_mesh.hpp"
 #include "bench/allocation/joint_studies.hpp"
-#include "tools/files/stream.hpp"
-#include "tools/report/report.hpp"
-#include "tools/report/viewed_mesh.hpp"
 
 namespace tetrakis::bench {
 namespace {

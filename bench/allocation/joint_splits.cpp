@@ -11,8 +11,8 @@
 #include <tuple>
 #include <utility>
 
+#include "apps/tools/report/split_stream.hpp"
 #include "bench/allocation/joint_studies.hpp"
-#include "tools/report/split_stream.hpp"
 
 namespace tetrakis::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <utility>
 
-#include "tools/report/picture_judge.hpp"
+#include "apps/tools/report/picture_judge.hpp"
 
 namespace tetrakis::bench {
 

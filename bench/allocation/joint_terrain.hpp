@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/tools/report/comparison.hpp"
 #include "base/status.hpp"
 #include "tetrakis/tetrakis.hpp"
-#include "tools/report/comparison.hpp"
 
 namespace tetrakis::bench {
 

@@ -14,12 +14,12 @@
 #include <utility>
 #include <vector>
 
+#include "codec/wavelet/lifting/lifting_kernel.hpp"
 #include "tetrakis/tetrakis.hpp"
-#include "wavelet/lifting/lifting_kernel.hpp"
 
 namespace tetrakis::inline wavelet {
 
-/// Takes the place of wavelet/lifting/lifting_avx2.cpp in this program: no vectors.
+/// Takes the place of codec/wavelet/lifting/lifting_avx2.cpp in this program: no vectors.
 size_t liftStepVectors(int32_t*, const LiftingSources&, const LiftingRule&, size_t) {
   return 0;
 }

@@ -8,7 +8,7 @@ import {createRequire} from 'node:module';
 import {dracoGlb, glbOf, image, tilesOf} from './web_arrival_files.mjs';
 import {Site} from './web_arrival_site.mjs';
 
-const web = new URL('../../web/', import.meta.url).pathname;
+const web = new URL('../../apps/web/', import.meta.url).pathname;
 const require = createRequire(web + 'package.json');
 const {chromium} = require('playwright-core');
 

@@ -5,7 +5,7 @@ import {execFileSync} from 'node:child_process';
 import {mkdirSync, readFileSync, readdirSync} from 'node:fs';
 import {createRequire} from 'node:module';
 
-const require = createRequire(new URL('../../web/package.json', import.meta.url));
+const require = createRequire(new URL('../../apps/web/package.json', import.meta.url));
 const draco3d = require('draco3d');
 const SCRIPT = new URL('web_arrival_images.py', import.meta.url).pathname;
 const [POSITION_BITS, PLACE_BITS] = [14, 12];

@@ -4,12 +4,12 @@
 import {execFileSync} from 'node:child_process';
 import {readFile} from 'node:fs/promises';
 
-import {Decoder} from '../../web/src/stream_decoder.js';
+import {Decoder} from '../../apps/web/src/stream_decoder.js';
 
 const [native, file] = process.argv.slice(2);
 const ROUNDS = 5, RUNS = 5, TRIANGLES = 20000;
 const module = await WebAssembly.compile(
-  await readFile(new URL('../../web/dist/tetrakis.wasm', import.meta.url)));
+  await readFile(new URL('../../apps/web/dist/tetrakis.wasm', import.meta.url)));
 const bytes = new Uint8Array(await readFile(file));
 
 const parts = {

@@ -3,11 +3,11 @@
 // decoder that goes on and by one that begins anew at each frame. Least of five runs.
 import {readFile} from 'node:fs/promises';
 
-import {Decoder} from '../../web/src/stream_decoder.js';
+import {Decoder} from '../../apps/web/src/stream_decoder.js';
 
 const REQUEST = {mesh: false, surface: true, texture: true, texels: 4096, samples: 4096};
 const module = await WebAssembly.compile(
-  await readFile(new URL('../../web/dist/tetrakis.wasm', import.meta.url)));
+  await readFile(new URL('../../apps/web/dist/tetrakis.wasm', import.meta.url)));
 const bytes = new Uint8Array(await readFile(process.argv[2]));
 
 function decoderOf(length) {

@@ -4,10 +4,10 @@
 // for two more.
 import {dirname, basename} from 'node:path';
 
-import {PerspectiveCamera} from '../../web/node_modules/three/build/three.module.js';
-import {open} from '../../web/src/index.js';
-import {TksLoader} from '../../web/src/three.js';
-import {serve} from '../../web/test/server.js';
+import {PerspectiveCamera} from '../../apps/web/node_modules/three/build/three.module.js';
+import {open} from '../../apps/web/src/index.js';
+import {TksLoader} from '../../apps/web/src/three.js';
+import {serve} from '../../apps/web/test/server.js';
 
 
 const file = process.argv[2], server = await serve(dirname(file), {});

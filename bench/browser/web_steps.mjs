@@ -6,10 +6,10 @@ import {createRequire} from 'node:module';
 import {tmpdir} from 'node:os';
 import {basename, join, resolve} from 'node:path';
 
-import {Decoder} from '../../web/src/stream_decoder.js';
-import {serve} from '../../web/test/server.js';
+import {Decoder} from '../../apps/web/src/stream_decoder.js';
+import {serve} from '../../apps/web/test/server.js';
 
-const web = new URL('../../web/', import.meta.url).pathname;
+const web = new URL('../../apps/web/', import.meta.url).pathname;
 const {chromium} = createRequire(web + 'package.json')('playwright-core');
 const FIRST = 4096, TRIANGLES = 20000, PIXELS = 512;
 const module = await WebAssembly.compile(await readFile(web + 'dist/tetrakis.wasm'));

@@ -2,12 +2,12 @@
 // bench_geometry DIR...: height fields. One Tetrakis stream, cut, against OpenJPEG 9/7 files made
 // for each rate (the better of 6 and 9 resolutions, heights as they are or stretched to 16 bits).
 // Lossless also against JPEG XL.
+#include "apps/tools/files/files.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/comparison.hpp"
 #include "bench/peers/jxl_peer.hpp"
 #include "bench/peers/openjpeg_peer.hpp"
 #include "bench/peers/tetrakis_peer.hpp"
-#include "tools/files/files.hpp"
 
 namespace {
 

@@ -8,13 +8,13 @@
 #include <limits>
 #include <span>
 
+#include "apps/tools/files/files.hpp"
 #include "base/samples.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/height_files.hpp"
 #include "bench/harness/results.hpp"
 #include "bench/peers/program.hpp"
 #include "tetrakis/tetrakis.hpp"
-#include "tools/files/files.hpp"
 
 namespace tetrakis::bench {
 namespace {

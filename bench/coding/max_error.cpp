@@ -12,12 +12,12 @@
 #include <cstdio>
 #include <optional>
 
+#include "apps/tools/files/files.hpp"
+#include "apps/tools/report/scene.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/height_files.hpp"
 #include "bench/harness/results.hpp"
 #include "tetrakis/tetrakis.hpp"
-#include "tools/files/files.hpp"
-#include "tools/report/scene.hpp"
 
 namespace tetrakis::bench {
 namespace {

@@ -9,14 +9,14 @@
 #include <ctime>
 #include <functional>
 
+#include "apps/tools/files/files.hpp"
+#include "apps/tools/synth/synth.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/bjontegaard.hpp"
 #include "bench/harness/median.hpp"
 #include "bench/harness/results.hpp"
 #include "bench/peers/raster.hpp"
 #include "tetrakis/tetrakis.hpp"
-#include "tools/files/files.hpp"
-#include "tools/synth/synth.hpp"
 
 namespace {
 

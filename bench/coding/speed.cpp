@@ -7,6 +7,8 @@
 #include <ctime>
 #include <functional>
 
+#include "apps/tools/files/files.hpp"
+#include "apps/tools/synth/synth.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/median.hpp"
 #include "bench/harness/results.hpp"
@@ -14,8 +16,6 @@
 #include "bench/peers/openjpeg_peer.hpp"
 #include "bench/peers/tetrakis_peer.hpp"
 #include "tetrakis/tetrakis.hpp"
-#include "tools/files/files.hpp"
-#include "tools/synth/synth.hpp"
 
 namespace {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_texture DIR...: images. One Tetrakis stream, cut, against OpenJPEG 9/7 files made for each
 // rate, and AVIF and JPEG XL files. PSNR of the mean squared error over the channels, 8 bits.
+#include "apps/tools/files/files.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/comparison.hpp"
 #include "bench/peers/avif_peer.hpp"
 #include "bench/peers/jxl_peer.hpp"
 #include "bench/peers/openjpeg_peer.hpp"
 #include "bench/peers/tetrakis_peer.hpp"
-#include "tools/files/files.hpp"
 
 namespace {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/tools/files/files.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/ms_ssim.hpp"
 #include "bench/harness/results.hpp"
 #include "bench/peers/tetrakis_peer.hpp"
-#include "tools/files/files.hpp"
 
 namespace {
 

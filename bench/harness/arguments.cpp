@@ -4,7 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 
-#include "tools/files/positive.hpp"
+#include "apps/tools/files/positive.hpp"
 
 namespace tetrakis::bench {
 

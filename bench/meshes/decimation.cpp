@@ -6,12 +6,12 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "apps/tools/files/files.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/results.hpp"
 #include "bench/meshes/decimation_quality.hpp"
 #include "bench/meshes/decimation_speed.hpp"
 #include "bench/meshes/first_mesh.hpp"
-#include "tools/files/files.hpp"
 
 namespace {
 

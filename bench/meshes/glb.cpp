@@ -10,13 +10,13 @@
 #include <map>
 #include <optional>
 
+#include "apps/tools/files/meshes/mesh_writers.hpp"
+#include "apps/tools/files/stream.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/results.hpp"
 #include "bench/meshes/decimation_peers.hpp"
 #include "bench/meshes/screen.hpp"
 #include "bench/meshes/screen_terrain.hpp"
-#include "tools/files/meshes/mesh_writers.hpp"
-#include "tools/files/stream.hpp"
 
 namespace {
 

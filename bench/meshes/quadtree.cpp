@@ -11,6 +11,8 @@
 #include <numeric>
 #include <random>
 
+#include "apps/tools/files/files.hpp"
+#include "apps/tools/synth/synth.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/median.hpp"
 #include "bench/harness/results.hpp"
@@ -18,8 +20,6 @@
 #include "bench/peers/raster.hpp"
 #include "codec/mesh/decimation/decimation.hpp"
 #include "codec/mesh/quadtree/mesh_tree.hpp"
-#include "tools/files/files.hpp"
-#include "tools/synth/synth.hpp"
 
 namespace {
 

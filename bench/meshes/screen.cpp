@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "ground/preset_cameras.hpp"
-#include "tools/report/viewed_mesh.hpp"
+#include "apps/tools/report/viewed_mesh.hpp"
+#include "codec/ground/preset_cameras.hpp"
 
 namespace tetrakis::bench {
 

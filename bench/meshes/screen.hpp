@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "apps/tools/render/render.hpp"
+#include "apps/tools/report/scene.hpp"
 #include "bench/meshes/decimation_mesh.hpp"
-#include "tools/render/render.hpp"
-#include "tools/report/scene.hpp"
 
 namespace tetrakis::bench {
 

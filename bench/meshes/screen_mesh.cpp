@@ -7,12 +7,12 @@
 #include <ctime>
 #include <functional>
 
+#include "apps/tools/files/stream.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/results.hpp"
 #include "bench/meshes/decimation_peers.hpp"
 #include "bench/meshes/screen.hpp"
 #include "bench/meshes/screen_terrain.hpp"
-#include "tools/files/stream.hpp"
 
 namespace {
 

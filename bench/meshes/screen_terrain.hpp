@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/tools/files/files.hpp"
+#include "apps/tools/report/scene.hpp"
 #include "base/status.hpp"
 #include "bench/peers/raster.hpp"
-#include "ground/frame.hpp"
+#include "codec/ground/frame.hpp"
 #include "tetrakis/tetrakis.hpp"
-#include "tools/files/files.hpp"
-#include "tools/report/scene.hpp"
 
 namespace tetrakis::bench {
 

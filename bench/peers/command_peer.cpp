@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <span>
 
+#include "apps/tools/files/files.hpp"
 #include "bench/peers/program.hpp"
-#include "tools/files/files.hpp"
 
 namespace tetrakis::bench {
 namespace {

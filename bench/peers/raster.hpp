@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "apps/tools/files/files.hpp"
 #include "base/status.hpp"
-#include "tools/files/files.hpp"
 
 namespace tetrakis::bench {
 

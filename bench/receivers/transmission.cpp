@@ -12,12 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/tools/files/files.hpp"
+#include "apps/tools/report/comparison.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/receivers/transmission_receivers.hpp"
-#include "ground/vec3.hpp"
+#include "codec/ground/vec3.hpp"
 #include "tetrakis/tetrakis.hpp"
-#include "tools/files/files.hpp"
-#include "tools/report/comparison.hpp"
 
 namespace tetrakis::bench {
 namespace {

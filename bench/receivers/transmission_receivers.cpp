@@ -6,8 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "apps/tools/report/viewed_mesh.hpp"
 #include "tetrakis/tetrakis.hpp"
-#include "tools/report/viewed_mesh.hpp"
 
 namespace tetrakis::bench {
 namespace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/tools/report/scene.hpp"
 #include "base/status.hpp"
-#include "tools/report/scene.hpp"
 
 namespace tetrakis::bench {
 

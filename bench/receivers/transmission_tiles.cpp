@@ -6,12 +6,12 @@
 #include <optional>
 #include <utility>
 
+#include "apps/tools/report/viewed_mesh.hpp"
 #include "bench/peers/openjpeg_peer.hpp"
 #include "bench/peers/raster.hpp"
 #include "bench/receivers/transmission_receivers.hpp"
-#include "receiver/ground_sight.hpp"
+#include "ratecontrol/receiver/ground_sight.hpp"
 #include "tetrakis/tetrakis.hpp"
-#include "tools/report/viewed_mesh.hpp"
 
 namespace tetrakis::bench {
 namespace {

@@ -10,12 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "apps/tools/files/files.hpp"
+#include "apps/tools/files/sample_types.hpp"
+#include "apps/tools/synth/synth.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/results.hpp"
 #include "codec/polyline/algorithms.hpp"
-#include "tools/files/files.hpp"
-#include "tools/files/sample_types.hpp"
-#include "tools/synth/synth.hpp"
 
 namespace {
 

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/tools/files/files.hpp"
+#include "apps/tools/synth/synth.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/height_files.hpp"
 #include "bench/harness/results.hpp"
@@ -18,8 +20,6 @@
 #include "bench/peers/tetrakis_peer.hpp"
 #include "codec/mesh/study/decimation_policies.hpp"
 #include "codec/mesh/study/local_errors.hpp"
-#include "tools/files/files.hpp"
-#include "tools/synth/synth.hpp"
 
 namespace {
 

@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/tools/files/files.hpp"
+#include "apps/tools/synth/synth.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/height_files.hpp"
 #include "bench/harness/median.hpp"
@@ -25,8 +27,6 @@
 #include "codec/mesh/decimation/general_decimation.hpp"
 #include "codec/mesh/gains/gains.hpp"
 #include "codec/mesh/study/decimation_policies.hpp"
-#include "tools/files/files.hpp"
-#include "tools/synth/synth.hpp"
 
 namespace {
 

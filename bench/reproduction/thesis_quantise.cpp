@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
+#include "apps/tools/files/files.hpp"
+#include "apps/tools/synth/synth.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/height_files.hpp"
 #include "bench/peers/raster.hpp"
-#include "tools/files/files.hpp"
-#include "tools/synth/synth.hpp"
 
 namespace {
 

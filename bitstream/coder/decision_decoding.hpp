@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // DecisionDecoding is the decoder's side of passes whose decisions are a codeword of their own
-// (codec/geometry/flat/flat_pass.hpp, wavelet/priority_pass.hpp): their `Io`. The encoder's side is
-// decision_encoding.hpp.
+// (codec/geometry/flat/flat_pass.hpp, codec/wavelet/priority_pass.hpp): their `Io`. The encoder's
+// side is decision_encoding.hpp.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // DecisionEncoding is the encoder's side of passes whose decisions are a codeword of their own
-// (codec/geometry/flat/flat_pass.hpp, wavelet/priority_pass.hpp): their `Io`. The decoder's side is
-// decision_decoding.hpp.
+// (codec/geometry/flat/flat_pass.hpp, codec/wavelet/priority_pass.hpp): their `Io`. The decoder's
+// side is decision_decoding.hpp.
 #pragma once
 
 #include <cstdint>

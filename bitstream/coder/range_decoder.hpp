@@ -166,8 +166,8 @@ class RangeDecoder {
 };
 
 /// Decodes while RangeDecoder::hasPlenty() holds, without asking for missing bytes and with its
-/// state in registers, which is why decisions are inlined where else little is (web/module); the
-/// decoder that it is made from goes on behind it once it is gone.
+/// state in registers, which is why decisions are inlined where else little is (apps/web/module);
+/// the decoder that it is made from goes on behind it once it is gone.
 class RangeDecoder::Plenty {
  public:
   explicit Plenty(RangeDecoder& decoder)

@@ -28,7 +28,7 @@ struct PartKind {
                             kWhiteLevel = 21, kBandWeights = 22, kBound = 64;
 };
 
-/// Which wavelet: wavelet/wavelet_spec.hpp.
+/// Which wavelet: codec/wavelet/wavelet_spec.hpp.
 struct WaveletHeader {
   std::array<uint8_t, 3> filters{};  ///< of level 1, of level 2, of all coarser ones
   uint8_t fraction_bits = 0;         ///< the transform works on samples * 2^fraction_bits
@@ -59,7 +59,8 @@ struct RegionHeader {
   uint8_t side_log2 = 0;  ///< of the regions of the finest levels; 0: one region
 };
 
-/// Tiles of the samples of a component that come earlier than others: wavelet/priority_map.hpp.
+/// Tiles of the samples of a component that come earlier than others:
+/// codec/wavelet/priority_map.hpp.
 struct PriorityHeader {
   uint8_t tile_log2 = 0;  ///< sides of the tiles; 0: none, all have the same priority
   std::string code;       ///< of the map, empty or not

@@ -112,7 +112,8 @@ struct GeometryLayers {
   std::vector<TableKnot> table_knots = {};  ///< likewise, by rising places
   uint64_t flat_bytes = 0;                  ///< 0: there are no flat areas
   uint32_t flat_areas = 0;                  ///< with flat areas only: how many there are
-  uint8_t bridge = 0;  ///< the reach of bridges over voids (wavelet/bridges.hpp); 0: none, or late
+  uint8_t bridge =
+      0;  ///< the reach of bridges over voids (codec/wavelet/bridges.hpp); 0: none, or late
   bool late_mask = false;       ///< validity lies among the coefficients
   uint64_t lifted_bytes = 0;    ///< with a late mask only: which samples are lifted; 0: all
   uint64_t validity_after = 0;  ///< likewise: bytes of coefficients before validity

@@ -63,8 +63,8 @@ struct Neighbours {
   }
 };
 
-/// How many priorities a coefficient may have (wavelet/priority_map.hpp). A band has a tier for
-/// each: tier t holds the coefficients of priority t, which have passes of their own.
+/// How many priorities a coefficient may have (codec/wavelet/priority_map.hpp). A band has a tier
+/// for each: tier t holds the coefficients of priority t, which have passes of their own.
 inline constexpr size_t kPriorities = 8;
 
 /// What the passes over a tier have found so far.

@@ -18,8 +18,8 @@
 
 #include "base/plane.hpp"
 #include "codec/drawing/drawing_index.hpp"
-#include "lattice/levels.hpp"
-#include "lattice/stencil.hpp"
+#include "codec/lattice/levels.hpp"
+#include "codec/lattice/stencil.hpp"
 
 namespace tetrakis::inline drawing {
 

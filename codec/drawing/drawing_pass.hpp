@@ -22,7 +22,7 @@
 #include "base/plane.hpp"
 #include "codec/drawing/drawing_models.hpp"
 #include "codec/drawing/drawing_neighbours.hpp"
-#include "lattice/levels.hpp"
+#include "codec/lattice/levels.hpp"
 
 namespace tetrakis::inline drawing {
 

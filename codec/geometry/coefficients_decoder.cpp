@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "codec/geometry/shown_significance.hpp"
-#include "wavelet/band_plan.hpp"
-#include "wavelet/held_lifting.hpp"
-#include "wavelet/synthesis/view_synthesis.hpp"
-#include "wavelet/wavelet_header.hpp"
+#include "codec/wavelet/band_plan.hpp"
+#include "codec/wavelet/held_lifting.hpp"
+#include "codec/wavelet/synthesis/view_synthesis.hpp"
+#include "codec/wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline geometry {
 

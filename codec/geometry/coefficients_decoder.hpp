@@ -14,7 +14,7 @@
 #include "bitstream/stream/packet.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
-#include "wavelet/region_decoder.hpp"
+#include "codec/wavelet/region_decoder.hpp"
 
 namespace tetrakis::inline geometry {
 

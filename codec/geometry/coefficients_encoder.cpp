@@ -8,8 +8,8 @@
 
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
-#include "wavelet/band_plan.hpp"
-#include "wavelet/wavelet_header.hpp"
+#include "codec/wavelet/band_plan.hpp"
+#include "codec/wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline geometry {
 

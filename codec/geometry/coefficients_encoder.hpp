@@ -9,7 +9,7 @@
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/track/track_encoder.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
-#include "wavelet/priority_map.hpp"
+#include "codec/wavelet/priority_map.hpp"
 
 namespace tetrakis::inline geometry {
 

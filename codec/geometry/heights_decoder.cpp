@@ -14,8 +14,8 @@
 #include "codec/geometry/taken_layers.hpp"
 #include "codec/geometry/values/value_stand_in.hpp"
 #include "codec/geometry/values/value_table_decoder.hpp"
-#include "lattice/validity_decoder.hpp"
-#include "wavelet/bridges.hpp"
+#include "codec/lattice/validity_decoder.hpp"
+#include "codec/wavelet/bridges.hpp"
 
 namespace tetrakis::inline geometry {
 

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <utility>
 
-#include "wavelet/synthesis/plane_synthesis.hpp"
+#include "codec/wavelet/synthesis/plane_synthesis.hpp"
 
 namespace tetrakis::inline geometry {
 

@@ -11,8 +11,8 @@
 #include "base/view.hpp"
 #include "bitstream/track/track_decoder.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
-#include "wavelet/band_plan.hpp"
-#include "wavelet/pyramid.hpp"
+#include "codec/wavelet/band_plan.hpp"
+#include "codec/wavelet/pyramid.hpp"
 
 namespace tetrakis::inline geometry {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <span>
 
-#include "wavelet/pyramid.hpp"
+#include "codec/wavelet/pyramid.hpp"
 
 namespace tetrakis::inline lines {
 

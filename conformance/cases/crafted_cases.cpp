@@ -5,10 +5,10 @@
 
 #include "bitstream/stream/correction_tracks.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
+#include "codec/lattice/validity_encoder.hpp"
 #include "codec/lines/line_repeats_encoder.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
-#include "lattice/validity_encoder.hpp"
 
 namespace tetrakis::conformance {
 namespace {

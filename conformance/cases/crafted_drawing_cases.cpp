@@ -3,9 +3,9 @@
 #include "codec/drawing/drawing_encoding.hpp"
 #include "codec/drawing/drawing_pass.hpp"
 #include "codec/geometry/drawn_heights/drawn_steps.hpp"
+#include "codec/lattice/levels.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
-#include "lattice/levels.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 
 namespace tetrakis::conformance {

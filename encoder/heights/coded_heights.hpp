@@ -14,10 +14,10 @@
 #include "bitstream/stream/correction_tracks.hpp"
 #include "codec/geometry/coding_choice/flat_choice.hpp"
 #include "codec/geometry/coefficients_encoder.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
+#include "codec/wavelet/choice/rounding_choice.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "ratecontrol/curves/coded_tracks.hpp"
-#include "wavelet/choice/filter_choice.hpp"
-#include "wavelet/choice/rounding_choice.hpp"
 
 namespace tetrakis::inline heights {
 

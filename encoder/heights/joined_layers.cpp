@@ -7,9 +7,9 @@
 #include <span>
 #include <utility>
 
+#include "codec/wavelet/priority_map_encoder.hpp"
 #include "encoder/heights/followed_heights.hpp"
 #include "ratecontrol/curves/hull.hpp"
-#include "wavelet/priority_map_encoder.hpp"
 
 namespace tetrakis::inline heights {
 

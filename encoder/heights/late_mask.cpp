@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "lattice/validity_encoder.hpp"
+#include "codec/lattice/validity_encoder.hpp"
 #include "ratecontrol/curves/track_order.hpp"
 
 namespace tetrakis::inline heights {

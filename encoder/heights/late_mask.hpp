@@ -16,7 +16,7 @@
 
 #include "base/plane.hpp"
 #include "bitstream/track/track_encoder.hpp"
-#include "wavelet/choice/bridge_choice.hpp"
+#include "codec/wavelet/choice/bridge_choice.hpp"
 
 namespace tetrakis::inline heights {
 

@@ -17,8 +17,8 @@
 #include "codec/geometry/relative/relative_step_choice.hpp"
 #include "codec/geometry/steps/height_samples.hpp"
 #include "codec/geometry/values/value_table_encoder.hpp"
+#include "codec/lattice/validity_encoder.hpp"
 #include "encoder/heights/height_options.hpp"
-#include "lattice/validity_encoder.hpp"
 
 namespace tetrakis::inline heights {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/inputs/coded_lines.hpp"
 
-#include "ground/frame.hpp"
+#include "codec/ground/frame.hpp"
 
 namespace tetrakis::inline inputs {
 

@@ -7,10 +7,10 @@
 #include <span>
 
 #include "base/status.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
+#include "codec/wavelet/priority_map.hpp"
 #include "encoder/inputs/coded_lines.hpp"
 #include "tetrakis/tetrakis.h"
-#include "wavelet/choice/filter_choice.hpp"
-#include "wavelet/priority_map.hpp"
 
 namespace tetrakis::inline inputs {
 

@@ -8,7 +8,7 @@
 
 #include "base/length_unit.hpp"
 #include "base/samples.hpp"
-#include "ground/preset_cameras.hpp"
+#include "codec/ground/preset_cameras.hpp"
 
 namespace tetrakis::inline views {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "ground/camera.hpp"
-#include "ground/frame.hpp"
+#include "codec/ground/camera.hpp"
+#include "codec/ground/frame.hpp"
 #include "ratecontrol/pictures/ground_rays.hpp"
 #include "tetrakis/tetrakis.h"
 

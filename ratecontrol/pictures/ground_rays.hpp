@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/plane.hpp"
-#include "ground/frame.hpp"
-#include "ground/vec3.hpp"
+#include "codec/ground/frame.hpp"
+#include "codec/ground/vec3.hpp"
 #include "ratecontrol/pictures/maximum_mipmap.hpp"
 
 namespace tetrakis::inline pictures {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/portable_math.hpp"
-#include "ground/sky.hpp"
+#include "codec/ground/sky.hpp"
 
 namespace tetrakis::inline pictures {
 

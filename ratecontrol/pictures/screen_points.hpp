@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "base/plane.hpp"
-#include "ground/camera.hpp"
+#include "codec/ground/camera.hpp"
 #include "ratecontrol/pictures/ground_rays.hpp"
 #include "ratecontrol/pictures/picture_point.hpp"
 #include "ratecontrol/pictures/screen_texture.hpp"

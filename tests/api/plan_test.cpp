@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "conformance/samples/header_seal.hpp"
-#include "receiver/ground_sight.hpp"
+#include "ratecontrol/receiver/ground_sight.hpp"
 #include "tests/support/indexed_terrain.hpp"
 
 namespace tetrakis::test {

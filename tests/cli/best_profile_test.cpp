@@ -6,8 +6,8 @@
 #include <limits>
 #include <random>
 
+#include "apps/tools/profile/best_profile.hpp"
 #include "codec/polyline/algorithms.hpp"
-#include "tools/profile/best_profile.hpp"
 
 namespace tetrakis::test {
 namespace {

@@ -19,9 +19,9 @@
 
 #include "tests/support/same_bytes.hpp"
 
-#include "tools/commands/command_line.hpp"
-#include "tools/files/file_bytes.hpp"
-#include "tools/files/files.hpp"
+#include "apps/tools/commands/command_line.hpp"
+#include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/files.hpp"
 
 namespace tetrakis::test {
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "apps/tools/files/place/earth.hpp"
 #include "tests/cli/cli_fixture.hpp"
-#include "tools/files/place/earth.hpp"
 
 namespace tetrakis::test {
 namespace {

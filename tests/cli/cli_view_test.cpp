@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <map>
 
+#include "apps/tools/files/stream.hpp"
+#include "apps/tools/report/viewed_mesh.hpp"
 #include "tests/cli/cli_fixture.hpp"
-#include "tools/files/stream.hpp"
-#include "tools/report/viewed_mesh.hpp"
 
 namespace tetrakis::test {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Output: staged, committed, or gone.
-#include "tools/output/output.hpp"
+#include "apps/tools/output/output.hpp"
 
+#include "apps/tools/files/temporary.hpp"
 #include "tests/cli/cli_fixture.hpp"
-#include "tools/files/temporary.hpp"
 
 namespace tetrakis::test {
 namespace {

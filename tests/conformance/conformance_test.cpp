@@ -9,13 +9,13 @@
 #include <sstream>
 
 #include "bitstream/stream/header.hpp"
+#include "codec/wavelet/lifting/lifting_filter.hpp"
 #include "conformance/cases/stream_tools.hpp"
 #include "conformance/cases/vector_cases.hpp"
 #include "conformance/digest.hpp"
 #include "conformance/reference_decoder.hpp"
 #include "conformance/runner.hpp"
 #include "tests/support/reference_status.hpp"
-#include "wavelet/lifting/lifting_filter.hpp"
 
 namespace tetrakis::conformance {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "tools/files/files.hpp"
+#include "apps/tools/files/files.hpp"
 
 namespace tetrakis::test {
 

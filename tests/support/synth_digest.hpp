@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tools/synth/synth.hpp"
+#include "apps/tools/synth/synth.hpp"
 
 namespace tetrakis::test {
 

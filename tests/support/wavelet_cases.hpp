@@ -7,8 +7,8 @@
 #include <ostream>
 #include <vector>
 
+#include "codec/wavelet/wavelet.hpp"
 #include "tests/support/random_planes.hpp"
-#include "wavelet/wavelet.hpp"
 
 namespace tetrakis {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preset cameras, and cameras that files describe.
-#include "ground/preset_cameras.hpp"
+#include "codec/ground/preset_cameras.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include <random>
 #include <utility>
 
-#include "tools/render/projection.hpp"
-#include "tools/render/render.hpp"
+#include "apps/tools/render/projection.hpp"
+#include "apps/tools/render/render.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Heights for game engines: sizes, ranges, voids.
-#include "tools/files/engine_heights.hpp"
+#include "apps/tools/files/engine_heights.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Heights on disk: every type and format comes back bit for bit; what is no height field is
 // refused.
-#include "tools/files/files.hpp"
+#include "apps/tools/files/files.hpp"
 
 #include <cmath>
 #include <cstring>

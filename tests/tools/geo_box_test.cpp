@@ -2,10 +2,10 @@
 // The place of JPEG 2000 files, in a box of their own, and boxes that are damaged.
 #include <string_view>
 
+#include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/files.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/tiny_tiff.hpp"
-#include "tools/files/file_bytes.hpp"
-#include "tools/files/files.hpp"
 
 namespace tetrakis::tools {
 namespace {

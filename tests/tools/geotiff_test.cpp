@@ -3,11 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/tools/files/files.hpp"
+#include "apps/tools/files/pictures/tiff.hpp"
 #include "tests/support/same_bytes.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/tiny_tiff.hpp"
-#include "tools/files/files.hpp"
-#include "tools/files/pictures/tiff.hpp"
 
 namespace tetrakis::tools {
 namespace {

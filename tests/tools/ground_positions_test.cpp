@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "apps/tools/files/place/ground_positions.hpp"
+#include "apps/tools/files/place/proj_objects.hpp"
 #include "bitstream/stream/ground_positions.hpp"
-#include "tools/files/place/ground_positions.hpp"
-#include "tools/files/place/proj_objects.hpp"
 
 namespace tetrakis::tools {
 namespace {

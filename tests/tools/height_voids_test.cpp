@@ -7,10 +7,10 @@
 #include <limits>
 #include <random>
 
+#include "apps/tools/files/files.hpp"
 #include "tests/support/same_bytes.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/tiny_tiff.hpp"
-#include "tools/files/files.hpp"
 
 namespace tetrakis::tools {
 namespace {

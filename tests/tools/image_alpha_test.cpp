@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "apps/tools/files/files.hpp"
 #include "tests/support/image_pixels.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/tiny_tiff.hpp"
-#include "tools/files/files.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -120,6 +120,29 @@ TEST_F(ImageAlpha, BandsOfOtherOrdersBecomeRgb) {
 
   TinyTiff two = grey(3, {0, 2});
   EXPECT_EQ(readImage(save("two.tif", two.bytes())).status().code(), TKS_USAGE);
+}
+
+/// As in GDAL, a texel is hidden where every band has its nodata value, and a file beside the
+/// picture may tell them.
+TEST_F(ImageAlpha, NodataBesideAPictureHidesTexels) {
+  const auto saveBeside = [this](const std::string& name, const std::vector<int>& bands) {
+    std::string pam = "<PAMDataset>";
+    for (size_t i = 0; i < bands.size(); ++i) {
+      pam += "<PAMRasterBand band=\"" + std::to_string(i + 1) + "\"><NoDataValue>" +
+             std::to_string(bands[i]) + "</NoDataValue></PAMRasterBand>";
+    }
+    pam += "</PAMDataset>";
+    save(name + ".aux.xml", std::vector<char>(pam.begin(), pam.end()));
+    return save(name, TinyTiff(2, 1, 3, 8, {10, 20, 30, 40, 50, 60}).bytes());
+  };
+  std::string note;
+  expectPixels(readImage(saveBeside("first.tif", {10, 20, 30}), &note),
+               {10, 20, 30, 0, 40, 50, 60, 255});
+  EXPECT_NE(note.find("nodata"), std::string::npos);
+  for (const std::vector<int>& bands : {std::vector{10, 20}, {10, 20, 31}, {10, 10, 10}}) {
+    expectPixels(readImage(saveBeside("all.tif", bands), &note), {10, 20, 30, 40, 50, 60});
+    EXPECT_EQ(note, "");
+  }
 }
 
 /// What users would not see otherwise: alpha that is not called so becomes a colour, nodata too.

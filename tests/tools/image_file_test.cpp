@@ -6,13 +6,13 @@
 #include <span>
 #include <tuple>
 
+#include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/files.hpp"
 #include "conformance/samples/header_seal.hpp"
 #include "tests/support/image_pixels.hpp"
 #include "tests/support/same_bytes.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/tiny_tiff.hpp"
-#include "tools/files/file_bytes.hpp"
-#include "tools/files/files.hpp"
 
 namespace tetrakis::tools {
 namespace {

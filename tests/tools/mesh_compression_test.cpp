@@ -16,10 +16,10 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "apps/tools/compression/mesh_arrays.hpp"
+#include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/files.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tools/compression/mesh_arrays.hpp"
-#include "tools/files/file_bytes.hpp"
-#include "tools/files/files.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "apps/tools/files/files.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tools/files/files.hpp"
 
 namespace tetrakis::tools {
 namespace {

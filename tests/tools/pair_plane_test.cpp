@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Paths through the plane of heights and textures.
-#include "tools/report/pair_plane.hpp"
+#include "apps/tools/report/pair_plane.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <utility>
 
-#include "tools/synth/synth.hpp"
+#include "apps/tools/synth/synth.hpp"
 
 namespace tetrakis::tools {
 namespace {

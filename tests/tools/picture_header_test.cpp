@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "apps/tools/files/files.hpp"
 #include "tests/support/image_pixels.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tests/support/tiny_tiff.hpp"
-#include "tools/files/files.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -5,7 +5,7 @@
 // read) and a sentence.
 #include <iostream>
 
-#include "tools/files/files.hpp"
+#include "apps/tools/files/files.hpp"
 
 namespace tetrakis::tools {
 namespace {

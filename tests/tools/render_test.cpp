@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures, and what errors on the ground do to them.
-#include "tools/render/render.hpp"
+#include "apps/tools/render/render.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 #include <numbers>
 #include <string>
 
-#include "ground/preset_cameras.hpp"
-#include "tools/render/texture_pyramid.hpp"
+#include "apps/tools/render/texture_pyramid.hpp"
+#include "codec/ground/preset_cameras.hpp"
 
 namespace tetrakis::tools {
 namespace {

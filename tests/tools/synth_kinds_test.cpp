@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "apps/tools/synth/synth.hpp"
 #include "tests/support/synth_digest.hpp"
-#include "tools/synth/synth.hpp"
 
 namespace tetrakis::tools {
 namespace {

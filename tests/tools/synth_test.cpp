@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sample terrain: the same bytes everywhere, and what it promises to show.
-#include "tools/synth/synth.hpp"
+#include "apps/tools/synth/synth.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 #include <span>
 #include <vector>
 
+#include "apps/tools/synth/drainage.hpp"
+#include "apps/tools/synth/parcels.hpp"
 #include "tests/support/synth_digest.hpp"
-#include "tools/synth/drainage.hpp"
-#include "tools/synth/parcels.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -9,11 +9,11 @@
 #include <random>
 #include <span>
 
+#include "apps/tools/files/files.hpp"
+#include "apps/tools/files/pictures/picture_header.hpp"
+#include "apps/tools/files/pictures/tiff_picture.hpp"
+#include "apps/tools/files/pictures/tiff_samples.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tools/files/files.hpp"
-#include "tools/files/pictures/picture_header.hpp"
-#include "tools/files/pictures/tiff_picture.hpp"
-#include "tools/files/pictures/tiff_samples.hpp"
 
 namespace tetrakis::tools {
 namespace {

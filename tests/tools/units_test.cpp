@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lengths as people type them.
-#include "tools/files/units.hpp"
+#include "apps/tools/files/units.hpp"
 
 #include <gtest/gtest.h>
 

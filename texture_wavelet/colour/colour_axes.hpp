@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "codec/wavelet/choice/filter_choice.hpp"
 #include "texture_wavelet/colour/colour.hpp"
 #include "texture_wavelet/colour/colour_details.hpp"
-#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline colour {
 

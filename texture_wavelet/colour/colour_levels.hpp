@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <span>
 
+#include "codec/wavelet/synthesis/view_synthesis.hpp"
 #include "texture_wavelet/colour/colour.hpp"
-#include "wavelet/synthesis/view_synthesis.hpp"
 
 namespace tetrakis::inline colour {
 

@@ -8,8 +8,8 @@
 #include <span>
 
 #include "base/plane.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
 #include "texture_wavelet/colour/colour.hpp"
-#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline colour {
 

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/portable_math.hpp"
+#include "codec/wavelet/choice/typical_parts.hpp"
 #include "texture_wavelet/colour/colour_axes.hpp"
 #include "texture_wavelet/colour/colour_fit.hpp"
 #include "texture_wavelet/colour/colour_level_fit.hpp"
-#include "wavelet/choice/typical_parts.hpp"
 
 namespace tetrakis::inline colour {
 

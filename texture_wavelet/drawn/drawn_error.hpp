@@ -8,7 +8,7 @@
 
 #include "base/texels.hpp"
 #include "codec/drawing/drawing_index.hpp"
-#include "lattice/levels.hpp"
+#include "codec/lattice/levels.hpp"
 
 namespace tetrakis::inline drawn {
 

@@ -6,7 +6,7 @@
 
 #include "base/texels.hpp"
 #include "base/view.hpp"
-#include "lattice/levels.hpp"
+#include "codec/lattice/levels.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 
 namespace tetrakis::inline drawn {

@@ -9,8 +9,8 @@
 #include <cstdint>
 
 #include "base/view.hpp"
-#include "lattice/levels.hpp"
-#include "lattice/stencil.hpp"
+#include "codec/lattice/levels.hpp"
+#include "codec/lattice/stencil.hpp"
 #include "texture_wavelet/drawn/drawn_colours.hpp"
 
 namespace tetrakis::inline drawn {

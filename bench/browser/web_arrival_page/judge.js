@@ -3,8 +3,8 @@
 // is 0 where the ground ends, because tiles end there with a cell of theirs.
 import {BufferAttribute} from 'three';
 
-import {open} from '../../../web/src/index.js';
-import {TksTerrain} from '../../../web/src/three.js';
+import {open} from '../../../apps/web/src/index.js';
+import {TksTerrain} from '../../../apps/web/src/three.js';
 import {Picture, material, query} from './scene.js';
 
 const BORDER = 0.03;

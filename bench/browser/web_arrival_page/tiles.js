@@ -5,7 +5,7 @@ import {
   BufferAttribute, BufferGeometry, CanvasTexture, Group, Mesh, Plane, Vector3,
 } from 'three';
 
-import {gridOf, projectionOf} from '../../../web/src/place.js';
+import {gridOf, projectionOf} from '../../../apps/web/src/place.js';
 import {material, measure, query} from './scene.js';
 
 const HEADER = 88;

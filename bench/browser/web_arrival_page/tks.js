@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stream: asked for, and its first frame decoded, while what draws it is still on its way.
-import {FIRST_FRAME, open} from '../../../web/src/index.js';
+import {FIRST_FRAME, open} from '../../../apps/web/src/index.js';
 
 const {data, wasm, worker} = Object.fromEntries(new URLSearchParams(location.search));
 const opening = open(data, {wasm, worker});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws a stream, refined as its bytes come.
-import {FIRST_FRAME, TksTerrain} from '../../../web/src/three.js';
+import {FIRST_FRAME, TksTerrain} from '../../../apps/web/src/three.js';
 import {material, measure, query} from './scene.js';
 
 const OPTIONS = {triangles: Number(query.triangles)};

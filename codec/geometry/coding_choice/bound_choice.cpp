@@ -11,8 +11,8 @@
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
 #include "codec/geometry/coding_choice/exact_cut.hpp"
 #include "codec/geometry/coefficients_encoder.hpp"
-#include "wavelet/choice/filter_choice.hpp"
-#include "wavelet/choice/typical_parts.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
+#include "codec/wavelet/choice/typical_parts.hpp"
 
 namespace tetrakis::inline coding_choice {
 

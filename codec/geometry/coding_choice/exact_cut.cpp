@@ -8,7 +8,7 @@
 
 #include "base/portable_math.hpp"
 #include "codec/geometry/corrections/exact_corrections_encoder.hpp"
-#include "wavelet/choice/typical_plane.hpp"
+#include "codec/wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline coding_choice {
 

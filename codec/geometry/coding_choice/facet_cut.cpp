@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/portable_math.hpp"
-#include "wavelet/choice/typical_plane.hpp"
+#include "codec/wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline coding_choice {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plane is transformed as it is, and with areas held. The estimated bytes of its coefficients
-// (wavelet/choice/plane_cost.hpp) and the bytes of the areas decide: at the step of the target, and
-// at coarser ones, because every prefix pays for the areas first. Large areas are tried first; then
-// smaller ones are added, or shapes are simplified, whichever gains.
+// (codec/wavelet/choice/plane_cost.hpp) and the bytes of the areas decide: at the step of the
+// target, and at coarser ones, because every prefix pays for the areas first. Large areas are tried
+// first; then smaller ones are added, or shapes are simplified, whichever gains.
 #include "codec/geometry/coding_choice/flat_choice.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 #include "codec/geometry/coding_choice/tried_plane.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/geometry/flat/flat_parts.hpp"
-#include "wavelet/choice/compared_steps.hpp"
+#include "codec/wavelet/choice/compared_steps.hpp"
 
 namespace tetrakis::inline coding_choice {
 

@@ -9,7 +9,7 @@
 #include "base/plane.hpp"
 #include "codec/geometry/coefficients_encoder.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
-#include "wavelet/choice/filter_choice.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline coding_choice {
 

@@ -11,9 +11,9 @@
 #include "base/plane.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
 #include "codec/geometry/flat/flat_parts.hpp"
-#include "wavelet/band_plan.hpp"
-#include "wavelet/choice/plane_cost.hpp"
-#include "wavelet/wavelet_header.hpp"
+#include "codec/wavelet/band_plan.hpp"
+#include "codec/wavelet/choice/plane_cost.hpp"
+#include "codec/wavelet/wavelet_header.hpp"
 
 namespace tetrakis::inline coding_choice {
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "lattice/stencil.hpp"
+#include "codec/lattice/stencil.hpp"
 
 namespace tetrakis::inline drawn_heights {
 

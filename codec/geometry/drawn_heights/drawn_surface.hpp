@@ -11,7 +11,7 @@
 #include "base/bit_plane.hpp"
 #include "base/plane.hpp"
 #include "codec/geometry/drawn_heights/drawn_steps.hpp"
-#include "lattice/levels.hpp"
+#include "codec/lattice/levels.hpp"
 
 namespace tetrakis::inline drawn_heights {
 

@@ -18,7 +18,8 @@ DecodedHeights restoreFacets(DecodedHeights decoded, const GeometryHeader& heade
   const StepGrid grid(header.base, header.step);
   const PlaneView<const int32_t> plane(geometry.heights, geometry.extent(), geometry.valid);
   codeFacets(
-      {header, FacetUnit(unit), plane, geometry.fraction_bits}, reader, [](size_t) { return float{}; },
+      {header, FacetUnit(unit), plane, geometry.fraction_bits}, reader,
+      [](size_t) { return float{}; },
       [&](size_t i, float sample) {
         const ValueInSteps value = inSteps(sample, header, grid, geometry.fraction_bits);
         geometry.heights[i] = value.height;

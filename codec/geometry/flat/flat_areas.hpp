@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "base/plane.hpp"
-#include "wavelet/held_samples.hpp"
+#include "codec/wavelet/held_samples.hpp"
 
 namespace tetrakis::inline flat {
 

@@ -8,7 +8,7 @@
 #include "bitstream/coder/decision_encoding.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/flat/flat_pass.hpp"
-#include "wavelet/morphology.hpp"
+#include "codec/wavelet/morphology.hpp"
 
 namespace tetrakis::inline flat {
 

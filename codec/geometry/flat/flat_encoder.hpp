@@ -13,7 +13,7 @@ namespace tetrakis::inline flat {
 /// The areas that are wanted.
 struct FlatShape {
   uint32_t least;     ///< samples of an area, at least
-  uint8_t reach = 0;  ///< > 0: opened by squares of that reach (wavelet/morphology.hpp)
+  uint8_t reach = 0;  ///< > 0: opened by squares of that reach (codec/wavelet/morphology.hpp)
 };
 
 /// The areas of one height in a plane, of any size.

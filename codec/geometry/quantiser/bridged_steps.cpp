@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "wavelet/bridges.hpp"
-#include "wavelet/choice/bridge_fill.hpp"
+#include "codec/wavelet/bridges.hpp"
+#include "codec/wavelet/choice/bridge_fill.hpp"
 
 namespace tetrakis::inline quantiser {
 

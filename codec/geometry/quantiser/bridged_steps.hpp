@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions here choose and mark the bridged voids of heights in steps (wavelet/bridges.hpp).
+// The functions here choose and mark the bridged voids of heights in steps
+// (codec/wavelet/bridges.hpp).
 #pragma once
 
 #include <cstdint>
 
 #include "codec/geometry/quantiser/height_steps.hpp"
-#include "wavelet/choice/bridge_choice.hpp"
+#include "codec/wavelet/choice/bridge_choice.hpp"
 
 namespace tetrakis::inline quantiser {
 

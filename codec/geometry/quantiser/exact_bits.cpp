@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry/quantiser/exact_bits.hpp"
 
-#include "wavelet/choice/filter_choice.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline quantiser {
 

@@ -22,7 +22,7 @@ inline Extent extentOf(const tks_heights& heights) {
 struct HeightSteps {
   std::vector<int32_t> steps;   ///< |q| <= 2^25, centred on 0; of voids any
   std::vector<uint8_t> valid;   ///< 1 valid, 0 void; empty: all are valid
-  uint8_t bridge = 0;           ///< the reach of bridges over voids (wavelet/bridges.hpp)
+  uint8_t bridge = 0;           ///< the reach of bridges over voids (codec/wavelet/bridges.hpp)
   std::vector<uint8_t> lifted;  ///< with bridges only: liftedSamples()
   double base = 0, step = 1;
   ValueTable table;    ///< not empty: steps count its values, which `base` and `step` approximate

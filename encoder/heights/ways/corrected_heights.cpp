@@ -10,11 +10,11 @@
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
 #include "codec/geometry/coding_choice/exact_cut.hpp"
 #include "codec/geometry/heights_decoder.hpp"
+#include "codec/wavelet/choice/typical_plane.hpp"
 #include "encoder/heights/followed_heights.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/joined_layers.hpp"
 #include "encoder/heights/ways/cut_heights.hpp"
-#include "wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline ways {
 

@@ -5,10 +5,10 @@
 
 #include "codec/geometry/coding_choice/exact_cut.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_estimate.hpp"
+#include "codec/wavelet/choice/typical_plane.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "encoder/heights/ways/facet_heights.hpp"
 #include "encoder/heights/ways/lossless_heights.hpp"
-#include "wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline ways {
 

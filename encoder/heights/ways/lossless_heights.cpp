@@ -7,14 +7,14 @@
 
 #include "codec/geometry/coding_choice/exact_cut.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_estimate.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
+#include "codec/wavelet/choice/typical_plane.hpp"
 #include "encoder/heights/direct_heights.hpp"
 #include "encoder/heights/height_options.hpp"
 #include "encoder/heights/ways/corrected_heights.hpp"
 #include "encoder/heights/ways/facet_heights.hpp"
 #include "encoder/heights/ways/relative_heights.hpp"
 #include "ratecontrol/needs/candidate.hpp"
-#include "wavelet/choice/filter_choice.hpp"
-#include "wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline ways {
 

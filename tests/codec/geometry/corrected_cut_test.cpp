@@ -9,7 +9,7 @@
 #include <random>
 
 #include "codec/geometry/coefficients_encoder.hpp"
-#include "wavelet/choice/filter_choice.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::test {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
 #include "codec/geometry/coefficients_encoder.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
 #include "conformance/samples/terrain_samples.hpp"
-#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::test {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "codec/geometry/coefficients_decoder.hpp"
 #include "codec/geometry/coefficients_encoder.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
-#include "wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::test {
 namespace {

@@ -20,8 +20,8 @@ __extension__ typedef __int128 Wide;
 int64_t expectedScaled(int64_t n, int shift, int64_t limit) {
   if (shift < -100) return 0;
   if (shift > 62) return n == 0 ? 0 : n < 0 ? -limit : limit;
-  const Wide scaled = shift >= 0 ? Wide{n} * (Wide{1} << shift)
-                                 : (Wide{n} + (Wide{1} << (-shift - 1))) >> -shift;
+  const Wide scaled =
+      shift >= 0 ? Wide{n} * (Wide{1} << shift) : (Wide{n} + (Wide{1} << (-shift - 1))) >> -shift;
   return static_cast<int64_t>(std::clamp(scaled, Wide{-limit}, Wide{limit}));
 }
 
@@ -33,8 +33,8 @@ TEST(StepUnits, ScaleByPowersOfTwo) {
     for (const int64_t limit : {kFar, kWide})
       ASSERT_EQ(scaled(n, shift, limit), expectedScaled(n, shift, limit)) << n << ", " << shift;
   }
-  for (const int64_t n : {std::numeric_limits<int64_t>::min(), int64_t{0},
-                          std::numeric_limits<int64_t>::max()}) {
+  for (const int64_t n :
+       {std::numeric_limits<int64_t>::min(), int64_t{0}, std::numeric_limits<int64_t>::max()}) {
     for (int shift = -2000; shift <= 2000; ++shift)
       ASSERT_EQ(scaled(n, shift), expectedScaled(n, shift, kFar)) << n << ", " << shift;
   }
@@ -75,8 +75,8 @@ TEST(StepUnits, TakeAnyNumbers) {
   for (const double base : kNumbers) {
     for (const double step : kNumbers) {
       const StepGrid up(base, step), down(-base, step);
-      for (const int32_t q : {std::numeric_limits<int32_t>::min(), -1, 0,
-                              std::numeric_limits<int32_t>::max()}) {
+      for (const int32_t q :
+           {std::numeric_limits<int32_t>::min(), -1, 0, std::numeric_limits<int32_t>::max()}) {
         EXPECT_LE(down.sampleNear<float>(q), up.sampleNear<float>(q));
         EXPECT_LE(std::abs(up.inUnitsOf(-1100, q)), kFar);
         EXPECT_EQ(down.inUnitsOf(1100, q), 0);

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// A band of GDAL as heights.
+#include <algorithm>
+#include <cmath>
+
+#include "apps/doors/gdal/copied_raster.hpp"
+#include "apps/doors/gdal/copied_samples.hpp"
+#include "apps/doors/gdal/copied_voids.hpp"
+#include "apps/doors/gdal/ground_spacing.hpp"
+#include "apps/doors/gdal/source.hpp"
+#include "base/length_unit.hpp"
+
+namespace tetrakis::gdal {
+namespace {
+
+/// A scale of 0 would make all heights one.
+double scaleOf(const std::string& name, GDALRasterBand& band) {
+  const double scale = band.GetScale();
+  if (scale != 0 && std::isfinite(scale)) return scale;
+  CPLError(CE_Warning, CPLE_AppDefined, "%s: A scale of %g is none and is left out.", name.c_str(),
+           scale);
+  return 1;
+}
+
+/// What the dataset says of its band, but for voids.
+void takeFacts(const std::string& name, GDALDataset& dataset, CopiedHeights& copy) {
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  tks_heights& heights = copy.heights;
+  heights.scale = scaleOf(name, band);
+  heights.offset = band.GetOffset();
+  copy.unit = band.GetUnitType() != nullptr ? canonicalUnit(asUtf8(band.GetUnitType())) : "";
+  copy.description = asUtf8(band.GetDescription());
+  if (const OGRSpatialReference* const system = dataset.GetSpatialRef()) {
+    copy.crs = crsTexts(*system);
+    if (copy.unit.empty()) copy.unit = heightUnitOf(*system);
+  }
+  const Place place = placeOf(dataset);
+  std::copy_n(place.geotransform, 6, heights.geotransform);
+  heights.has_geotransform = place.has_geotransform;
+  heights.registration = place.registration;
+  setGroundSpacing(dataset.GetSpatialRef(), heights);
+  copy.ground = WebGround::of(dataset, copy.crs.crs);
+  heights.unit = copy.unit.c_str();
+  heights.description = copy.description.c_str();
+  heights.crs = copy.crs.crs.c_str();
+  heights.vertical_datum = copy.crs.vertical_datum.c_str();
+}
+
+}  // namespace
+
+Place placeOf(GDALDataset& dataset) {
+  Place place{};
+  place.has_geotransform = dataset.GetGeoTransform(place.geotransform) == CE_None;
+  if (const char* const text = dataset.GetMetadataItem(GDALMD_AREA_OR_POINT)) {
+    if (EQUAL(text, GDALMD_AOP_AREA)) place.registration = TKS_REGISTRATION_AREA;
+    if (EQUAL(text, GDALMD_AOP_POINT)) place.registration = TKS_REGISTRATION_POINT;
+  }
+  return place;
+}
+
+std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset& dataset,
+                                           bool strict, const ProgressPart& progress) {
+  if (dataset.GetRasterCount() != 1) {
+    const std::string why = whyNoTexture(dataset);
+    reportFailure(TKS_USAGE, name,
+                  "Heights have one band, and the source has " +
+                      std::to_string(dataset.GetRasterCount()) +
+                      "; choose one (gdal_translate -b 1), and give an image as TEXTURE=." +
+                      (why.empty() ? why : " " + why));
+    return nullptr;
+  }
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  const std::optional<tks_sample> sample = sampleOf(band);
+  if (!sample) {
+    reportFailure(TKS_UNSUPPORTED, name,
+                  std::string("Samples of type ") + GDALGetDataTypeName(band.GetRasterDataType()) +
+                      " are not supported; convert them to Int32 or Float32 (gdal_translate -ot).");
+    return nullptr;
+  }
+  auto copy = std::make_unique<CopiedHeights>();
+  tks_heights& heights = copy->heights;
+  heights.size = sizeof heights;
+  heights.width = static_cast<uint32_t>(band.GetXSize());
+  heights.height = static_cast<uint32_t>(band.GetYSize());
+  heights.sample = *sample;
+  if (!readSamples(name, band, strict, *copy, progress)) return nullptr;
+  takeNodata(name, band, *copy);
+  if (!applyMask(name, band, *copy)) return nullptr;
+  takeFacts(name, dataset, *copy);
+  heights.data = copy->samples.data();
+  takeFill(name, strict, *copy);
+  return copy;
+}
+
+}  // namespace tetrakis::gdal

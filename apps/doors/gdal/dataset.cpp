@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/doors/gdal/dataset.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "apps/doors/gdal/band.hpp"
+#include "apps/doors/gdal/settings.hpp"
+#include "apps/doors/gdal/subdataset_name.hpp"
+
+namespace tetrakis::gdal {
+
+namespace {
+
+constexpr uint32_t kOverviewEnds = 256;  ///< no overview where both sides are at most this
+
+GDALColorInterp colourOf(uint32_t channels, uint32_t channel, bool has_alpha) {
+  if (channels % 2 == 0 && channel + 1 == channels)
+    return has_alpha ? GCI_AlphaBand : GCI_Undefined;
+  if (channels <= 2) return GCI_GrayIndex;
+  constexpr GDALColorInterp kColours[] = {GCI_RedBand, GCI_GreenBand, GCI_BlueBand};
+  return kColours[channel];
+}
+
+/// Heights that are void come back as this, which need not be declared.
+std::optional<double> voidValueOf(const tks_info& info) {
+  if (info.has_nodata) return info.nodata;
+  if (info.has_voids) return std::numeric_limits<double>::quiet_NaN();
+  return std::nullopt;
+}
+
+/// The component that is asked for, or that there is; nothing after a reported error.
+std::optional<tks_part> partOf(const std::optional<SubdatasetName>& named, const Source& source) {
+  const tks_info& info = source.info();
+  const tks_part there = info.has_heights ? TKS_PART_HEIGHTS : TKS_PART_TEXTURE;
+  const tks_part part = named ? named->part : there;
+  if (part == TKS_PART_HEIGHTS ? info.has_heights : info.has_texture) return part;
+  reportFailure(TKS_USAGE, source.name(), std::string("The stream has no ") + partName(part) + ".");
+  return std::nullopt;
+}
+
+bool isStream(const GDALOpenInfo& info) {
+  constexpr GByte kMagic[] = {'T', 'K', 'S', 0x1A};
+  return info.nHeaderBytes >= static_cast<int>(sizeof kMagic) &&
+         std::memcmp(info.pabyHeader, kMagic, sizeof kMagic) == 0;
+}
+
+/// Of a texture that has none: it reaches from the middle of the first sample of the heights to
+/// that of the last, as on all meshes.
+std::array<double, 6> drapedTransform(const tks_info& info) {
+  const auto& [x0, a, b, y0, c, d] = info.geotransform;
+  const double across = std::max(info.width - 1.0, 1.0) / info.texture_width;
+  const double down = std::max(info.height - 1.0, 1.0) / info.texture_height;
+  return {x0 + (a + b) / 2, a * across, b * down, y0 + (c + d) / 2, c * across, d * down};
+}
+
+}  // namespace
+
+int Dataset::Identify(GDALOpenInfo* info) {
+  return isStream(*info) || isSubdatasetName(info->pszFilename);
+}
+
+GDALDataset* Dataset::Open(GDALOpenInfo* info) {
+  if (!Identify(info)) return nullptr;
+  std::optional<SubdatasetName> named;
+  if (!isStream(*info)) {
+    named = subdatasetName(info->pszFilename);
+    if (!named) return nullptr;
+  }
+  const std::string file = named ? named->file : info->pszFilename;
+  if (info->eAccess == GA_Update) {
+    CPLError(CE_Failure, CPLE_NotSupported,
+             "%s: A stream cannot be changed in place; open it read-only and make a copy.",
+             file.c_str());
+    return nullptr;
+  }
+  const std::optional<OpenSettings> settings = openSettings(file, info->papszOpenOptions);
+  if (!settings) return nullptr;
+  const std::shared_ptr<Source> source = Source::open(file, *settings);
+  if (!source) return nullptr;
+  const tks_info& facts = source->info();
+  const std::optional<tks_part> part = partOf(named, *source);
+  if (!part) return nullptr;
+  source->choose(*part);
+  const bool heights = *part == TKS_PART_HEIGHTS;
+  const std::optional<double> voids = heights ? voidValueOf(facts) : std::nullopt;
+  std::unique_ptr<Dataset> dataset(new Dataset(source, voids));
+  dataset->takeFacts();
+  dataset->takePlace(facts, heights);
+  dataset->addOverviews();
+  if (!named && facts.has_heights && facts.has_texture) dataset->listSubdatasets();
+  dataset->SetDescription(info->pszFilename);
+  if (named) {
+    dataset->SetPhysicalFilename(file.c_str());
+    // What the file's own name opens has one place beside it, whichever name it is opened by.
+    if (!heights && facts.has_heights) dataset->SetSubdatasetName(partName(*part));
+  }
+  dataset->loadBeside(named ? nullptr : info->GetSiblingFiles());
+  // What is beside a file is about all of it, so statistics of a prefix are not kept.
+  if (settings->bytes) dataset->nPamFlags |= GPF_NOSAVE;
+  return dataset.release();
+}
+
+Dataset::Dataset(std::shared_ptr<Source> source, std::optional<double> void_value)
+    : source_(std::move(source)), void_value_(void_value) {
+  addBands();
+}
+
+Dataset::Dataset(Dataset& raster, uint32_t level)
+    : source_(raster.source_), void_value_(raster.void_value_), level_(level), raster_(&raster) {
+  nPamFlags |= GPF_NOSAVE;
+  addBands();
+}
+
+void Dataset::addBands() {
+  nRasterXSize = static_cast<int>(source_->width(level_));
+  nRasterYSize = static_cast<int>(source_->height(level_));
+  const tks_info& info = source_->info();
+  for (uint32_t channel = 0; channel < source_->channels(); ++channel) {
+    BandFacts facts;
+    facts.colour = colourOf(source_->channels(), channel, source_->hasAlpha());
+    if (isHeights()) {
+      if (info.has_nodata) facts.nodata = info.nodata;
+      facts.scaling = {info.scale, info.offset};
+      facts.unit = info.unit;
+    }
+    SetBand(static_cast<int>(channel) + 1,
+            makeBand(*this, static_cast<int>(channel) + 1, std::move(facts)));
+  }
+  if (source_->channels() > 1)
+    GDALDataset::SetMetadataItem("INTERLEAVE", "PIXEL", "IMAGE_STRUCTURE");
+}
+
+void Dataset::takeFacts() {
+  const tks_info& info = source_->info();
+  const bool exact = info.lossless && source_->complete();
+  GDALDataset::SetMetadataItem("COMPRESSION_REVERSIBILITY", exact ? "LOSSLESS" : "LOSSY",
+                               "IMAGE_STRUCTURE");
+  const auto registration = isHeights() ? info.registration : info.texture_registration;
+  if (registration == TKS_REGISTRATION_AREA) texts_.registration = GDALMD_AOP_AREA;
+  if (registration == TKS_REGISTRATION_POINT) texts_.registration = GDALMD_AOP_POINT;
+  if (!texts_.registration.empty())
+    GDALDataset::SetMetadataItem(GDALMD_AREA_OR_POINT, texts_.registration.c_str());
+  tellStream();
+  if (!isHeights()) return;
+  texts_.description = info.description;
+  GetRasterBand(1)->GDALRasterBand::SetDescription(info.description);
+}
+
+void Dataset::takePlace(const tks_info& info, bool heights) {
+  const auto take = [this](const double(&transform)[6]) {
+    transform_.emplace();
+    std::copy_n(transform, 6, transform_->begin());
+  };
+  const std::string& file = source_->name();
+  if (heights) {
+    if (info.has_geotransform) take(info.geotransform);
+    crs_ = readCrs({info.crs, info.vertical_datum, info.geo_keys}, file);
+    return;
+  }
+  const bool own = *info.texture_crs != '\0' || *info.texture_geo_keys != '\0';
+  if (info.texture_has_geotransform) {
+    take(info.texture_geotransform);
+  } else if (info.has_geotransform && !own) {
+    transform_ = drapedTransform(info);
+  }
+  crs_ = own ? readCrs({info.texture_crs, "", info.texture_geo_keys}, file)
+             : readCrs({info.crs, "", info.geo_keys}, file);
+  if (crs_ && !own) crs_->StripVertical();
+}
+
+void Dataset::addOverviews() {
+  for (uint32_t level = 1; level <= source_->coarsestLevel() + 1 && level < 31; ++level) {
+    if (std::max(source_->width(level - 1), source_->height(level - 1)) <= kOverviewEnds) return;
+    overviews_.emplace_back(new Dataset(*this, level));
+  }
+}
+
+void Dataset::listSubdatasets() {
+  const tks_info& info = source_->info();
+  const auto add = [this](const std::string& key, const std::string& value) {
+    GDALDataset::SetMetadataItem(key.c_str(), value.c_str(), "SUBDATASETS");
+  };
+  add("SUBDATASET_1_NAME", nameOf({source_->name(), TKS_PART_HEIGHTS}));
+  add("SUBDATASET_1_DESC", CPLSPrintf("[%ux%u] heights", info.height, info.width));
+  add("SUBDATASET_2_NAME", nameOf({source_->name(), TKS_PART_TEXTURE}));
+  add("SUBDATASET_2_DESC", CPLSPrintf("[%ux%ux%u] texture", info.texture_channels,
+                                      info.texture_height, info.texture_width));
+}
+
+CPLErr Dataset::GetGeoTransform(double* transform) {
+  if (GDALPamDataset::GetGeoTransform(transform) == CE_None) return CE_None;
+  if (!transform_) return CE_Failure;
+  std::copy(transform_->begin(), transform_->end(), transform);
+  return CE_None;
+}
+
+const OGRSpatialReference* Dataset::GetSpatialRef() const {
+  const OGRSpatialReference* const pam = GDALPamDataset::GetSpatialRef();
+  return pam != nullptr ? pam : crs_.get();
+}
+
+char** Dataset::GetFileList() {
+  char** files = GDALPamDataset::GetFileList();
+  if (CSLFindString(files, source_->name().c_str()) < 0)
+    files = CSLInsertString(files, 0, source_->name().c_str());
+  return files;
+}
+
+CPLErr Dataset::IBuildOverviews(const char*, int, const int*, int, const int*, GDALProgressFunc,
+                                void*, CSLConstList) {
+  return refuseOverviews(source_->name());
+}
+
+CPLErr refuseOverviews(const std::string& name) {
+  CPLError(CE_Failure, CPLE_NotSupported,
+           "%s: A stream is its own overviews; none can be added or removed.", name.c_str());
+  return CE_Failure;
+}
+
+}  // namespace tetrakis::gdal

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the metadata domain TKS says of a stream: how much of it is there, what it promises, and
+// what it states of errors.
+#include <string>
+
+#include <cpl_string.h>
+#include "apps/doors/gdal/dataset.hpp"
+
+namespace tetrakis::gdal {
+namespace {
+
+constexpr char kDomain[] = "TKS";
+
+bool isOwn(const char* domain) {
+  return domain != nullptr && EQUAL(domain, kDomain);
+}
+
+const char* wordOf(tks_index index) {
+  if (index == TKS_INDEX_WINDOWS) return "WINDOWS";
+  return index == TKS_INDEX_PACKETS ? "YES" : "NO";
+}
+
+}  // namespace
+
+void Dataset::tellStream() {
+  const tks_info& info = source_->info();
+  const auto tell = [this](const char* name, const std::string& value) {
+    GDALDataset::SetMetadataItem(name, value.c_str(), kDomain);
+  };
+  tell("COMPLETE", source_->complete() ? "YES" : "NO");
+  tell("BYTES", std::to_string(source_->bytes()));
+  tell("BYTES_ANNOUNCED", std::to_string(info.stream_bytes));
+  if (info.lossless) {
+    tell("TARGET", "LOSSLESS");
+  } else if (info.max_error >= 0) {
+    tell("TARGET", CPLSPrintf("MAX_ERROR=%.17g", info.max_error));
+  }
+  if (info.triangles > 0) tell("TRIANGLES", std::to_string(info.triangles));
+  tell("INDEX", wordOf(info.index));
+  if (source_->regionSide() != 0) tell("BLOCKSIZE", std::to_string(source_->regionSide()));
+  if (!isHeights()) {
+    if (info.texture_white_level < UINT16_MAX && info.texture_sample == TKS_U16)
+      tell("WHITE_LEVEL", std::to_string(info.texture_white_level));
+    return;
+  }
+  if (*info.vertical_datum != '\0') tell("VERTICAL_DATUM", info.vertical_datum);
+  if (info.max_error >= 0 && source_->complete())
+    tell("MAX_ERROR", CPLSPrintf("%.17g", info.max_error));
+}
+
+void Dataset::tellQuality() {
+  if (quality_told_) return;
+  quality_told_ = true;
+  const StatedQuality quality = source_->statedQuality();
+  const auto tell = [this](const char* name, double value) {
+    if (value >= 0) GDALDataset::SetMetadataItem(name, CPLSPrintf("%.6g", value), kDomain);
+  };
+  if (isHeights()) tell("RMSE", quality.heights_rmse);
+  if (!isHeights() || source_->info().has_texture) tell("TEXTURE_PSNR", quality.texture_psnr);
+}
+
+char** Dataset::GetMetadata(const char* domain) {
+  if (isOwn(domain) && raster_ == nullptr) tellQuality();
+  return GDALPamDataset::GetMetadata(domain);
+}
+
+const char* Dataset::GetMetadataItem(const char* name, const char* domain) {
+  const bool quality = name != nullptr && (EQUAL(name, "RMSE") || EQUAL(name, "TEXTURE_PSNR"));
+  if (quality && isOwn(domain) && raster_ == nullptr) tellQuality();
+  return GDALPamDataset::GetMetadataItem(name, domain);
+}
+
+}  // namespace tetrakis::gdal

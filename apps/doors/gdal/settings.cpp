@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/doors/gdal/settings.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+
+#include <cpl_conv.h>
+#include <cpl_multiproc.h>
+
+namespace tetrakis::gdal {
+
+const char* const kOpenOptions =
+    "<OpenOptionList>"
+    "<Option name='BYTES' type='string' description='Read no more than so many bytes from the "
+    "front of the stream (k, M and G are powers of 1024): a rougher terrain, sooner'/>"
+    "<Option name='STRICT' type='boolean' default='NO' description='Refuse streams that end early, "
+    "and check the whole syntax'/>"
+    "<Option name='NUM_THREADS' type='string' description='Threads of decoding: a number, or "
+    "ALL_CPUS' default='1'/>"
+    "</OpenOptionList>";
+
+const char* const kCreationOptions =
+    "<CreationOptionList>"
+    "<Option name='LOSSLESS' type='boolean' description='All pixels come back as they are: the "
+    "default without MAX_Z_ERROR, BYTES and PSNR'/>"
+    "<Option name='MAX_Z_ERROR' type='float' default='0' description='Largest error of any pixel, "
+    "in pixel values, guaranteed; 0 is lossless'/>"
+    "<Option name='BYTES' type='string' description='Size of the file: the best that fits (k, M "
+    "and G are powers of 1024)'/>"
+    "<Option name='PSNR' type='float' description='Quality of heights and texture, in dB'/>"
+    "<Option name='TEXTURE' type='string' description='Dataset with an image over the same ground, "
+    "of 1 to 4 bands of Byte or UInt16'/>"
+    "<Option name='WHITE_LEVEL' type='int' description='Value of a texture of UInt16 that shows as "
+    "white; found if not given'/>"
+    "<Option name='BLOCKSIZE' type='string' description='Side of the regions that can be read by "
+    "themselves: a power of two from 16 to 1048576, or NONE; chosen if not given'/>"
+    "<Option name='INDEX' type='string-select' description='Write the byte ranges of all packets "
+    "into the header; WINDOWS, for lossless files and MAX_Z_ERROR: also lay each region out in one "
+    "piece, for windows; regions are of 256, unless BLOCKSIZE is given. Default: WINDOWS for "
+    "lossless files in regions, else NO'>"
+    "<Value>NO</Value><Value>YES</Value><Value>WINDOWS</Value></Option>"
+    "<Option name='NUM_THREADS' type='string' description='Threads of encoding: a number, or "
+    "ALL_CPUS' default='1'/>"
+    "</CreationOptionList>";
+
+namespace {
+
+std::optional<uint32_t> threadsOf(const char* text) {
+  if (EQUAL(text, "ALL_CPUS")) return static_cast<uint32_t>(CPLGetNumCPUs());
+  uint32_t number = 0;
+  const char* const end = text + std::strlen(text);
+  const auto [stop, error] = std::from_chars(text, end, number);
+  const bool whole = error == std::errc() && stop == end && number >= 1 && number <= 1024;
+  return whole ? std::optional(number) : std::nullopt;
+}
+
+/// Of a setting that is for all of GDAL, whose drivers differ in what they take.
+uint32_t threadsOfAll() {
+  const char* const given = CPLGetConfigOption("GDAL_NUM_THREADS", "1");
+  const std::optional<uint32_t> number = threadsOf(given);
+  if (!number) CPLDebug("TKS", "GDAL_NUM_THREADS=%s counts as 1 thread.", given);
+  return number.value_or(1);
+}
+
+/// The options of one call, whose first mistake is reported.
+class Options {
+ public:
+  Options(const std::string& name, CSLConstList options) : name_(name), options_(options) {}
+
+  bool good() const { return good_; }
+  const char* text(const char* key) const { return CSLFetchNameValue(options_, key); }
+
+  uint64_t count(const char* key, const char* meaning) {
+    const char* const given = text(key);
+    if (given == nullptr) return 0;
+    uint64_t value = 0;
+    const char* const end = given + std::strlen(given);
+    const auto [stop, error] = std::from_chars(given, end, value);
+    if (error == std::errc() && stop == end && value > 0) return value;
+    refuse(std::string(key) + "=" + given + " is no " + meaning + ".");
+    return 0;
+  }
+
+  /// As the command line takes sizes (apps/tools/files/units.cpp): digits, then nothing or k, M or
+  /// G for powers of 1024, as such or with B or iB.
+  uint64_t bytes(const char* key) {
+    const char* const given = text(key);
+    if (given == nullptr) return 0;
+    uint64_t value = 0;
+    const auto [stop, error] = std::from_chars(given, given + std::strlen(given), value);
+    constexpr const char* kSuffixes[3][3] = {
+        {"k", "kB", "kiB"}, {"M", "MB", "MiB"}, {"G", "GB", "GiB"}};
+    int bits = *stop == '\0' || EQUAL(stop, "B") ? 0 : -1;
+    for (int power = 0; power < 3; ++power)
+      for (const char* const suffix : kSuffixes[power])
+        if (EQUAL(stop, suffix)) bits = 10 * (power + 1);
+    if (error == std::errc() && value > 0 && bits >= 0 && value << bits >> bits == value)
+      return value << bits;
+    refuse(std::string(key) + "=" + given + " is no number of bytes.");
+    return 0;
+  }
+
+  double number(const char* key, const char* meaning) {
+    const char* const given = text(key);
+    if (given == nullptr) return 0;
+    char* stop = nullptr;
+    const double value = CPLStrtod(given, &stop);
+    if (*given != '\0' && *stop == '\0' && std::isfinite(value) && value >= 0) return value;
+    refuse(std::string(key) + "=" + given + " is no " + meaning + ".");
+    return 0;
+  }
+
+  /// Nothing if it is not given, or after a refusal.
+  std::optional<bool> flag(const char* key) {
+    const char* const given = text(key);
+    if (given == nullptr) return std::nullopt;
+    for (const char* const yes : {"YES", "TRUE", "ON", "1"})
+      if (EQUAL(given, yes)) return true;
+    for (const char* const no : {"NO", "FALSE", "OFF", "0"})
+      if (EQUAL(given, no)) return false;
+    refuse(std::string(key) + "=" + given + " is neither YES nor NO.");
+    return std::nullopt;
+  }
+
+  uint32_t threads() {
+    const char* const given = text("NUM_THREADS");
+    if (given == nullptr) return threadsOfAll();
+    if (const std::optional<uint32_t> number = threadsOf(given)) return *number;
+    refuse(std::string("NUM_THREADS=") + given + " is neither a number of threads nor ALL_CPUS.");
+    return 1;
+  }
+
+  void refuse(const std::string& sentence) {
+    if (good_) reportFailure(TKS_USAGE, name_, sentence);
+    good_ = false;
+  }
+
+ private:
+  const std::string& name_;
+  CSLConstList options_;
+  bool good_ = true;
+};
+
+constexpr uint32_t kNoRegions = 1;  ///< of tks_encode_options
+
+/// What BLOCKSIZE says of regions.
+uint32_t regions(Options& options) {
+  const char* const given = options.text("BLOCKSIZE");
+  if (given == nullptr) return 0;
+  if (EQUAL(given, "NONE")) return kNoRegions;
+  const uint64_t side = options.count("BLOCKSIZE", "side of blocks");
+  if (side >= 16 && side <= uint64_t{1} << 20 && (side & (side - 1)) == 0)
+    return static_cast<uint32_t>(side);
+  options.refuse(std::string("BLOCKSIZE=") + given +
+                 " is neither a power of two from 16 to 1048576 nor NONE.");
+  return 0;
+}
+
+/// Nothing if none is given, or after a refusal.
+std::optional<tks_index> indexKind(Options& options) {
+  const char* const given = options.text("INDEX");
+  if (given == nullptr) return std::nullopt;
+  if (EQUAL(given, "NO")) return TKS_INDEX_NONE;
+  if (EQUAL(given, "YES")) return TKS_INDEX_PACKETS;
+  if (EQUAL(given, "WINDOWS")) return TKS_INDEX_WINDOWS;
+  options.refuse(std::string("INDEX=") + given + " is none of NO, YES and WINDOWS.");
+  return std::nullopt;
+}
+
+/// What is to be kept of the samples.
+void takeTarget(Options& options, CopySettings& settings) {
+  tks_encode_options& encode = settings.encode;
+  settings.max_z_error = options.number("MAX_Z_ERROR", "error of at least 0");
+  encode.bytes = options.bytes("BYTES");
+  encode.psnr = options.number("PSNR", "number of decibels");
+  const bool error = options.text("MAX_Z_ERROR") != nullptr;
+  const bool bytes = options.text("BYTES") != nullptr, psnr = options.text("PSNR") != nullptr;
+  const std::optional<bool> lossless = options.flag("LOSSLESS");
+  if (error + bytes + psnr > 1)
+    options.refuse("MAX_Z_ERROR, BYTES and PSNR exclude each other; give one of them.");
+  if (psnr && encode.psnr == 0) options.refuse("PSNR must be more than 0.");
+  encode.lossless = !bytes && !psnr && settings.max_z_error == 0;
+  if (lossless.value_or(false) && !encode.lossless)
+    options.refuse("LOSSLESS=YES excludes MAX_Z_ERROR, BYTES and PSNR.");
+  if (!lossless.value_or(true) && encode.lossless)
+    options.refuse("LOSSLESS=NO needs MAX_Z_ERROR, BYTES or PSNR, which say how much is kept.");
+}
+
+std::string textureName(Options& options) {
+  const char* const given = options.text("TEXTURE");
+  if (given != nullptr && *given == '\0') options.refuse("TEXTURE= names no dataset.");
+  return given != nullptr ? given : "";
+}
+
+}  // namespace
+
+std::optional<OpenSettings> openSettings(const std::string& name, CSLConstList options) {
+  Options given(name, options);
+  OpenSettings settings;
+  if (given.text("BYTES") != nullptr) settings.bytes = given.bytes("BYTES");
+  settings.strict = given.flag("STRICT").value_or(false);
+  settings.threads = given.threads();
+  if (settings.strict && settings.bytes)
+    given.refuse("BYTES and STRICT=YES exclude each other: one cuts the stream, one wants all.");
+  return given.good() ? std::optional(settings) : std::nullopt;
+}
+
+std::optional<CopySettings> copySettings(const std::string& name, CSLConstList options) {
+  Options given(name, options);
+  CopySettings settings{};
+  tks_encode_options& encode = settings.encode;
+  encode.size = sizeof encode;
+  takeTarget(given, settings);
+  encode.regions = regions(given);
+  settings.index = indexKind(given);
+  if (settings.index == TKS_INDEX_WINDOWS && encode.regions == kNoRegions)
+    given.refuse("INDEX=WINDOWS lays out regions, and BLOCKSIZE=NONE says that there are none.");
+  encode.threads = given.threads();
+  settings.texture = textureName(given);
+  const uint64_t white = given.count("WHITE_LEVEL", "value of UInt16 above 0");
+  settings.white_level = static_cast<uint32_t>(std::min<uint64_t>(white, UINT32_MAX));
+  return given.good() ? std::optional(settings) : std::nullopt;
+}
+
+}  // namespace tetrakis::gdal

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/doors/gdal/source.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <new>
+#include <utility>
+
+#include <cpl_error.h>
+#include <cpl_string.h>
+
+#include "base/shown_text.hpp"
+
+namespace tetrakis::gdal {
+namespace {
+
+/// A header without an index takes some hundred bytes, with a CRS as WKT two thousand. This is the
+/// least that GDAL reads over a network.
+constexpr uint64_t kHeaderGuess = 16384;
+
+int errorNumber(tks_status status) {
+  switch (status) {
+    case TKS_USAGE:
+      return CPLE_IllegalArg;
+    case TKS_IO:
+      return CPLE_FileIO;
+    case TKS_UNSUPPORTED:
+      return CPLE_NotSupported;
+    case TKS_LIMIT:
+    case TKS_NO_MEMORY:
+      return CPLE_OutOfMemory;
+    default:
+      return CPLE_AppDefined;
+  }
+}
+
+tks_limits limits() {
+  // Memory is what counts: of large streams windows and levels may fit.
+  tks_limits limits{};
+  limits.size = sizeof limits;
+  limits.max_samples = limits.max_texels = uint64_t{1} << 40;
+  return limits;
+}
+
+}  // namespace
+
+void reportFailure(tks_status status, const std::string& name, const std::string& sentence) {
+  const std::string told =
+      status == TKS_NO_MEMORY ? "There is not enough memory." : shownText(sentence);
+  CPLError(CE_Failure, errorNumber(status), "%s: %s", shownText(name).c_str(), told.c_str());
+}
+
+std::unique_ptr<Source> Source::open(const std::string& name, const OpenSettings& settings) {
+  File file(VSIFOpenL(name.c_str(), "rb"));
+  if (!file) {
+    reportFailure(TKS_IO, name, "The file cannot be opened.");
+    return nullptr;
+  }
+  std::unique_ptr<Source> source(new Source(name, settings, std::move(file)));
+  if (!source->readHeader() || !source->checkLength()) return nullptr;
+  return source;
+}
+
+std::optional<uint64_t> Source::findHeader() {
+  tks_status status = TKS_TRUNCATED;
+  uint64_t there = 0, wanted = kHeaderGuess;
+  while (status == TKS_TRUNCATED && there < std::min(wanted, end_)) {
+    there = std::min(wanted, end_);
+    const tks_range front{0, there, 0};
+    if (!read({&front, 1})) return std::nullopt;
+    status = tks_header_bytes(bytes_.at(0).data(), there, &wanted);
+  }
+  return there;
+}
+
+bool Source::readHeader() {
+  if (VSIFSeekL(bytes_.file(), 0, SEEK_END) != 0) {
+    reportFailure(TKS_IO, name_, "The length of the file cannot be found.");
+    return false;
+  }
+  end_ = std::min<uint64_t>(VSIFTellL(bytes_.file()), settings_.bytes.value_or(UINT64_MAX));
+  const std::optional<uint64_t> header = findHeader();
+  if (!header) return false;
+  const tks_status status = openPrefix(std::min(end_, std::max(kHeaderGuess, *header)));
+  if (end_ == 0) message_ = "There are no bytes.";
+  if (status != TKS_OK && status != TKS_IO) reportFailure(status, name_, message_);
+  return status == TKS_OK;
+}
+
+bool Source::checkLength() {
+  end_ = std::min(end_, info_.stream_bytes);
+  if (!settings_.strict || complete()) return true;
+  reportFailure(TKS_TRUNCATED, name_,
+                "The stream ends early, and STRICT=YES refuses that: there are " +
+                    std::to_string(end_) + " of " + std::to_string(info_.stream_bytes) + " bytes.");
+  return false;
+}
+
+bool Source::read(std::span<const tks_range> ranges) {
+  const std::optional<tks_range> missing = bytes_.read(ranges);
+  if (!missing) return true;
+  reportFailure(TKS_IO, name_,
+                "Bytes " + std::to_string(missing->offset) + " to " +
+                    std::to_string(missing->offset + missing->size - 1) +
+                    " of the file cannot be read.");
+  return false;
+}
+
+tks_status Source::openPrefix(uint64_t bytes) {
+  decoder_.reset();
+  const tks_range all{0, bytes, 0};
+  if (!read({&all, 1})) return TKS_IO;
+  const tks_limits most = limits();
+  tks_decoder* opened = nullptr;
+  char sentence[512] = "";
+  const tks_status status =
+      tks_open(bytes_.at(0).data(), bytes, &most, &opened, sentence, sizeof sentence);
+  if (status != TKS_OK) {
+    message_ = sentence;
+    return status;
+  }
+  decoder_.reset(opened);
+  opened_ = bytes;
+  info_.size = sizeof info_;
+  tks_set_threads(opened, settings_.threads);
+  return tks_get_info(opened, &info_);
+}
+
+bool Source::failed(tks_status status) {
+  reportFailure(status, name_, decoder_ ? tks_message(decoder_.get()) : message_);
+  return false;
+}
+
+bool Source::reopen(uint64_t bytes) {
+  if (decoder_ && opened_ == bytes) return true;
+  const tks_status status = openPrefix(bytes);
+  if (status == TKS_OK || status == TKS_IO) return status == TKS_OK;
+  return failed(status);
+}
+
+std::optional<std::vector<tks_range>> Source::neededRanges(uint32_t level,
+                                                           const tks_window* window) {
+  const bool heights = part_ == TKS_PART_HEIGHTS;
+  tks_ranges needed{};
+  tks_status status = tks_set_levels(decoder_.get(), heights ? level : 0, heights ? 0 : level);
+  if (status == TKS_OK) status = tks_needed_ranges(decoder_.get(), part_, window, &needed);
+  if (status != TKS_OK) {
+    failed(status);
+    return std::nullopt;
+  }
+  std::vector<tks_range> ranges(needed.ranges, needed.ranges + needed.count);
+  tks_free_ranges(&needed);
+  return ranges;
+}
+
+bool Source::loadRanges(const std::vector<tks_range>& ranges) {
+  decoder_.reset();  // which may borrow bytes that move
+  if (!read(ranges) || !reopen(info_.header_bytes)) return false;
+  opened_ = 0;
+  std::vector<const uint8_t*> bytes;
+  for (const tks_range& range : ranges) bytes.push_back(bytes_.at(range.offset).data());
+  const tks_status status =
+      tks_put_ranges(decoder_.get(), ranges.data(), bytes.data(), ranges.size());
+  return status == TKS_OK || failed(status);
+}
+
+bool Source::cutShares(std::vector<tks_range>& ranges, uint64_t bytes) {
+  // The last bit-planes are noise, which costs every sample alike: without the same number of bytes
+  // each, regions err alike.
+  const auto without = [&](uint64_t most) {
+    std::vector<tks_range> cut = ranges;
+    for (size_t i = 1; i < cut.size(); ++i) cut[i].size -= std::min(cut[i].size, most);
+    return cut;
+  };
+  uint64_t least = 0, most = 0;
+  for (const tks_range& range : ranges) most = std::max(most, range.size);
+  while (least < most) {
+    const uint64_t middle = least + (most - least) / 2;
+    uint64_t sum = 0;
+    for (const tks_range& range : without(middle)) sum += range.size;
+    if (sum > bytes) {
+      least = middle + 1;
+    } else {
+      most = middle;
+    }
+  }
+  ranges = without(most);
+  std::erase_if(ranges, [](const tks_range& range) { return range.size == 0; });
+  return most > 0;
+}
+
+uint64_t Source::bytesOfOverviewAbove(uint32_t level) const {
+  const uint64_t pixels = uint64_t{width(level + 1)} * height(level + 1);
+  // Of heights and texture either may have most of the first bytes. Shares of regions are not cut
+  // by what their bytes are worth.
+  uint64_t copies = 1;
+  if (info_.index == TKS_INDEX_WINDOWS) copies = 2;
+  if (info_.has_heights && info_.has_texture) copies = 4;
+  return copies * pixels * pixelBytes();
+}
+
+bool Source::load(uint32_t level, const tks_window* window) {
+  if (settings_.strict && !verified_) {
+    if (!reopen(end_)) return false;
+    if (const tks_status sound = tks_verify(decoder_.get()); sound != TKS_OK) return failed(sound);
+    verified_ = true;
+  }
+  // A prefix of a stream for windows lacks most regions: a level takes a first part of each.
+  const bool apart = info_.index == TKS_INDEX_WINDOWS;
+  const bool cuts = level > 0 && !apart;
+  const uint64_t enough = bytesOfOverviewAbove(level);
+  const uint64_t first = cuts ? std::min(end_, info_.header_bytes + enough) : end_;
+  if (!decoder_ && !reopen(std::min(first, info_.header_bytes))) return false;
+  // Of a shorter file the first bytes are asked for, not what a window would need of all.
+  if (!complete() || info_.index == TKS_INDEX_NONE) return reopen(first);
+  const bool shares = level > 0 && apart;
+  if (opened_ == first && !shares) return true;
+  auto ranges = neededRanges(level, window);
+  if (!ranges) return false;
+  if (shares && cutShares(*ranges, enough)) return loadRanges(*ranges);
+  const bool most = window == nullptr && FileBytes::costOf(*ranges) >= first - first / 4;
+  return most ? reopen(first) : loadRanges(*ranges);
+}
+
+StatedQuality Source::statedQuality() {
+  StatedQuality quality;
+  if (info_.lossless && complete()) {
+    if (info_.has_heights) quality.heights_rmse = 0;
+    if (info_.has_texture) quality.texture_psnr = std::numeric_limits<double>::infinity();
+    return quality;
+  }
+  if (info_.index != TKS_INDEX_NONE && !VSIIsLocal(name_.c_str())) return quality;
+  const tks_range all{0, end_, 0};
+  decoder_.reset();  // which may borrow bytes that move
+  if (bytes_.read({&all, 1})) return quality;
+  const tks_limits most = limits();
+  tks_decoder* opened = nullptr;
+  if (tks_open(bytes_.at(0).data(), end_, &most, &opened, nullptr, 0) != TKS_OK) return quality;
+  const DecoderPointer decoder(opened, tks_close);
+  tks_info info{};
+  info.size = sizeof info;
+  if (tks_get_info(opened, &info) == TKS_OK) quality = {info.heights_rmse, info.texture_psnr};
+  return quality;
+}
+
+bool Source::decodeLevel(uint32_t level, std::vector<std::byte>& out) {
+  const bool heights = part_ == TKS_PART_HEIGHTS;
+  const uint64_t bytes = uint64_t{width(level)} * height(level) * pixelBytes();
+  tks_decoder* const decoder = decoder_.get();
+  tks_status status = tks_set_levels(decoder, heights ? level : 0, heights ? 0 : level);
+  if (status == TKS_OK) status = tks_check_memory(decoder, part_, nullptr, 0, bytes, nullptr);
+  if (status != TKS_OK) return failed(status);
+  out.resize(bytes);
+  status = heights ? tks_decode_heights(decoder, out.data(), bytes)
+                   : tks_decode_texture(decoder, out.data(), bytes);
+  return status == TKS_OK || failed(status);
+}
+
+const std::byte* Source::level(uint32_t level) {
+  std::vector<std::byte>& kept = kept_[level];
+  if (!kept.empty()) return kept.data();
+  if (!load(level, nullptr)) return nullptr;
+  try {
+    std::vector<std::byte> pixels;
+    if (!decodeLevel(level, pixels)) return nullptr;
+    kept = std::move(pixels);
+    return kept.data();
+  } catch (const std::bad_alloc&) {
+    reportFailure(TKS_NO_MEMORY, name_, "");
+    return nullptr;
+  }
+}
+
+bool Source::window(const tks_window& window, std::vector<std::byte>& out) {
+  CPLDebug("TKS", "%s: decoding %u x %u from %u, %u", name_.c_str(), window.width, window.height,
+           window.x, window.y);
+  if (!load(0, &window)) return false;
+  tks_decoder* const decoder = decoder_.get();
+  tks_status status = tks_set_levels(decoder, 0, 0);
+  if (status != TKS_OK) return failed(status);
+  out.resize(size_t{window.width} * window.height * pixelBytes());
+  status = part_ == TKS_PART_HEIGHTS
+               ? tks_decode_heights_window(decoder, &window, out.data(), out.size())
+               : tks_decode_texture_window(decoder, &window, out.data(), out.size());
+  return status == TKS_OK || failed(status);
+}
+
+}  // namespace tetrakis::gdal

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// One component of a stream that GDAL's virtual files hold: which of its bytes are read, and what
+// they decode to.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/doors/gdal/file_bytes.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::gdal {
+
+/// The failure of a call of the library as an error of GDAL: the sentence after the file's name.
+void reportFailure(tks_status status, const std::string& name, const std::string& sentence);
+
+struct OpenSettings {
+  std::optional<uint64_t> bytes;  ///< as if the file were no longer than that
+  bool strict = false;            ///< a stream that ends early or has damages is refused
+  uint32_t threads = 1;
+};
+
+/// What the last complete packet says of errors; below 0: nothing.
+struct StatedQuality {
+  double heights_rmse = -1;  ///< in the unit of the heights
+  double texture_psnr = -1;  ///< in dB; infinity: exact
+};
+
+/// Opening reads the header; the rest is read when samples are asked for: of streams with a front
+/// index the packets that they need, else the file from its beginning.
+class Source {
+ public:
+  /// Null after an error was reported.
+  static std::unique_ptr<Source> open(const std::string& name, const OpenSettings& settings);
+
+  /// Of level 0. Its texts live until samples or errors are asked for.
+  const tks_info& info() const { return info_; }
+  /// Whether all of the stream is there to be read.
+  bool complete() const { return end_ == info_.stream_bytes; }
+  /// How many bytes of it are there to be read.
+  uint64_t bytes() const { return end_; }
+  /// Reads all bytes that are there, unless the header says enough, or they lie where reading costs
+  /// and an index is there to read less. Reports no errors.
+  StatedQuality statedQuality();
+  /// That of the header, in hexadecimal digits: it tells this stream from others.
+  std::string checksum() const;
+
+  /// Everything below concerns this component; the heights at first.
+  void choose(tks_part part) { part_ = part; }
+  tks_part part() const { return part_; }
+  const std::string& name() const { return name_; }
+  uint32_t width(uint32_t level) const;
+  uint32_t height(uint32_t level) const;
+  uint32_t channels() const;
+  bool hasAlpha() const;  ///< as the last channel
+  /// Coded as it is, without a wavelet: levels hold samples of the raster, not means.
+  bool isDrawn() const;
+  tks_sample sample() const;
+  size_t pixelBytes() const { return channels() * tks_sample_bytes(sample()); }
+  uint32_t coarsestLevel() const;
+  /// Side of the regions by which windows are decoded; 0: they take as long as all.
+  uint32_t regionSide() const;
+
+  /// All pixels of a level, channels interleaved, which are kept: coarse ones take a third of the
+  /// raster's memory together. Null after an error was reported. A level above 0 takes no more
+  /// bytes of the stream than the overview that is made of it has (what it shows comes first, and
+  /// a small map takes a small download), or those that it needs, where these are fewer or no
+  /// prefix shows all ground.
+  const std::byte* level(uint32_t level);
+  /// A part of level 0.
+  bool window(const tks_window& window, std::vector<std::byte>& out);
+
+ private:
+  using DecoderPointer = std::unique_ptr<tks_decoder, decltype(&tks_close)>;
+
+  Source(std::string name, const OpenSettings& settings, File file)
+      : name_(std::move(name)), settings_(settings), bytes_(std::move(file)) {}
+  bool readHeader();
+  /// Reads as much as the header takes, or there is, and returns how many bytes. Nothing after a
+  /// reported error.
+  std::optional<uint64_t> findHeader();
+  bool checkLength();
+  /// Reads up to this many bytes and opens them; TKS_IO after a reported error.
+  tks_status openPrefix(uint64_t bytes);
+  bool reopen(uint64_t bytes);
+  bool read(std::span<const tks_range> ranges);
+  /// How many bytes of the stream show a level well enough for the overview made of it.
+  uint64_t bytesOfOverviewAbove(uint32_t level) const;
+  /// Opens what a level takes, or, at level 0, a window of it (null: all).
+  bool load(uint32_t level, const tks_window* window);
+  /// What a level or a window takes, by the index. Nothing after a reported error.
+  std::optional<std::vector<tks_range>> neededRanges(uint32_t level, const tks_window* window);
+  bool loadRanges(const std::vector<tks_range>& ranges);
+  /// Leaves the first range whole and a first part of each other one, that many bytes together.
+  /// Whether that took anything off.
+  static bool cutShares(std::vector<tks_range>& ranges, uint64_t bytes);
+  bool failed(tks_status status);
+  bool decodeLevel(uint32_t level, std::vector<std::byte>& out);
+
+  std::string name_;
+  OpenSettings settings_;
+  tks_part part_ = TKS_PART_HEIGHTS;
+  uint64_t end_ = 0;  ///< of what may be used
+  FileBytes bytes_;
+  uint64_t opened_ = 0;  ///< how many of the first bytes the decoder has; 0: ranges
+  bool verified_ = false;
+  std::string message_;  ///< why openPrefix failed
+  DecoderPointer decoder_{nullptr, tks_close};
+  tks_info info_{};
+  std::map<uint32_t, std::vector<std::byte>> kept_;  ///< what was decoded of whole levels
+};
+
+}  // namespace tetrakis::gdal

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the header says of the component that was chosen.
+#include <cpl_string.h>
+#include "apps/doors/gdal/source.hpp"
+
+namespace tetrakis::gdal {
+namespace {
+
+uint32_t sideOfLevel(uint32_t side, uint32_t level) {
+  return static_cast<uint32_t>((side + (uint64_t{1} << level) - 1) >> level);
+}
+
+}  // namespace
+
+std::string Source::checksum() const {
+  // The last four bytes of the header (docs/FORMAT.md, section 2).
+  constexpr size_t kBytes = 4;
+  const auto bytes = bytes_.at(info_.header_bytes - kBytes).first(kBytes);
+  return CPLSPrintf("%02X%02X%02X%02X", bytes[3], bytes[2], bytes[1], bytes[0]);
+}
+
+uint32_t Source::width(uint32_t level) const {
+  return sideOfLevel(part_ == TKS_PART_HEIGHTS ? info_.width : info_.texture_width, level);
+}
+
+uint32_t Source::height(uint32_t level) const {
+  return sideOfLevel(part_ == TKS_PART_HEIGHTS ? info_.height : info_.texture_height, level);
+}
+
+uint32_t Source::channels() const {
+  return part_ == TKS_PART_HEIGHTS ? 1 : info_.texture_channels;
+}
+
+bool Source::hasAlpha() const {
+  return part_ == TKS_PART_TEXTURE && info_.texture_opaque == 0;
+}
+
+bool Source::isDrawn() const {
+  return (part_ == TKS_PART_HEIGHTS ? info_.heights_drawn : info_.texture_drawn) == 1;
+}
+
+tks_sample Source::sample() const {
+  return part_ == TKS_PART_HEIGHTS ? info_.sample : info_.texture_sample;
+}
+
+uint32_t Source::coarsestLevel() const {
+  return part_ == TKS_PART_HEIGHTS ? info_.coarsest_level : info_.texture_coarsest_level;
+}
+
+uint32_t Source::regionSide() const {
+  return part_ == TKS_PART_TEXTURE ? info_.texture_regions : info_.regions;
+}
+
+}  // namespace tetrakis::gdal

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// tetrakis compare: how far a stream is from what was encoded, and whether it keeps its promise.
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "apps/tools/commands/camera_pictures.hpp"
+#include "apps/tools/commands/command.hpp"
+#include "apps/tools/commands/notes.hpp"
+#include "apps/tools/commands/options.hpp"
+#include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/text.hpp"
+#include "apps/tools/output/json.hpp"
+#include "apps/tools/report/comparison.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+struct CompareArguments {
+  StreamSource source;
+  std::string height, texture;
+  uint32_t triangles = 0;
+  CameraChoice cameras;
+  std::string pictures;
+  bool json = false, force = false;
+};
+
+bool isExact(double psnr) {
+  return std::isinf(psnr) && psnr > 0;
+}
+
+/// "<name>" and "<name minus _psnr>_exact": JSON has no infinity, so exactness is a field of its
+/// own.
+void addPsnr(Json& json, const std::string& what, std::optional<double> psnr) {
+  json[what + "_psnr"] = psnr ? finiteOrNull(*psnr) : Json();
+  json[what + "_exact"] = psnr ? Json(isExact(*psnr)) : Json();
+}
+
+Json camerasJson(const std::vector<Camera>& cameras, const Measurement& measurement) {
+  Json list = Json::array();
+  for (size_t i = 0; i < measurement.camera_psnr.size(); ++i) {
+    Json camera = {{"name", cameras[i].name}};
+    addPsnr(camera, "screen", measurement.camera_psnr[i]);
+    list.push_back(std::move(camera));
+  }
+  return list;
+}
+
+Json measurementJson(const Measurement& measurement, const std::vector<Camera>& cameras) {
+  const std::optional<HeightErrors>& heights = measurement.heights;
+  Json json = {
+      {"bytes", measurement.bytes},
+      {"geometry_bytes", measurement.geometry_bytes},
+      {"texture_bytes", measurement.texture_bytes},
+      {"triangles", measurement.triangles ? Json(*measurement.triangles) : Json()},
+      {"height_rmse", heights ? finiteOrNull(heights->rmse) : Json()},
+      {"height_max_error", heights ? finiteOrNull(heights->max_error) : Json()},
+  };
+  addPsnr(json, "height", heights ? std::optional(heights->psnr) : std::nullopt);
+  addPsnr(json, "texture", measurement.texture_psnr);
+  addPsnr(json, "screen", measurement.screen_psnr);
+  json["cameras"] = camerasJson(cameras, measurement);
+  return json;
+}
+
+/// Heights with the voids of the stream.
+Result<Reference> readReference(const CompareArguments& arguments, const tks_info& info,
+                                bool quiet) {
+  if (arguments.height.empty() && arguments.texture.empty())
+    return Status(TKS_USAGE, "nothing to compare with: give --height or --texture");
+  Reference reference;
+  if (!arguments.height.empty()) {
+    Result<HeightFile> heights =
+        readHeights(arguments.height, info.has_nodata ? std::optional(info.nodata) : std::nullopt);
+    if (!heights.ok()) return heights.status();
+    if (heights->rounding > 0)
+      tellNote(quoted(arguments.height) +
+                   " holds 64-bit floats that 32 bits do not hold: errors are those beside them "
+                   "as the nearest 32-bit floats",
+               quiet);
+    reference.heights = std::move(*heights);
+  }
+  if (!arguments.texture.empty()) {
+    std::string note;
+    Result<ImageFile> image = readImage(arguments.texture, &note);
+    if (!image.ok()) return image.status();
+    tellNote(note, quiet);
+    reference.image = std::move(*image);
+    reference.image->white_level = info.texture_white_level;
+  }
+  return reference;
+}
+
+/// Screen figures need a renderer. Cameras and pictures that were asked for must be drawn; the
+/// default view is left out with a note on a machine that cannot draw.
+Status look(Comparer& comparer, const CompareArguments& arguments, bool quiet) {
+  const Status status = comparer.look(arguments.cameras);
+  const bool asked = !arguments.cameras.isDefault() || !arguments.pictures.empty();
+  if (status.ok() || status.code() != TKS_UNSUPPORTED || asked) return status;
+  tellNote("no screen figures: " + status.message(), quiet);
+  return Status();
+}
+
+/// Of a promise: what the stream says, and what is found.
+Status broken(const std::string& promise, const std::string& finding) {
+  return {TKS_MISMATCH, "the stream says " + promise + ", but " + finding +
+                            ": it is not of this file, or broke its promise"};
+}
+
+/// A complete stream states what it guarantees; the surface itself is held to it.
+Status checkPromise(const tks_info& info, const Measurement& measurement) {
+  if (info.available_bytes < info.stream_bytes) return Status();
+  if (info.lossless && measurement.texture_psnr && !isExact(*measurement.texture_psnr))
+    return broken("lossless", "the texture differs");
+  if (!measurement.heights) return Status();
+  const double error = measurement.heights->max_error;
+  if (info.lossless && error != 0)
+    return broken("lossless", "heights differ by up to " + shortest(error));
+  if (info.max_error >= 0 && !(error <= info.max_error + measurement.heights->rounding))
+    return broken("heights within " + shortest(info.max_error),
+                  "they differ by up to " + shortest(error));
+  return Status();
+}
+
+Status compare(const CompareArguments& arguments, bool quiet) {
+  const Result<OpenStream> stream = openStream(arguments.source);
+  if (!stream.ok()) return stream.status();
+  const tks_info& info = stream->decoder.info();
+  const Result<Reference> reference = readReference(arguments, info, quiet);
+  if (!reference.ok()) return reference.status();
+  Result<Comparer> comparer = Comparer::create(*reference, info);
+  if (!comparer.ok()) return comparer.status();
+  if (Status status = look(*comparer, arguments, quiet); !status.ok()) return status;
+  std::optional<CameraPictures> pictures;
+  if (!arguments.pictures.empty()) {
+    Result<CameraPictures> planned =
+        CameraPictures::plan(arguments.pictures, comparer->cameras().size(), arguments.force);
+    if (!planned.ok()) return planned.status();
+    pictures = std::move(*planned);
+  }
+  const Result<Measurement> measurement =
+      comparer->measure(octets(stream->bytes), arguments.triangles);
+  if (!measurement.ok()) return measurement.status();
+  if (pictures)
+    if (Status status = pictures->write(measurement->pictures, comparer->referencePictures());
+        !status.ok())
+      return status;
+  tellNote(coarsestNote(measurement->triangles.value_or(0), arguments.triangles), quiet);
+  Json json = measurementJson(*measurement, comparer->cameras());
+  if (reference->heights && reference->heights->rounding > 0) json["height_exact"] = false;
+  if (Status status = print(arguments.json ? dump(json) : table(legible(json))); !status.ok())
+    return status;
+  return arguments.triangles == 0 ? checkPromise(info, *measurement) : Status();
+}
+
+}  // namespace
+
+void addCompare(CLI::App& app, CommandLine& line) {
+  const auto arguments = std::make_shared<CompareArguments>();
+  CLI::App& verb = *app.add_subcommand("compare", "Measure a stream against what was encoded");
+  addSource(verb, arguments->source);
+  CLI::Option* const height =
+      verb.add_option("--height", arguments->height, "The original heights")->type_name("REF");
+  verb.add_option("--texture", arguments->texture, "The original texture")->type_name("REF");
+  addTriangles(verb, arguments->triangles, "Judge the mesh of at most so many triangles")
+      ->needs(height);
+  addCameraOptions(verb, arguments->cameras);
+  verb.add_option("--pictures", arguments->pictures, "Also write what the cameras see into DIR")
+      ->type_name("DIR");
+  verb.add_flag("--json", arguments->json, "JSON instead of a table");
+  addForce(verb, arguments->force);
+  verb.callback([arguments, &line] {
+    line.action = [arguments, &line] { return compare(*arguments, line.quiet); };
+  });
+}
+
+}  // namespace tetrakis::tools

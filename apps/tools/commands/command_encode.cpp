@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// tetrakis encode: heights, a texture or both into one embedded stream.
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "apps/tools/commands/command.hpp"
+#include "apps/tools/commands/encode_memory.hpp"
+#include "apps/tools/commands/encode_notes.hpp"
+#include "apps/tools/commands/notes.hpp"
+#include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/place/given_crs.hpp"
+#include "apps/tools/files/place/ground_positions.hpp"
+#include "apps/tools/files/units.hpp"
+#include "apps/tools/output/output.hpp"
+#include "apps/tools/output/output_names.hpp"
+#include "apps/tools/output/progress.hpp"
+#include "apps/tools/report/picture_judge.hpp"
+#include "apps/tools/report/report.hpp"
+#include "base/length_unit.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+Status describe(const EncodeArguments& arguments, HeightFile& heights) {
+  heights.scale = arguments.scale.value_or(heights.scale);
+  heights.offset = arguments.offset.value_or(heights.offset);
+  if (arguments.unit) heights.unit = canonicalUnit(*arguments.unit);
+  if (arguments.crs) giveCrs(heights, *arguments.crs);
+  if (arguments.vertical_datum) giveVerticalDatum(heights, *arguments.vertical_datum);
+  if (arguments.spacing.empty()) return Status();
+  const Result<std::array<double, 2>> spacing = parseSpacing(arguments.spacing);
+  if (!spacing.ok()) return spacing.status();
+  heights.spacing_x = (*spacing)[0];
+  heights.spacing_y = (*spacing)[1];
+  return Status();
+}
+
+/// Notes that an option does not answer.
+void tellNotes(const Notes& notes, const EncodeArguments& arguments, bool quiet) {
+  for (const auto& [text, option] : notes) {
+    const bool answered =
+        (option == "--spacing" && !arguments.spacing.empty()) ||
+        (option == "--unit" && arguments.unit) || (option == "--nodata" && arguments.nodata) ||
+        (option == "--scale" && arguments.scale) || (option == "--offset" && arguments.offset);
+    if (!answered) tellNote(quoted(arguments.height) + ": " + text, quiet);
+  }
+}
+
+Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
+  Reference inputs;
+  if (!arguments.height.empty()) {
+    Notes notes;
+    Result<HeightFile> heights = readHeights(arguments.height, arguments.nodata, &notes);
+    if (!heights.ok()) return heights.status();
+    if (arguments.lossless && heights->rounding > 0)
+      return Status(TKS_USAGE, quoted(arguments.height) +
+                                   " holds 64-bit floats that 32 bits do not hold, so nothing "
+                                   "keeps them all; round them first: gdal_translate -ot Float32 "
+                                   "IN.tif OUT.tif");
+    tellNotes(notes, arguments, quiet);
+    if (Status status = describe(arguments, *heights); !status.ok()) return status;
+    tellNotes(guesses(arguments, *heights, notes), arguments, quiet);
+    tellNote(voidNote(*heights), quiet);
+    inputs.heights = std::move(*heights);
+  }
+  if (!arguments.texture.empty()) {
+    std::string remark;
+    Result<ImageFile> image = readImage(arguments.texture, &remark);
+    if (!image.ok()) return image.status();
+    tellNote(remark, quiet);
+    if (arguments.white_level > 0) {
+      image->white_level = arguments.white_level;
+    } else {
+      tellNote(whiteNote(arguments.texture, *image), quiet);
+    }
+    if (inputs.heights) tellNote(placeNote(arguments.texture, *inputs.heights, *image), quiet);
+    inputs.image = std::move(*image);
+  }
+  return inputs;
+}
+
+/// Longitudes and latitudes for web pages, unless they take more than a 64th of the stream, or of
+/// a byte a sample where nothing says how long that is to be.
+void addPlaces(const EncodeArguments& arguments, Reference& inputs, bool quiet) {
+  constexpr uint64_t kShare = 64;
+  HeightFile* const heights = inputs.heights ? &*inputs.heights : nullptr;
+  ImageFile* const image = inputs.image ? &*inputs.image : nullptr;
+  const uint64_t samples = (heights ? uint64_t{heights->width} * heights->height : 0) +
+                           (image ? uint64_t{image->width} * image->height : 0);
+  const uint64_t expected = arguments.bytes > 0 ? arguments.bytes : samples;
+  const std::string remark = addPositions(heights, image, expected / kShare);
+  const std::string& name = heights ? arguments.height : arguments.texture;
+  if (!remark.empty()) tellNote(quoted(name) + ": " + remark, quiet);
+}
+
+/// Those that are asked for; none: the library looks from all sides.
+Result<std::vector<Camera>> wantedCameras(const EncodeArguments& arguments,
+                                          const Reference& inputs) {
+  const bool rendered = arguments.engine == "rendered";
+  if (!inputs.heights || (arguments.cameras.isDefault() && !rendered)) return std::vector<Camera>();
+  const Bounds bounds = boundsOf(heightsOf(*inputs.heights), frameOf(*inputs.heights));
+  const CameraChoice any{.file = {}, .view = "any"};
+  return chooseCameras(arguments.cameras.isDefault() ? any : arguments.cameras, bounds);
+}
+
+/// The renderer that looks at the pictures; nothing: the library models them, or there are none.
+Result<std::optional<PictureJudge>> wantedJudge(const EncodeArguments& arguments,
+                                                const Reference& inputs,
+                                                const std::vector<Camera>& cameras) {
+  if (arguments.engine != "rendered" || !inputs.heights || !inputs.image)
+    return std::optional<PictureJudge>();
+  Result<PictureJudge> judge = PictureJudge::create(*inputs.heights, *inputs.image, cameras);
+  if (!judge.ok()) return judge.status();
+  return std::optional<PictureJudge>(std::move(*judge));
+}
+
+/// In metres, or the unit of the heights. What rounding doubles has spent of it is gone.
+Result<double> boundOf(const EncodeArguments& arguments, const HeightFile& heights) {
+  const Result<double> asked = parseLength(arguments.max_error, heights.unit);
+  if (!asked.ok()) return asked.status();
+  const double bound = *asked - heights.rounding * std::abs(heights.scale);
+  if (bound > 0) return bound;
+  return Status(TKS_USAGE, quoted(arguments.height) +
+                               " holds 64-bit floats that 32 bits do not hold within that "
+                               "--max-error");
+}
+
+Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
+                                         const Reference& inputs) {
+  tks_encode_options options = makeEncodeOptions();
+  options.bytes = arguments.bytes;
+  options.psnr = arguments.psnr;
+  options.lossless = arguments.lossless;
+  options.triangles = arguments.triangles;
+  options.threads = arguments.threads;
+  options.index = arguments.windows ? TKS_INDEX_WINDOWS
+                  : arguments.index ? TKS_INDEX_PACKETS
+                                    : TKS_INDEX_NONE;
+  options.weights = arguments.weights == "visual" ? TKS_WEIGHTS_VISUAL : TKS_WEIGHTS_PSNR;
+  const Result<uint32_t> regions = parseRegions(arguments.regions);
+  if (!regions.ok()) return regions.status();
+  options.regions = *regions;
+  if (!arguments.max_error.empty()) {
+    const Result<double> bound = boundOf(arguments, *inputs.heights);
+    if (!bound.ok()) return bound.status();
+    options.max_error = *bound;
+  }
+  return options;
+}
+
+Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& inputs, bool quiet) {
+  Result<tks_encode_options> options = encodeOptions(arguments, inputs);
+  if (!options.ok()) return options.status();
+  const Result<std::vector<Camera>> cameras = wantedCameras(arguments, inputs);
+  if (!cameras.ok()) return cameras.status();
+  const GroundAxes axes = inputs.heights ? frameOf(*inputs.heights).axes : GroundAxes();
+  const std::vector<tks_camera> told = toldCameras(*cameras, axes);
+  options->cameras = told.data();
+  options->camera_count = static_cast<uint32_t>(told.size());
+  Result<std::optional<PictureJudge>> judge = wantedJudge(arguments, inputs, *cameras);
+  if (!judge.ok()) return judge.status();
+  if (judge->has_value()) {
+    options->picture_error = &PictureJudge::error;
+    options->picture_user = &**judge;
+  }
+  Progress progress("encoding", quiet);
+  options->progress = &Progress::report;
+  options->user = &progress;
+  tks_heights heights = inputs.heights ? asHeights(*inputs.heights) : tks_heights{};
+  heights.step = arguments.step;
+  const tks_image image = inputs.image ? asImage(*inputs.image) : tks_image{};
+  Result<Buffer> stream = tetrakis::encode(inputs.heights ? &heights : nullptr,
+                                           inputs.image ? &image : nullptr, *options);
+  if (!stream) return stream.status();
+  return std::move(*stream);
+}
+
+Status writeReport(const EncodeArguments& arguments, const Reference& inputs,
+                   std::span<const uint8_t> stream, bool quiet, Output& page) {
+  tellNote("drawing the report, which takes some seconds", quiet);
+  const std::string name = arguments.height.empty() ? arguments.texture : arguments.height;
+  Progress progress("drawing", quiet);
+  ReportRequest request{std::filesystem::path(name).filename().string(), stream,
+                        arguments.triangles, arguments.cameras};
+  request.progress = [&](double done) { Progress::report(&progress, done); };
+  const Result<Report> report = makeReport(inputs, request);
+  if (!report.ok()) return report.status();
+  const Result<std::string> html = renderPage(*report);
+  if (!html.ok()) return html.status();
+  if (Status status = page.stage(std::as_bytes(std::span(*html))); !status.ok()) return status;
+  return page.commit();
+}
+
+/// What was written, unless nobody wants to know.
+Status tellSummary(const EncodeArguments& arguments, std::span<const uint8_t> stream, bool quiet) {
+  if (quiet) return Status();
+  const Result<Decoder> decoder = openDecoder(stream);
+  if (!decoder) return decoder.status();
+  tellNote(boundNote(arguments, decoder->info()), quiet);
+  tellNote(maskNote(decoder->info()), quiet);
+  tellLine(summary(arguments.output, decoder->info()));
+  return Status();
+}
+
+/// The outputs, planned before any work is done.
+struct EncodeOutputs {
+  Output stream;
+  std::optional<OutputFolder> report_folder;
+  std::optional<Output> report;
+};
+
+Result<EncodeOutputs> planOutputs(const EncodeArguments& arguments) {
+  const Status stay = checkInputsStay({arguments.height, arguments.texture}, arguments.output);
+  if (!stay.ok()) return stay;
+  if (!arguments.report.empty()) {
+    const Status distinct = checkDistinct({arguments.output, arguments.report});
+    if (!distinct.ok()) return distinct;
+  }
+  Result<Output> stream = Output::plan(arguments.output, arguments.force, ".tks");
+  if (!stream.ok()) return stream.status();
+  EncodeOutputs outputs{std::move(*stream), std::nullopt, std::nullopt};
+  if (arguments.report.empty()) return outputs;
+  Result<OutputFolder> folder = OutputFolder::create(arguments.report);
+  if (!folder.ok()) return folder.status();
+  outputs.report_folder.emplace(std::move(*folder));
+  Result<Output> page =
+      Output::plan(outputs.report_folder->file("index.html"), arguments.force, ".html");
+  if (!page.ok()) return page.status();
+  outputs.report.emplace(std::move(*page));
+  return outputs;
+}
+
+Status encode(const EncodeArguments& arguments, bool quiet) {
+  if (Status status = checkArguments(arguments); !status.ok()) return status;
+  Result<EncodeOutputs> outputs = planOutputs(arguments);
+  if (!outputs.ok()) return outputs.status();
+  Result<Reference> inputs = readInputs(arguments, quiet);
+  if (!inputs.ok()) return inputs.status();
+  addPlaces(arguments, *inputs, quiet);
+  if (Status status = checkEncodeMemory(arguments, *inputs); !status.ok()) return status;
+  const Result<Buffer> stream = encodeInputs(arguments, *inputs, quiet);
+  if (!stream.ok()) return stream.status();
+  const std::span<const uint8_t> bytes = stream->bytes();
+  if (Status status = outputs->stream.stage(std::as_bytes(bytes)); !status.ok()) return status;
+  if (Status status = outputs->stream.commit(); !status.ok()) return status;
+  if (Status status = tellSummary(arguments, bytes, quiet); !status.ok()) return status;
+  if (!outputs->report) return Status();
+  return writeReport(arguments, *inputs, bytes, quiet, *outputs->report);
+}
+
+}  // namespace
+
+void addEncode(CLI::App& app, CommandLine& line) {
+  const auto arguments = std::make_shared<EncodeArguments>();
+  CLI::App& verb = *app.add_subcommand("encode", "Make a stream of heights, a texture or both");
+  addArguments(verb, *arguments);
+  verb.callback([arguments, &line] {
+    line.action = [arguments, &line] { return encode(*arguments, line.quiet); };
+  });
+}
+
+}  // namespace tetrakis::tools

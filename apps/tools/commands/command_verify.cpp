@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// tetrakis verify: the strict syntax of one stream, or all conformance vectors of a folder.
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "apps/tools/commands/command.hpp"
+#include "apps/tools/commands/options.hpp"
+#include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/text.hpp"
+#include "apps/tools/output/json.hpp"
+#include "conformance/runner.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+Status verifyStream(const std::string& path, bool quiet) {
+  const Result<OpenStream> stream = openStream({path, std::nullopt, true});
+  if (!stream.ok()) return stream.status();
+  if (quiet) return Status();
+  const tks_info& info = stream->decoder.info();
+  return print(quoted(path) + ": valid, " + std::to_string(info.stream_bytes) + " bytes, " +
+               counted(info.packets, "packet", "packets") + "\n");
+}
+
+Status verifyVectors(const std::string& folder, bool quiet) {
+  std::ostream silent(nullptr);
+  const auto summary = conformance::runVectors(folder, quiet ? silent : std::cerr);
+  if (!summary.ok()) return summary.status();
+  const std::string passed = std::to_string(summary->passed);
+  if (summary->failed > 0)
+    return Status(TKS_MISMATCH, quoted(folder) + ": " + std::to_string(summary->failed) +
+                                    " conformance vectors failed, " + passed + " passed");
+  return quiet ? Status() : print(quoted(folder) + ": " + passed + " conformance vectors passed\n");
+}
+
+Status verify(const std::string& path, bool quiet) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored) ? verifyVectors(path, quiet)
+                                                      : verifyStream(path, quiet);
+}
+
+}  // namespace
+
+void addVerify(CLI::App& app, CommandLine& line) {
+  const auto path = std::make_shared<std::string>();
+  CLI::App& verb =
+      *app.add_subcommand("verify", "Check a whole stream, or run conformance vectors");
+  verb.add_option("IN", *path, "Stream (.tks), - for standard input, or a folder of vectors")
+      ->required()
+      ->type_name("");
+  verb.callback(
+      [path, &line] { line.action = [path, &line] { return verify(*path, line.quiet); }; });
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// EncodeArguments holds the arguments of `tetrakis encode`, and checkArguments() refuses arguments
+// that contradict each other.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "apps/tools/commands/options.hpp"
+
+namespace tetrakis::tools {
+
+struct EncodeArguments {
+  std::string height, texture, output, report;
+  uint64_t bytes = 0;
+  double psnr = 0;
+  std::string max_error;
+  bool lossless = false;
+  uint32_t triangles = 0, threads = hardwareThreads();
+  std::string regions = "auto", weights = "psnr", engine = "modelled";
+  double step = 0;
+  std::optional<double> scale, offset, nodata;
+  uint32_t white_level = 0;  ///< 0: found
+  std::string spacing;
+  std::optional<std::string> unit, vertical_datum, crs;
+  CameraChoice cameras;
+  bool index = false, windows = false, force = false;
+};
+
+void addArguments(CLI::App& verb, EncodeArguments& arguments);
+
+/// --regions as tks_encode_options has it; the library refuses sides that it does not take.
+Result<uint32_t> parseRegions(const std::string& text);
+
+/// TKS_USAGE if they do not go together.
+Status checkArguments(const EncodeArguments& arguments);
+
+}  // namespace tetrakis::tools

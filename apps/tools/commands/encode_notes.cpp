@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tools/commands/encode_notes.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+
+#include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/place/crs_units.hpp"
+#include "apps/tools/files/place/texture_place.hpp"
+#include "apps/tools/files/text.hpp"
+#include "apps/tools/files/void_samples.hpp"
+#include "apps/tools/report/scene.hpp"
+#include "base/length_unit.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+/// Whether meshes or pictures of the ground count.
+bool isSeen(const EncodeArguments& arguments) {
+  return !arguments.texture.empty() || !arguments.report.empty() || arguments.triangles > 0 ||
+         arguments.engine == "rendered" || !arguments.cameras.isDefault();
+}
+
+}  // namespace
+
+std::string voidNote(const HeightFile& heights) {
+  const Surface surface = heightsOf(heights);
+  const auto count = std::count_if(surface.values.begin(), surface.values.end(),
+                                   [](double height) { return std::isnan(height); });
+  if (count == 0) return "";
+  std::string note = counted(static_cast<uint64_t>(count), "sample is", "samples are") + " void";
+  if (const uint64_t nans = nansBesideNodata(heights))
+    note += ", of which " + counted(nans, "is", "are") + " NaN and will be " +
+            shortest(*heights.nodata) + " as the others";
+  return note;
+}
+
+Notes guesses(const EncodeArguments& arguments, const HeightFile& heights, const Notes& told) {
+  const auto asked = [&told](const char* option) {
+    return std::any_of(told.begin(), told.end(),
+                       [option](const Note& note) { return note.option == option; });
+  };
+  const bool converted = !arguments.max_error.empty() &&
+                         std::isalpha(static_cast<unsigned char>(arguments.max_error.back()));
+  const bool seen = isSeen(arguments);
+  Notes notes;
+  if (arguments.crs && !arguments.crs->empty() && !isKnownCrs(*arguments.crs))
+    notes.push_back({"PROJ does not know the CRS '" + *arguments.crs + "', which is kept", ""});
+  if (heights.unit.empty() && (seen || converted) && !asked("--unit"))
+    notes.push_back({"the unit of the heights is not known and counts as metres: give --unit", ""});
+  if (heights.spacing_x <= 0 && heights.spacing_y <= 0 && seen && !asked("--spacing"))
+    notes.push_back({"the spacing of the samples is not known and counts as " +
+                         shortest(kUnknownSpacing) + " m: give --spacing",
+                     ""});
+  return notes;
+}
+
+std::string whiteNote(const std::string& texture, const ImageFile& image) {
+  if (image.white() == largestTexel(image.sample)) return "";
+  return quoted(texture) + " uses a part of its 16 bits: " + std::to_string(image.white()) +
+         " counts as white: give --white-level";
+}
+
+std::string placeNote(const std::string& texture, const HeightFile& heights,
+                      const ImageFile& image) {
+  PlacedRaster texels(image.width, image.height, image.place);
+  if (texels.crs.empty()) texels.crs = heights.crs;
+  const TexturePlace place(PlacedRaster(heights.width, heights.height, heights), texels);
+  if (!place.texelsOver({0, 0, heights.width, heights.height}))
+    return quoted(texture) + " lies beside the ground of the heights, which get its border";
+  if (!place.isOwn()) return "";
+  const char* const who =
+      texels.crs == heights.crs ? "the encoder's cameras see" : "cameras and web pages see";
+  if (place.isTurned()) {
+    return quoted(texture) +
+           " covers the ground of the heights, but begins at another corner: meshes have it where "
+           "it lies, but " +
+           who + " it turned; gdalwarp writes rasters north-up";
+  }
+  return quoted(texture) +
+         " covers other ground than the heights: meshes have it where it lies, but " + who +
+         " it stretched over them; gdalwarp can cut it to their ground";
+}
+
+std::string boundNote(const EncodeArguments& arguments, const tks_info& info) {
+  return arguments.max_error.empty() || info.lossless == 0
+             ? ""
+             : "--max-error " + arguments.max_error +
+                   ": nothing takes fewer bytes than every bit, which the stream restores";
+}
+
+std::string maskNote(const tks_info& info) {
+  return info.has_voids == 0 || info.voids_known != 0
+             ? ""
+             : "the mask of voids does not fit: some voids are shown as ground";
+}
+
+std::string summary(const std::string& name, const tks_info& info) {
+  const uint64_t heads =
+      info.stream_bytes - info.header_bytes - info.geometry_bytes - info.texture_bytes;
+  return name + ": " + std::to_string(info.stream_bytes) + " bytes (header " +
+         std::to_string(info.header_bytes) + ", heights " + std::to_string(info.geometry_bytes) +
+         ", texture " + std::to_string(info.texture_bytes) + ", heads of packets " +
+         std::to_string(heads) + ")";
+}
+
+}  // namespace tetrakis::tools

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// What JavaScript calls to encode: tks_encode, whose structs come as one list of numbers and one of
+// texts, so that the loader (apps/web/src/encoder.js) knows neither their layout nor numbers of 64
+// bits.
+#include <cstddef>
+#include <cstdint>
+
+#include "tetrakis/tetrakis.h"
+
+/// The page's: told how much is done, from 0 to 1.
+extern "C" void web_progress(double done);
+
+namespace {
+
+/// Takes numbers in the order of web_encode_names().
+class Numbers {
+ public:
+  explicit Numbers(const double* numbers) : next_(numbers) {}
+  template <class T>
+  void take(T& value) {
+    value = static_cast<T>(*next_++);
+  }
+  void take(double (&values)[6]) {
+    for (double& value : values) value = *next_++;
+  }
+
+ private:
+  const double* next_;
+};
+
+int tellProgress(void*, double done) {
+  web_progress(done);
+  return 0;
+}
+
+tks_heights heightsOf(Numbers& numbers, const char* const* texts, const void* data) {
+  tks_heights h{};
+  h.size = sizeof h;
+  h.data = data;
+  numbers.take(h.width);
+  numbers.take(h.height);
+  numbers.take(h.sample);
+  numbers.take(h.scale);
+  numbers.take(h.offset);
+  numbers.take(h.step);
+  numbers.take(h.spacing_x);
+  numbers.take(h.spacing_y);
+  numbers.take(h.has_nodata);
+  numbers.take(h.nodata);
+  numbers.take(h.has_geotransform);
+  numbers.take(h.geotransform);
+  numbers.take(h.registration);
+  h.unit = texts[0];
+  h.vertical_datum = texts[1];
+  h.crs = texts[2];
+  h.description = texts[3];
+  h.geo_keys = texts[4];
+  return h;
+}
+
+/// has_nodata of heights whose nodata value is to be found.
+constexpr int kFound = 2;
+
+/// Declares what files write where they have no height, if the caller asks for that.
+void findNodata(tks_heights& heights) {
+  if (heights.has_nodata != kFound) return;
+  heights.has_nodata = 0;
+  tks_outliers found{sizeof found, 0, 0, 0};
+  if (tks_find_outliers(&heights, &found) != TKS_OK || found.is_fill == 0) return;
+  heights.has_nodata = 1;
+  heights.nodata = found.value;
+}
+
+tks_image imageOf(Numbers& numbers, const char* const* texts, const void* data) {
+  tks_image image{};
+  image.size = sizeof image;
+  image.data = data;
+  numbers.take(image.width);
+  numbers.take(image.height);
+  numbers.take(image.channels);
+  numbers.take(image.sample);
+  numbers.take(image.has_geotransform);
+  numbers.take(image.geotransform);
+  numbers.take(image.registration);
+  numbers.take(image.opaque);
+  numbers.take(image.white_level);
+  image.crs = texts[5];
+  image.geo_keys = texts[6];
+  return image;
+}
+
+}  // namespace
+
+extern "C" {
+
+/// What the numbers of web_encode() are, by the names that JavaScript gives them.
+const char* web_encode_names() {
+  return "width height sample scale offset step spacingX spacingY hasNodata nodata "
+         "hasGeotransform g0 g1 g2 g3 g4 g5 registration "
+         "textureWidth textureHeight textureChannels textureSample "
+         "textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration textureOpaque "
+         "textureWhiteLevel "
+         "bytes psnr maxError lossless triangles regions index weights";
+}
+
+/// Likewise its texts.
+const char* web_encode_texts() {
+  return "unit verticalDatum crs description geoKeys textureCrs textureGeoKeys";
+}
+
+/// data: of the heights and of the image, NULL where there is none. texts: NULL where unknown.
+tks_status web_encode(const double* numbers, const char* const* texts, const void* const* data,
+                      tks_buffer* out, char* message, size_t message_size) {
+  Numbers left(numbers);
+  tks_heights heights = heightsOf(left, texts, data[0]);
+  const tks_image image = imageOf(left, texts, data[1]);
+  tks_encode_options o{};
+  o.size = sizeof o;
+  left.take(o.bytes);
+  left.take(o.psnr);
+  left.take(o.max_error);
+  left.take(o.lossless);
+  left.take(o.triangles);
+  left.take(o.regions);
+  left.take(o.index);
+  left.take(o.weights);
+  o.progress = tellProgress;
+  findNodata(heights);
+  return tks_encode(data[0] != nullptr ? &heights : nullptr, data[1] != nullptr ? &image : nullptr,
+                    &o, out, message, message_size);
+}
+
+}  // extern "C"

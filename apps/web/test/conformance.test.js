@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The module decodes the very samples that the native decoder does: every cut of every conformance
+// vector, by the digests of its manifest.
+import assert from 'node:assert/strict';
+import {createHash} from 'node:crypto';
+import {readFile} from 'node:fs/promises';
+import {existsSync} from 'node:fs';
+import {test} from 'node:test';
+
+import {Decoder} from '../src/stream_decoder.js';
+
+const vectors = new URL('../../../conformance/vectors/', import.meta.url);
+const dist = new URL('../dist/', import.meta.url);
+const STATUS = {corrupt: 3, truncated: 4, unsupported: 5, limit: 6};
+
+const digest = (array) => (array ? createHash('sha256').update(array).digest('hex') : undefined);
+
+/** What the module answers at a cut, as the manifest writes it. */
+function answer(decoder, cut) {
+  const wanted = {bytes: cut.bytes, status: 0};
+  if (cut.level) wanted.level = cut.level;
+  try {
+    const {heights, texture} = decoder.samples(cut.bytes, cut.level ?? 0);
+    if (heights) wanted.heights = digest(heights);
+    if (texture) wanted.texture = digest(texture);
+  } catch (error) {
+    wanted.status = STATUS[error.code] ?? error;
+  }
+  return wanted;
+}
+
+for (const name of ['tetrakis', 'tetrakis-raster', 'tetrakis-plain']) {
+  const file = new URL(`${name}.wasm`, dist);
+  test(`${name} passes every conformance vector`, {skip: !existsSync(file)}, async () => {
+    const module = await WebAssembly.compile(await readFile(file));
+    const manifest = JSON.parse(await readFile(new URL('manifest.json', vectors), 'utf8'));
+    for (const vector of manifest.vectors) {
+      const bytes = new Uint8Array(await readFile(new URL(vector.file, vectors)));
+      const decoder = new Decoder(module, 8 * 2 ** 30);
+      decoder.append(bytes);
+      for (const cut of vector.cuts) {
+        assert.deepEqual(answer(decoder, cut), cut, vector.name);
+      }
+    }
+  });
+}

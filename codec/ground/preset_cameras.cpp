@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/ground/preset_cameras.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/portable_math.hpp"
+#include "codec/ground/box_view.hpp"
+#include "codec/ground/vec3.hpp"
+
+namespace tetrakis::inline ground {
+
+namespace {
+
+constexpr double kRadian = std::numbers::pi / 180;
+/// Degrees. The angle is narrow, so that far ground is not much smaller than near ground.
+constexpr double kOverviewAngle = 25;
+
+Camera obliqueView(const Bounds& bounds) {
+  constexpr double kElevation = 35 * kRadian;
+  Camera camera;
+  camera.name = "oblique";
+  camera.fov_y = kOverviewAngle;
+  camera.target = centreOf(bounds);
+  camera.eye = add(camera.target, Vec3{0, portable::sin(kElevation), portable::cos(kElevation)});
+  return seeingAll(camera, bounds);
+}
+
+Camera topView(const Bounds& bounds) {
+  Camera camera;
+  camera.name = "top";
+  camera.fov_y = kOverviewAngle;
+  camera.up = {0, 0, -1};
+  camera.target = centreOf(bounds);
+  camera.eye = add(camera.target, Vec3{0, 1, 0});
+  return seeingAll(camera, bounds);
+}
+
+/// Share of the ground, taken as flat at middle height, that the camera sees.
+double seenShare(const Camera& camera, const Bounds& bounds) {
+  constexpr int kSteps = 64;
+  const ViewAxes axes = viewAxes(camera.eye, camera.target, camera.up);
+  const HalfAngles half = halfAngles(camera);
+  const auto between = [&](size_t axis, int i) {
+    return bounds.low[axis] + (bounds.high[axis] - bounds.low[axis]) * (i + 0.5) / kSteps;
+  };
+  int seen = 0;
+  for (int j = 0; j < kSteps; ++j) {
+    for (int i = 0; i < kSteps; ++i) {
+      const Vec3 ground{between(0, i), centreOf(bounds)[1], between(2, j)};
+      const Vec3 ray = subtract(ground, camera.eye);
+      const double depth = dot(ray, axes.forward);
+      seen += std::abs(dot(ray, axes.right)) <= half.tan_x * depth &&
+              std::abs(dot(ray, axes.up)) <= half.tan_y * depth;
+    }
+  }
+  return static_cast<double>(seen) / (kSteps * kSteps);
+}
+
+/// Looks north from `distance` before the northern border, so that the border (at middle height)
+/// lies four fifths up the picture: below it ground, above it the horizon.
+Camera lowViewFrom(double distance, const Bounds& bounds) {
+  const Vec3 centre = centreOf(bounds);
+  const double extent = std::max(bounds.high[0] - bounds.low[0], bounds.high[2] - bounds.low[2]);
+  Camera camera;
+  camera.name = "low";
+  const double clearance = 0.01 * extent;
+  const double above_middle = bounds.high[1] - centre[1] + clearance;
+  const double border_angle = portable::atan(above_middle / distance);
+  const double tan_half = halfAngles(camera).tan_y;
+  const double pitch = std::min(border_angle + portable::atan(0.6 * tan_half), 80 * kRadian);
+  const double reach = above_middle / portable::tan(pitch);
+  camera.eye = {centre[0], centre[1] + above_middle, bounds.low[2] + distance};
+  camera.target = {centre[0], centre[1], camera.eye[2] - reach};
+  return camera;
+}
+
+Camera lowView(const Bounds& bounds) {
+  constexpr double kShare = 0.1;
+  const double depth = bounds.high[2] - bounds.low[2];
+  double near = depth / 64, far = depth;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = (near + far) / 2;
+    const bool enough = seenShare(lowViewFrom(middle, bounds), bounds) >= kShare;
+    (enough ? far : near) = middle;
+  }
+  return lowViewFrom(far, bounds);
+}
+
+/// A terrain without extent would leave the camera nowhere to stand.
+Bounds withExtent(Bounds bounds) {
+  for (const size_t axis : {0u, 2u}) {
+    if (bounds.high[axis] > bounds.low[axis]) continue;
+    bounds.low[axis] -= 0.5;
+    bounds.high[axis] += 0.5;
+  }
+  return bounds;
+}
+
+/// (x, y, z) turned by so many quarters about the vertical.
+Vec3 turned(const Vec3& v, int quarters) {
+  switch (quarters) {
+    case 1:
+      return {v[2], v[1], -v[0]};
+    case 2:
+      return {-v[0], v[1], -v[2]};
+    case 3:
+      return {-v[2], v[1], v[0]};
+    default:
+      return v;
+  }
+}
+
+/// The view from four sides, each of a quarter of the weight.
+std::vector<Camera> fromFourSides(Camera (*view)(const Bounds&), const Bounds& bounds) {
+  constexpr const char* kSides[] = {"", "-east", "-north", "-west"};
+  std::vector<Camera> cameras;
+  for (int side = 0; side < 4; ++side) {
+    // The terrain is turned before the camera, and the camera back.
+    const Vec3 a = turned(bounds.low, (4 - side) % 4), b = turned(bounds.high, (4 - side) % 4);
+    Bounds box;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(a[axis], b[axis]);
+      box.high[axis] = std::max(a[axis], b[axis]);
+    }
+    Camera camera = view(box);
+    camera.name += kSides[side];
+    camera.eye = turned(camera.eye, side);
+    camera.target = turned(camera.target, side);
+    camera.up = turned(camera.up, side);
+    camera.weight = 0.25;
+    cameras.push_back(camera);
+  }
+  return cameras;
+}
+
+Status checkBounds(const Bounds& bounds) {
+  for (size_t axis = 0; axis < 3; ++axis)
+    if (!std::isfinite(bounds.low[axis]) || !std::isfinite(bounds.high[axis]))
+      return Status(TKS_USAGE, "the terrain has no finite bounds to place a camera by");
+  return Status();
+}
+
+}  // namespace
+
+Result<std::vector<Camera>> presetCameras(const std::string& view, const Bounds& given) {
+  if (Status status = checkBounds(given); !status.ok()) return status;
+  const Bounds bounds = withExtent(given);
+  if (view == "oblique") return std::vector{obliqueView(bounds)};
+  if (view == "low") return std::vector{lowView(bounds)};
+  if (view == "top") return std::vector{topView(bounds)};
+  if (view == "all") return std::vector{obliqueView(bounds), lowView(bounds), topView(bounds)};
+  if (view == "orbit") return fromFourSides(obliqueView, bounds);
+  if (view == "any") return unknownViewer(given);
+  return Status(TKS_USAGE,
+                "no view is called '" + view + "': use oblique, low, top, orbit, all or any");
+}
+
+Result<std::vector<Camera>> unknownViewer(const Bounds& given) {
+  if (Status status = checkBounds(given); !status.ok()) return status;
+  const Bounds bounds = withExtent(given);
+  std::vector<Camera> cameras = fromFourSides(obliqueView, bounds);
+  const std::vector<Camera> low = fromFourSides(lowView, bounds);
+  cameras.insert(cameras.end(), low.begin(), low.end());
+  cameras.push_back(topView(bounds));
+  return cameras;
+}
+
+}  // namespace tetrakis::inline ground

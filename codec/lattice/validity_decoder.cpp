@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/lattice/validity_decoder.hpp"
+
+#include "bitstream/coder/range_decoder.hpp"
+#include "codec/lattice/validity_pass.hpp"
+
+namespace tetrakis::inline lattice {
+
+namespace {
+
+class DecodingIo {
+ public:
+  explicit DecodingIo(std::span<const uint8_t> codeword) : decoder_(codeword) {}
+  uint64_t asked(const SampleLine& line) const { return lowBits(line.count); }
+  bool bit(AdaptiveBit& model, size_t) { return decoder_.decode(model); }
+  uint32_t run(AdaptiveBit& model, bool valid, uint32_t most) {
+    return decoder_.decodeRun(model, valid, most);
+  }
+  bool stopped() const { return decoder_.exhausted(); }
+  uint64_t otherwise(uint64_t, uint64_t majority) const { return majority; }
+
+ private:
+  RangeDecoder decoder_;
+};
+
+}  // namespace
+
+BitPlane decodeLateValidity(std::span<const uint8_t> codeword, Extent plane,
+                            const SharedBits& lifted) {
+  DecodingIo decoding(codeword);
+  LateMaskIo<DecodingIo> io(decoding, lifted.get());
+  return ValidityPass<LateMaskIo<DecodingIo>>(plane, io).run();
+}
+
+BitPlane decodeValidity(std::span<const uint8_t> codeword, Extent plane) {
+  DecodingIo io(codeword);
+  return ValidityPass<DecodingIo>(plane, io).run();
+}
+
+}  // namespace tetrakis::inline lattice

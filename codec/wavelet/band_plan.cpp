@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/wavelet/band_plan.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <utility>
+
+namespace tetrakis::inline wavelet {
+
+namespace {
+
+/// The finest levels hold most coefficients and get contexts of their own. Orientations share
+/// theirs: neighbours are named along and across the direction of the band, so that all look alike.
+uint32_t modelsOf(const Subband& subband) {
+  constexpr int kOwnLevels = kPlaneModels - 1;
+  if (subband.orientation == Orientation::kLL) return kOwnLevels;
+  return static_cast<uint32_t>(std::clamp(subband.level, 1, kOwnLevels) - 1);
+}
+
+/// The other details of a detail's level: HL, LH and HH follow each other.
+std::array<int, 2> siblingsOf(std::span<const BandPart> parts, size_t index,
+                              Orientation orientation, int first) {
+  std::array<int, 2> siblings = {BandPlan::kNone, BandPlan::kNone};
+  const size_t hl = index - (static_cast<size_t>(orientation) - 1);
+  size_t count = 0;
+  for (size_t i = hl; i < hl + kBandsPerLevel; ++i) {
+    if (i != index && !parts[i].shape().empty()) siblings[count++] = first + static_cast<int>(i);
+  }
+  return siblings;
+}
+
+/// A row of the coefficients of a part.
+struct Coefficients {
+  const Subband& subband;
+  uint32_t column;  ///< of the subband, where the part begins
+  uint32_t y;       ///< of the plane
+
+  uint32_t x(uint32_t at) const { return subband.sampleColumn(column + at); }
+};
+
+/// Calls mark(tier, columns) for the marked ones of 32 columns from `first` on: tiles are wide, so
+/// that mostly all have one tier.
+template <class Mark>
+void forEachTier(const CoefficientPriorities& priorities, const Coefficients& line, uint32_t first,
+                 uint32_t columns, const Mark& mark) {
+  if (columns == 0) return;
+  const int level = line.subband.level;
+  const auto last = static_cast<uint32_t>(std::bit_width(columns)) - 1;
+  const bool alike = priorities.alike(line.x(first), line.x(first + last), level);
+  while (columns != 0) {
+    const auto next = static_cast<uint32_t>(std::countr_zero(columns));
+    const uint32_t marked = alike ? columns : columns & (0 - columns);
+    mark(priorities.at(line.x(first + next), line.y, level), marked);
+    columns &= ~marked;
+  }
+}
+
+}  // namespace
+
+PlaneLayout::PlaneLayout(const WaveletSpec& spec, Pyramid pyramid, const PriorityMap& priorities,
+                         const std::optional<SynthesisNorms>& norms)
+    : whole_(spec.whole),
+      pyramid_(std::move(pyramid)),
+      norms_(norms ? *norms : SynthesisNorms(spec, pyramid_.levels())) {
+  if (!priorities.empty()) priorities_.emplace(priorities);
+}
+
+std::vector<BandPart> partsOf(std::span<const Subband> subbands, const Region& region) {
+  std::vector<BandPart> parts;
+  for (size_t i = 0; i < subbands.size(); ++i) {
+    const Subband& subband = subbands[i];
+    if (!(subband.orientation == Orientation::kLL ? region.isBase() : region.holds(subband.level)))
+      continue;
+    // Sides of regions are multiples of 2^splits, so that low and high bands are cut alike.
+    const auto range = [](uint32_t begin, uint32_t end, int splits, uint32_t size) {
+      const uint32_t first = std::min(begin >> splits, size);
+      const uint64_t round_up = (uint64_t{1} << splits) - 1;
+      const auto last = static_cast<uint32_t>(std::min<uint64_t>((end + round_up) >> splits, size));
+      return std::pair(first, last - first);
+    };
+    const auto [column, columns] = range(region.x0, region.x1, subband.splits_x, subband.width);
+    const auto [row, rows] = range(region.y0, region.y1, subband.splits_y, subband.height);
+    parts.push_back({i, column, row, columns, rows});
+  }
+  return parts;
+}
+
+std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int first, int priority,
+                                        uint32_t models) const {
+  std::vector<BandPlan> bands;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const Subband& subband = subbands()[parts[i].subband];
+    BandPlan band;
+    band.shape = parts[i].shape();
+    band.orientation = subband.orientation;
+    band.log_norm = norms_.log16(subband) + priority;
+    if (whole_ && (subband.level > 1 || subband.orientation == Orientation::kLL))
+      band.key_floor = priority;
+    band.models = models + modelsOf(subband);
+    const size_t parent = i - kBandsPerLevel;  // LL is nobody's
+    const bool has_parent = i >= kBandsPerLevel &&
+                            subbands()[parts[parent].subband].orientation != Orientation::kLL &&
+                            !parts[parent].shape().empty();
+    if (has_parent) band.parent = first + static_cast<int>(parent);
+    if (band.orientation != Orientation::kLL)
+      band.siblings = siblingsOf(parts, i, band.orientation, first);
+    bands.push_back(band);
+  }
+  return bands;
+}
+
+std::vector<BandPlan> PlaneLayout::marked(std::span<const BandPart> parts,
+                                          std::vector<BandPlan> plan) const {
+  markAbsent(parts, plan);
+  markTiers(parts, plan);
+  return plan;
+}
+
+void PlaneLayout::markAbsent(std::span<const BandPart> parts, std::span<BandPlan> bands) const {
+  const HeldSamples held = pyramid_.held();
+  if (pyramid_.allExist() && held.none()) return;
+  const auto isHeld = [&](uint32_t x, uint32_t y) {
+    return held.numbers[size_t{y} * pyramid_.plane().width + x] != 0;
+  };
+  assert(bands.size() == parts.size());
+  for (size_t i = 0; i < bands.size(); ++i) {
+    const BandPart& part = parts[i];
+    const Subband& subband = subbands()[part.subband];
+    const BandShape& shape = bands[i].shape;
+    bands[i].absent.assign(shape.wordCells(), 0);
+    for (uint32_t row = 0; row < part.rows; ++row) {
+      const uint32_t y = subband.planeRow(part.row + row);
+      for (uint32_t first = 0; first < part.columns; first += 32) {
+        const uint32_t x = subband.sampleColumn(part.column + first);
+        uint32_t word = ~pyramid_.existing(subband.splits_x, x, y);
+        for (uint32_t k = 0; !held.none() && k < std::min(32u, part.columns - first); ++k)
+          word |= uint32_t{isHeld(subband.sampleColumn(part.column + first + k), y)} << k;
+        bands[i].absent[shape.word(row, first / 32)] = word & shape.valid(first / 32);
+      }
+    }
+  }
+}
+
+void PlaneLayout::markTiers(std::span<const BandPart> parts, std::span<BandPlan> bands) const {
+  if (!priorities_) return;
+  assert(bands.size() == parts.size());
+  for (size_t i = 0; i < bands.size(); ++i) {
+    const BandPart& part = parts[i];
+    const Subband& subband = subbands()[part.subband];
+    const BandShape& shape = bands[i].shape;
+    if (shape.empty()) continue;
+    BandTiers tiers;
+    tiers.members.assign(kPriorities * shape.wordCells(), 0);
+    for (uint32_t row = 0; row < part.rows; ++row) {
+      const Coefficients line{subband, part.column, subband.planeRow(part.row + row)};
+      for (uint32_t k = 0; k < shape.words(); ++k) {
+        const size_t word = shape.word(row, k);
+        const uint32_t absent = bands[i].absent.empty() ? 0 : bands[i].absent[word];
+        const auto mark = [&](uint8_t tier, uint32_t columns) {
+          tiers.members[tier * shape.wordCells() + word] |= columns;
+        };
+        forEachTier(*priorities_, line, 32 * k, shape.valid(k) & ~absent, mark);
+      }
+    }
+    tiers.markBlocks(shape);
+    bands[i].tiers = std::make_shared<const BandTiers>(std::move(tiers));
+  }
+}
+
+std::vector<int32_t> PlaneLayout::gather(std::span<const int32_t> plane,
+                                         const BandPart& part) const {
+  assert(plane.size() == pyramid_.plane().samples());
+  const BandShape shape = part.shape();
+  const Subband& subband = subbands()[part.subband];
+  std::vector<int32_t> values(shape.cells(), 0);
+  for (uint32_t row = 0; row < part.rows; ++row) {
+    const size_t first = pyramid_.indexOf(subband, part.row + row) + part.column;
+    std::copy_n(plane.data() + first, part.columns, values.data() + shape.cell(row, 0));
+  }
+  return values;
+}
+
+void clearAbsent(const BandPlan& band, std::span<int32_t> values) {
+  if (band.absent.empty()) return;
+  const BandShape& shape = band.shape;
+  for (uint32_t row = 0; row < shape.rows; ++row) {
+    for (uint32_t x = 0; x < shape.words(); ++x) {
+      uint32_t absent = band.absent[shape.word(row, x)];
+      for (; absent != 0; absent &= absent - 1)
+        values[shape.cell(row, 32 * x + static_cast<uint32_t>(std::countr_zero(absent)))] = 0;
+    }
+  }
+}
+
+}  // namespace tetrakis::inline wavelet

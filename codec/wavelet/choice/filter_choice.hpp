@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The functions here choose the filters that suit a plane. The choice stands in the stream header,
+// so that decoders need not know how it was made. Encoder only.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/plane.hpp"
+#include "bitstream/stream/coding_headers.hpp"
+#include "codec/wavelet/held_samples.hpp"
+
+namespace tetrakis::inline choice {
+
+/// What a plane is coded for.
+enum class Purpose : uint8_t {
+  kLossless,  ///< the last bit: no fraction bits
+  kLossy      ///< something short of it: as many fraction bits as rounding noise asks for
+};
+
+/// What the filters of lossy streams are chosen for.
+struct RateTarget {
+  double bits = 0;         ///< a sample that there are for the plane; 0: any
+  double mean_square = 0;  ///< error of a sample of the plane that is wanted; 0: any
+};
+
+/// Chooses the filters of heights, or of a lossy texture by one plane of it. They are tried on
+/// typical parts of the plane, whose samples have `bits` bits, and compared by an estimate of the
+/// bits that their coefficients take, at a step that suits most streams and at a finer one where
+/// the target asks for it.
+WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose,
+                            const RateTarget& target = {});
+
+/// Chooses the wavelet of a plane of which samples are held.
+WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
+                            int bits, Purpose purpose, const RateTarget& target = {});
+
+/// Chooses the same filters for all planes of an image that is coded to the last bit.
+WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits);
+
+/// Whether the plane has no roughness, by the filter that was chosen for it.
+bool suitsSmoothGround(const WaveletHeader& chosen);
+
+/// A choice for streams of which windows will be read: the filter of the coarse levels is the
+/// shortest. Each level doubles what its filter reaches, so that they pull in most of the regions
+/// around a window, and hold few of the bytes.
+WaveletHeader withShortReach(WaveletHeader chosen);
+
+/// The filters of a lossy choice, for the last bit.
+WaveletHeader withoutFraction(WaveletHeader lossy);
+
+/// About how many bits the coefficients of a plane take that is coded to the last bit.
+double losslessBits(const PlaneView<const int32_t>& plane, int bits);
+
+}  // namespace tetrakis::inline choice

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/wavelet/pyramid.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace tetrakis::inline wavelet {
+
+namespace {
+
+LowBand split(const LowBand& whole) {
+  LowBand low = whole;
+  const auto split_side = [](uint32_t& side, int& splits) {
+    if (side <= kSmallestSide) return;
+    side -= side / 2;
+    ++splits;
+  };
+  split_side(low.extent.width, low.splits_x);
+  split_side(low.extent.height, low.splits_y);
+  return low;
+}
+
+}  // namespace
+
+Pyramid::Pyramid(SharedBits valid, Extent plane, HeldSamples held)
+    : valid_(std::move(valid)), held_(held), lows_{{plane, 0, 0}} {
+  assert(plane.samples() > 0);
+  assert(allExist() || valid_->extent() == plane);
+  assert(held.none() || held.numbers.size() == plane.samples());
+  while (std::max(lows_.back().extent.width, lows_.back().extent.height) > kSmallestSide)
+    lows_.push_back(split(lows_.back()));
+  assert(levels() <= kMaxLevels);
+  const LowBand& coarsest = lows_.back();
+  subbands_.push_back({levels(), Orientation::kLL, coarsest.extent.width, coarsest.extent.height, 0,
+                       0, coarsest.splits_x, coarsest.splits_y});
+  for (int level = levels(); level >= 1; --level) addSubbands(level);
+  assert(subbands_.size() == kBandsPerLevel * static_cast<size_t>(levels()) + 1);
+}
+
+void Pyramid::addSubbands(int level) {
+  const Extent whole = low(level - 1).extent;
+  const LowBand& band = low(level);
+  const auto [width, height] = band.extent;
+  const uint32_t high_width = whole.width - width, high_height = whole.height - height;
+  const uint32_t high_y = uint32_t{1} << std::max(band.splits_y - 1, 0);
+  const auto add = [&](Orientation orientation, Extent extent, uint32_t x, uint32_t y) {
+    subbands_.push_back(
+        {level, orientation, extent.width, extent.height, x, y, band.splits_x, band.splits_y});
+  };
+  add(Orientation::kHL, {high_width, height}, width, 0);
+  add(Orientation::kLH, {width, high_height}, 0, high_y);
+  add(Orientation::kHH, {high_width, high_height}, width, high_y);
+}
+
+std::span<const Subband> Pyramid::subbandsOf(int level) const {
+  assert(level >= 0 && level <= levels());
+  return std::span(subbands_).first(kBandsPerLevel * static_cast<size_t>(levels() - level) + 1);
+}
+
+std::vector<uint8_t> Pyramid::splitMask(int level, const Window& block) const {
+  const LowBand& band = low(level);
+  const bool split_rows = level < levels() && splitsX(level + 1);
+  assert(!allExist() && block.isInside(band.extent));
+  assert(!split_rows || block.x % 2 == 0);
+  const uint32_t lows = split_rows ? block.width - block.width / 2 : block.width;
+  const uint32_t pitch = (split_rows ? 2u : 1u) << band.splits_x, first = block.x << band.splits_x;
+  std::vector<uint8_t> mask(block.extent().samples());
+  uint8_t* to = mask.data();
+  for (uint32_t y = block.y; y < block.y + block.height; ++y) {
+    const uint32_t row = y << band.splits_y;
+    for (uint32_t x = 0; x < lows; ++x) *to++ = valid_->at(first + x * pitch, row);
+    for (uint32_t x = 0; x < block.width - lows; ++x)
+      *to++ = valid_->at(first + x * pitch + pitch / 2, row);
+  }
+  assert(to == mask.data() + mask.size());
+  return mask;
+}
+
+}  // namespace tetrakis::inline wavelet

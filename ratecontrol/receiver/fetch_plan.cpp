@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ratecontrol/receiver/fetch_plan.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "bitstream/track/regions.hpp"
+#include "ratecontrol/receiver/placed_packets.hpp"
+
+namespace tetrakis::inline receiver {
+
+namespace {
+
+/// The pieces of packets that are missing, in the order of the stream.
+std::vector<Piece> piecesOf(std::span<const PlacedPacket> packets, const Missing& missing,
+                            uint64_t end) {
+  std::vector<Piece> pieces;
+  for (const PlacedPacket& packet : packets) {
+    for (const ByteRange& gap : missing(packet.begin, std::min(packet.end, end))) {
+      if (gap.begin == gap.end) continue;
+      if (!pieces.empty() && pieces.back().end < gap.begin)
+        pieces.push_back({pieces.back().end, gap.begin, {}, false});
+      pieces.push_back({gap.begin, gap.end, packet.worth, true});
+    }
+  }
+  return pieces;
+}
+
+}  // namespace
+
+Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed,
+                                          std::span<const WeightedSighting> sightings,
+                                          const Missing& missing, const FetchLimits& limits) {
+  const StreamHeader& header = parsed.header;
+  const uint64_t end = parsed.bytes + header.payload_bytes;
+  std::vector<PlacedPacket> packets = {{0, parsed.bytes, end, {1, 1, 1}}};
+  if (!header.index.empty()) {
+    auto placed = placedPackets(header, parsed.bytes, sightings);
+    if (!placed.ok()) return placed.status();
+    packets = std::move(*placed);
+  }
+  packets = withFiniteOpenings(std::move(packets), limits.request_bytes);
+  const std::vector<Piece> pieces = piecesOf(packets, missing, end);
+  const std::vector<uint32_t> order = rankedPieces(pieces);
+  const Choice chosen = choosePieces(pieces, order, limits);
+  return rangesOf(pieces, order, chosen, limits.request_bytes);
+}
+
+Result<std::vector<size_t>> orderFor(const StreamHeader& header,
+                                     std::span<const WeightedSighting> sightings) {
+  auto packets = placedPackets(header, 0, sightings);
+  if (!packets.ok()) return packets.status();
+  std::stable_sort(packets->begin(), packets->end(),
+                   [](const auto& a, const auto& b) { return helpsMore(a.worth, b.worth); });
+  // A prefix of the order corrects nothing that is still to change, seen or not.
+  std::stable_partition(packets->begin(), packets->end(),
+                        [](const PlacedPacket& packet) { return !packet.is_correction; });
+  std::vector<size_t> order;
+  for (const PlacedPacket& packet : *packets) order.push_back(packet.number);
+  for (size_t i = order.size(); i < header.index.size(); ++i) order.push_back(i);
+  return order;
+}
+
+uint64_t planBytes(const StreamHeader& header) {
+  const uint64_t tracks = trackCounts(header).all();
+  constexpr uint64_t kTrack = sizeof(Region) + 2 * sizeof(double) + 96;  // in a map
+  constexpr uint64_t kPiece = sizeof(Piece) + 2 * sizeof(uint64_t) + 2 * sizeof(uint32_t) +
+                              2 * sizeof(RankedRange) + sizeof(FetchRange);
+  constexpr uint64_t kPacket = sizeof(PlacedPacket) + 4 * kPiece;  // what is there lies between
+  return tracks * kTrack + header.index.size() * kPacket;
+}
+
+}  // namespace tetrakis::inline receiver
