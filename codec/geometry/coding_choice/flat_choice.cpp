@@ -17,25 +17,34 @@
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/geometry/flat/flat_parts.hpp"
 #include "codec/wavelet/choice/compared_steps.hpp"
+#include "codec/wavelet/choice/typical_parts.hpp"
 
 namespace tetrakis::inline coding_choice {
 
 namespace {
 
-/// The shapes to try, from those of the fewest bytes to those that cover the most water.
+/// Samples of the smallest flat areas. Smaller ones save bytes at the last bit, and every prefix
+/// pays for their shapes first.
 constexpr uint32_t kLeastSamples = 8;
+/// The shapes to try, from those of the fewest bytes to those that cover the most water: the least
+/// samples of an area, and the square that opens it. More shapes take the time of a trial each.
 constexpr std::array<FlatShape, 8> kShapes = {
     {{4096, 32}, {4096, 16}, {4096, 8}, {4096, 4}, {4096}, {512}, {64}, {kLeastSamples}}};
+/// The place in kShapes of the shape that is tried first.
 constexpr size_t kLargeAreas = 4;
-/// No shapes are tried where areas of kPond samples cover a smaller share of the plane than this.
+/// No shapes are tried where areas of kPond samples cover a smaller share of the plane than one of
+/// kLeastShare. A larger kPond and a smaller kLeastShare save time, and miss small lakes.
 constexpr uint32_t kPond = 64;
 constexpr uint64_t kLeastShare = 1000;
 /// A gain below this is within the error of the estimates. Parts miss coarse levels, so their
-/// estimates are worse.
+/// estimates are worse. Larger numbers hold areas that lose bytes, smaller ones miss some that
+/// gain.
 constexpr double kClearlyOfPlane = 0.99, kClearlyOfParts = 0.98;
 /// The worth, as a share of the bytes, of a plane whose samples are all flat and stay so: squared
-/// errors do not tell that a sea with waves looks wrong.
+/// errors do not tell that a sea with waves looks wrong. A larger worth takes bytes for it.
 constexpr double kWorthOfFlatness = 0.1;
+/// Bits of the header that areas take. A larger number leaves out areas of small planes.
+constexpr double kHeaderBits = 64;
 
 /// The step, in units of the plane, that the purpose asks for.
 double stepOf(const TriedPlane& plane, const HeightPurpose& purpose, int fraction_bits) {
@@ -148,7 +157,6 @@ class FlatTrials {
   }
 
   double ratioOf(std::vector<FlatAreas> areas, const FlatShape& shape, const ComparedSteps& steps) {
-    constexpr double kHeaderBits = 64;  // of the areas' part of the header
     if (!beside_) {
       beside_ = waveletBeside(finder_.areas(shape, whole()));
       trials_ = std::vector<PartTrials>(parts_.begin(), parts_.end());
