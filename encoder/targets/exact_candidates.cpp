@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/targets/exact_candidates.hpp"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -14,6 +15,25 @@
 namespace tetrakis::inline targets {
 
 namespace {
+
+/// Longer parts of a lossless component than these look like the whole of it: photographs have 40
+/// dB. Larger parts let late prefixes decide, which lossless components show as well.
+constexpr double kMostOfHeights = 1. / 2, kMostOfTexels = 1. / 8;
+/// The parts of these parts at which prefixes are compared. More of them take the time of decoding
+/// two prefixes each.
+constexpr std::array<double, 5> kComparedParts = {1. / 16, 1. / 8, 1. / 4, 1. / 2, 1.};
+/// A prefix of a lossless component may take this many times the bytes of a lossy one. A larger
+/// factor ends more streams exact, and their prefixes lose as many bytes.
+constexpr double kPriceOfExact = 1.03;
+/// The RMSE, in steps, from which on corrections follow. Finer cuts take as many bytes or more in
+/// all, and behind coarser cuts prefixes lose quality.
+constexpr double kExactCut = 0.3;
+/// The same beside a texture that is not exact: the texture gains more from 3 % of the bytes than
+/// prefixes lose.
+constexpr double kSharedExactCut = 0.5;
+/// Budgets above this many times the bytes of texels in tables end with the tables. A larger number
+/// compares prefixes more often; a smaller one costs prefixes quality.
+constexpr uint64_t kRoomOfTexelTable = 2;
 
 /// The lossy heights with corrections that restore their samples, made in each way that takes fewer
 /// than `room` bytes.
@@ -33,12 +53,8 @@ std::vector<HeightsCandidate> restoredWithin(const EncodeInputs& inputs, const C
   return ways;
 }
 
-/// Longer parts of a lossless component than these look like the whole of it: photographs have 40
-/// dB.
-constexpr double kMostOfHeights = 1. / 2, kMostOfTexels = 1. / 8;
-
 /// Whether prefixes of the first candidate, up to a part of it, are as good in the mean as prefixes
-/// of the second that have 3 % fewer bytes. Both have curves.
+/// of the second that have a few percent fewer bytes. Both have curves.
 template <class Coded>
 bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
                    const Candidate<Coded>& lossy, double most) {
@@ -48,9 +64,10 @@ bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
     return squaresOf(*candidate.coded, prefix, inputs.options.threads);
   };
   double logarithms = 0;
-  for (const double part : {1. / 16, 1. / 8, 1. / 4, 1. / 2, 1.}) {
+  for (const double part : kComparedParts) {
     const double bytes = part * most * static_cast<double>(tried.bytes());
-    logarithms += portable::log(squares_after(tried, bytes) / squares_after(lossy, bytes / 1.03));
+    logarithms +=
+        portable::log(squares_after(tried, bytes) / squares_after(lossy, bytes / kPriceOfExact));
   }
   return logarithms <= 0;
 }
@@ -58,13 +75,6 @@ bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
 bool canBeCorrected(const CodedHeights& heights) {
   return hasLosslessWay(heights) && heights.quantised->table.empty();
 }
-
-/// The RMSE, in steps, from which on corrections follow. Finer cuts take as many bytes or more in
-/// all, and behind coarser cuts prefixes lose quality.
-constexpr double kExactCut = 0.3;
-/// The same beside a texture that is not exact: the texture gains more from 3 % of the bytes than
-/// prefixes lose.
-constexpr double kSharedExactCut = 0.5;
 
 /// The heights with corrections in fewer than `room` bytes. The cut is fine, so that prefixes are
 /// those of the lossy heights for long, unless this takes far more bytes than another cut.
@@ -111,7 +121,7 @@ std::optional<TextureCandidate> exactTexture(const EncodeInputs& inputs,
   if (lossy.coded->header.direct() && lossy.bytes() <= whole.bytes()) return lossy;
   if (whole.bytes() >= room) return {};
   whole.curve = curveOfTexture(inputs, *whole.coded);
-  if (few && 2 * whole.bytes() <= inputs.options.bytes) return whole;
+  if (few && kRoomOfTexelTable * whole.bytes() <= inputs.options.bytes) return whole;
   if (!keepsPrefixes(inputs, whole, lossy, kMostOfTexels)) return {};
   return whole;
 }

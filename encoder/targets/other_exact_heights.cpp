@@ -13,7 +13,18 @@ namespace tetrakis::inline targets {
 
 namespace {
 
-constexpr double kGenerous = 2. / 8;  // bytes a sample; smaller budgets hold no table
+/// Bytes a sample from which on a budget may hold heights in a table. With a smaller number more
+/// tables are tried in vain; a larger one misses heights of few values.
+constexpr double kGenerous = 2. / 8;
+/// The share of exact heights of few values that a budget has to hold for them to be tried. A
+/// smaller share tries more of them, which takes time, and ends more streams before they are exact.
+constexpr double kLargePart = 0.7;
+/// Budgets above this many times the bytes of heights in a table end with the table. A smaller
+/// number saves bytes of more streams, and costs their prefixes quality.
+constexpr uint64_t kRoomOfHeightTable = 2;
+/// The share of a budget that exact heights may take to be taken for it. A larger share ends more
+/// streams exact, and leaves the prefixes of these streams less for lossy coefficients.
+constexpr double kClearlyShort = 0.8;
 
 bool isGenerous(const EncodeInputs& inputs, const CodedHeights& heights) {
   return static_cast<double>(inputs.options.bytes) >= kGenerous * heights.counted();
@@ -31,7 +42,6 @@ bool mayBeShort(const EncodeInputs& inputs, const HeightsCandidate& lossy, uint6
 
 FewValues fewValues(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
   constexpr double kAnyError = std::numeric_limits<double>::infinity();
-  constexpr double kLargePart = 0.7;
   if (!lossy.coded) return {};
   const auto budget = static_cast<double>(inputs.options.bytes);
   const uint64_t room = std::min(inputs.options.bytes, lossy.bytes());
@@ -46,7 +56,7 @@ FewValues fewValues(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
   const bool shapes = coded.header.drawn || (few && coded.hasCorrections());
   if (!shapes && coded.layers.table_bytes == 0) return {};
   const uint64_t bytes = exact.heights.bytes();
-  exact.fit = shapes ? bytes <= room : 2 * bytes <= inputs.options.bytes;
+  exact.fit = shapes ? bytes <= room : kRoomOfHeightTable * bytes <= inputs.options.bytes;
   exact.heights.curve = curveOfHeights(inputs, coded);
   return exact;
 }
@@ -64,8 +74,8 @@ bool isNearer(const EncodeInputs& inputs, const HeightsCandidate& exact,
 
 HeightsCandidate shortExactHeights(const EncodeInputs& inputs, const HeightsCandidate& lossy,
                                    const HeightsCandidate& few) {
-  constexpr double kClearly = 0.8;
-  const auto room = static_cast<uint64_t>(kClearly * static_cast<double>(inputs.options.bytes));
+  const auto room =
+      static_cast<uint64_t>(kClearlyShort * static_cast<double>(inputs.options.bytes));
   HeightsCandidate exact = few;
   if (!few.coded && mayBeShort(inputs, lossy, room)) exact = {exactHeightsFor(inputs, 0, room)};
   if (!exact.coded || exact.bytes() > room) return {};

@@ -26,6 +26,15 @@ namespace tetrakis::inline ways {
 
 namespace {
 
+/// Multiples of the exact step are preferred to the widest step if they are this many times as
+/// wide. A larger factor tries floats of the widest step more often, which takes time.
+constexpr double kClearlyWider = 1.02;
+/// Errors below this many steps ask for coefficients to the last bit. A larger number takes bytes
+/// that the bound does not ask for; with a smaller one fraction bits are lost that it asks for.
+constexpr double kFewSteps = 2;
+constexpr double kMostRounded = 1 << 24;  // twice as many steps, and one, fit the range of 2^26
+constexpr double kSlack = 1e-9;           // a bound of whole steps is rounded by less
+
 using Quantised = std::shared_ptr<const QuantisedHeights>;
 
 /// The inputs that all attempts share.
@@ -66,11 +75,10 @@ Candidate<CodedHeights> codeRounded(const Bound& bound, HeightSteps steps) {
 /// Floats whose step is not given, rounded to the widest step that the bound allows. Nothing if no
 /// step is wider than the exact one, or if multiples of the exact step are clearly wider.
 std::optional<Candidate<CodedHeights>> widen(const Bound& bound, int32_t largest) {
-  constexpr double kClearly = 1.02;
   const tks_heights& samples = *bound.quantised->samples;
   const double widest = 2 * bound.error, exact = bound.quantised->steps.step;
   if (samples.sample != TKS_F32 || samples.step > 0 || widest <= exact) return {};
-  if ((2.0 * largest + 1) * exact > kClearly * widest) return {};
+  if ((2.0 * largest + 1) * exact > kClearlyWider * widest) return {};
   Result<HeightSteps> wide = toSteps(samples, {.given = widest});
   if (!wide.ok()) return {};
   return codeRounded(bound, std::move(*wide));
@@ -144,15 +152,14 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& input
   };
   if (quantised->restored()) return codeLosslessHeights(inputs, quantised);
   const double finest = quantised->steps.step * std::abs(inputs.heights->scale);
-  const bool fine = inputs.options.max_error < 2 * finest;
+  const bool fine = inputs.options.max_error < kFewSteps * finest;
   const Purpose purpose = fine ? Purpose::kLossless : Purpose::kLossy;
   const Bound bound{inputs,  quantised,
                     purpose, chooseHeightFilters(*quantised, purpose),
                     options, wanted - floatSpacing(*quantised) / 2};
   const double room =
       (wanted - errorsOf(*inputs.heights, quantised->steps).largest) / quantised->steps.step;
-  constexpr double kMost = 1 << 24;
-  const auto largest = static_cast<int32_t>(std::clamp(room + 1e-9, 0.0, kMost));
+  const auto largest = static_cast<int32_t>(std::clamp(room + kSlack, 0.0, kMostRounded));
   std::vector<Candidate<CodedHeights>> kept;
   const std::optional<Candidate<CodedHeights>> near = onNearGrid(bound);
   if (near && keepsBound(inputs, *near->coded)) kept.push_back(*near);

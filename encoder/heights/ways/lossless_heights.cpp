@@ -20,6 +20,16 @@ namespace tetrakis::inline ways {
 
 namespace {
 
+/// Multiples of a step are not tried beside a table if they are estimated at this many times its
+/// bytes: estimates of few bits a sample are often a fifth too high. A larger factor takes time.
+constexpr double kClearlyLonger = 1.25;
+/// A drawing is tried if it is estimated at this many times the bytes of the wavelet: the estimate
+/// is often off by a twentieth. A larger factor takes time, and a smaller one misses drawings.
+constexpr double kEstimateOff = 1.05;
+/// The share of the wavelet's bytes that a drawing may take. A larger share saves bytes, and gives
+/// prefixes of more terrain shapes without roughness.
+constexpr double kMostOfWavelet = 15. / 16;
+
 using Quantised = std::shared_ptr<const QuantisedHeights>;
 
 /// The samples that coefficients show: lifted ones outside flat areas; empty: all.
@@ -81,12 +91,11 @@ std::shared_ptr<const CodedHeights> codeToTheLastBit(const EncodeInputs& inputs,
 /// bytes. With few bits a sample the estimate is often too high by a fifth, with few samples by
 /// more.
 bool takesMore(const QuantisedHeights& quantised, uint64_t bytes) {
-  constexpr double kClearly = 1.25;
   const HeightSteps& steps = quantised.steps;
   if (!steps.table.empty() || quantised.isSmall()) return false;
   const PlaneView<const int32_t> plane = steps.lifting(extentOf(*quantised.samples));
   const double estimated = typicalCost(plane, steps.range_bits, 0).bits / 8;
-  return estimated > kClearly * static_cast<double>(bytes);
+  return estimated > kClearlyLonger * static_cast<double>(bytes);
 }
 
 /// Codes samples that neighbours predict better than steps do: with a relative step, or on facets.
@@ -107,11 +116,10 @@ std::shared_ptr<const CodedHeights> codeFromNeighbours(const EncodeInputs& input
 
 /// Draws the steps, or keeps the heights coded by wavelet, `whole`. A drawing shows shapes and
 /// slopes between them, and no roughness: its prefixes suit only heights of few values, which it
-/// codes in clearly fewer bytes than the wavelet. So it has to save a sixteenth. It is tried where
-/// the estimate, which is often off by a twentieth, says that it is shorter.
+/// codes in clearly fewer bytes than the wavelet. So it has to save a part of the bytes. It is
+/// tried where the estimate, which is often too high, says that it may be shorter.
 std::shared_ptr<const CodedHeights> drawnIfShorter(const Quantised& quantised,
                                                    std::shared_ptr<const CodedHeights> whole) {
-  constexpr double kEstimateOff = 1.05, kMostOfWavelet = 15. / 16;
   if (whole->tracks.size() > 1) return whole;
   const HeightSteps& steps = quantised->steps;
   const auto bytes = static_cast<double>(bytesOf(whole->tracks));
