@@ -23,13 +23,31 @@ namespace tetrakis::inline texture {
 
 namespace {
 
+/// A wavelet that takes this part more bytes than a drawing, or than tables, has lost to it. A
+/// larger number ends trials earlier, and lets fewer wavelets win by their prefixes.
+constexpr uint64_t kReachPart = 2;
+/// No other attempt is made to save a part of this number of bytes. A larger number saves time.
+constexpr uint64_t kFewBytes = 1024;
+/// The part of the texels that a photograph under an overlay has at least: an overlay of nearly
+/// everything is the drawing once more. A larger number takes the time of more trials.
+constexpr size_t kPhotographPart = 4;
+/// The part of the bits of one channel's residuals that no wavelet stays below; wavelets take about
+/// twice as many. A larger number tries wavelets that are too long, which takes time.
+constexpr double kResidualPart = 2;
+/// A drawing of a lossy texture wins if the wavelet takes more than this many times its bytes. A
+/// larger factor lets fewer drawings win, whose prefixes show less.
+constexpr uint64_t kLossyReach = 2;
+/// Halves of a table's bytes up to which a drawing is tried by its estimate, which is up to 2.5
+/// times too high for few values. A larger number takes time, a smaller one misses dithers.
+constexpr uint64_t kHalvesOfTables = 5;
+/// The part of a photograph's bytes that a drawing has to save to be tried. A larger number tries
+/// more drawings, which takes time.
+constexpr uint64_t kSavedPart = 5;
+
 /// A wavelet that takes more than so many bytes has lost to a drawing of `bytes`.
 uint64_t withinReach(uint64_t bytes) {
-  return bytes + bytes / 2;
+  return bytes + bytes / kReachPart;
 }
-
-/// So few bytes are not worth the time of another attempt.
-constexpr uint64_t kFewBytes = 1024;
 
 TextureOptions oneTrack(TextureOptions options) {
   options.region_log2 = 0;
@@ -89,7 +107,7 @@ struct Comparison {
 /// An overlay of nearly everything is the drawing once more.
 bool isMostlyPhotograph(const std::vector<uint8_t>& photograph) {
   const auto left = std::count(photograph.begin(), photograph.end(), 1);
-  return 4 * static_cast<size_t>(left) >= photograph.size();
+  return kPhotographPart * static_cast<size_t>(left) >= photograph.size();
 }
 
 std::vector<uint8_t> photographOf(const TextureSource& source, Purpose purpose) {
@@ -111,8 +129,9 @@ Attempts completeOnes(Attempts attempts) {
   return attempts;
 }
 
-/// Bytes that no wavelet stays below, whatever the image: half of the bits of the residuals of one
-/// channel, predicted along gradients. Wavelets take about twice as many, and the other channels'.
+/// Bytes that no wavelet stays below, whatever the image: a part of the bits of the residuals of
+/// one channel, predicted along gradients. Wavelets take about twice as many, and the other
+/// channels'.
 uint64_t leastBytes(const Texels& texels) {
   double bits = 0;
   const size_t channels = texels.channels, row = channels * texels.width;
@@ -126,16 +145,16 @@ uint64_t leastBytes(const Texels& texels) {
       bits += std::bit_width(static_cast<uint32_t>(std::abs(*at - predicted)));
     }
   }
-  return static_cast<uint64_t>(bits / 2 / 8);
+  return static_cast<uint64_t>(bits / kResidualPart / 8);
 }
 
 /// A drawn texture wins if it takes too few bytes for the wavelet to restore every sample within
-/// about as many, or within twice as many if that is not asked for.
+/// about as many, or within a multiple if that is not asked for.
 Comparison compareWhole(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
                         const TextureOptions& options) {
   const uint64_t bytes = bytesOf(drawn);
   const bool lossless = purpose == Purpose::kLossless;
-  const uint64_t limit = lossless ? withinReach(bytes) : 2 * bytes;
+  const uint64_t limit = lossless ? withinReach(bytes) : kLossyReach * bytes;
   if (bytes <= kFewBytes || leastBytes(source.texels) > limit) return {true, {}};
   const TextureOptions until = {.limit = limit, .threads = options.threads, .tables = lossless};
   Attempts attempts = attemptsBesideDrawn(source, Purpose::kLossless, until);
@@ -201,16 +220,16 @@ Comparison compare(const EncodedTexture& drawn, const TextureSource& source, Pur
   return (whole ? compareWhole : compareCut)(drawn, source, purpose, options);
 }
 
-/// What does not look drawn has to save a fifth of the photograph's bytes, or to fit whole into the
+/// What does not look drawn has to save a part of the photograph's bytes, or to fit whole into the
 /// budget, to be tried. Lossy tracks without an aim have bits behind the last one of the texels.
-/// Estimates of what has few values are up to 2.5 times the bytes.
+/// Estimates of what has few values are too high.
 uint64_t mostToTry(const EncodedTexture& photograph, Purpose purpose,
                    const TextureOptions& options) {
   const uint64_t bytes = bytesOf(photograph);
   if (options.room < bytes) return options.room;
-  if (photograph.header.tables.present) return 5 * bytes / 2;
+  if (photograph.header.tables.present) return kHalvesOfTables * bytes / 2;
   const bool aimed = purpose == Purpose::kLossless || options.mean_square > 0;
-  return aimed && bytes > kFewBytes ? bytes - bytes / 5 : 0;
+  return aimed && bytes > kFewBytes ? bytes - bytes / kSavedPart : 0;
 }
 
 EncodedTexture encodeModelled(const TextureSource& source, Purpose purpose,
