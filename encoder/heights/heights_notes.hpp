@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// planOf() reads the plan of coded heights from their header, so that a plan cannot differ from
+// what was coded. note() and noteExpected() tell the notes of an encoding, if somebody asked for
+// them, of heights that were weighed.
+#pragma once
+
+#include "encoder/heights/coded_heights.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+#include "encoder/plans/plan_notes.hpp"
+
+namespace tetrakis::inline heights {
+
+Plan planOf(const CodedHeights& coded);
+
+/// The plan of heights that are not coded yet, as far as it is known before: without filters, flat
+/// areas or a residual.
+Plan planOf(const QuantisedHeights& quantised, Coding base);
+
+/// Notes heights that were coded.
+void note(const EncodeInputs& inputs, const CodedHeights& coded, Verdict verdict);
+
+/// What fewestBytes() is to do with the heights that lose. inputs: outlive the result.
+inline auto notingLonger(const EncodeInputs& inputs) {
+  return [&inputs](const CodedHeights& lost) { note(inputs, lost, Verdict::kLonger); };
+}
+
+/// Notes a plan that is not tried, because it is expected to take so many bytes.
+void noteExpected(const EncodeInputs& inputs, Plan plan, double bytes);
+
+}  // namespace tetrakis::inline heights
