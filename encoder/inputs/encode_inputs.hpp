@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// EncodeInputs is the input of one encoding (heights, image, options, priorities), the lines of both
-// components that are coded, and the place for notes of what was weighed. The functions derive from
-// it what both components need alike.
+// EncodeInputs is the input of one encoding (heights, image, options, priorities), with the lines
+// of both components that are coded, and the place for notes of what is weighed. The functions
+// derive from it what both components need alike.
 #pragma once
 
 #include <cstdint>
