@@ -43,6 +43,7 @@ tks_weighed_plan toldPlan(const WeighedPlan& weighed, const Words& words, double
   if (!weighed.coded) return told;
   told.coded = 1;
   told.coded_bytes = weighed.coded->bytes;
+  told.needed_bytes = weighed.coded->needed;
   told.header_bytes = weighed.coded->in_header;
   told.rmse = weighed.coded->rmse * unit;
   return told;

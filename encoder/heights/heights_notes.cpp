@@ -92,12 +92,13 @@ Plan planOf(const CodedHeights& coded) {
   return plan;
 }
 
-void note(const EncodeInputs& inputs, const CodedHeights& coded, Verdict verdict) {
+void note(const EncodeInputs& inputs, const CodedHeights& coded, Verdict verdict, uint64_t need) {
   if (inputs.notes == nullptr) return;
   const double unit = coded.quantised->steps.step;
   const double rmse = std::sqrt(std::max(squaresLeft(coded.tracks), 0.) / coded.counted()) * unit;
-  inputs.notes->heights.add(
-      {planOf(coded), verdict, coded.expected, {{bytesOf(coded.tracks), coded.inHeader(), rmse}}});
+  const uint64_t bytes = bytesOf(coded.tracks);
+  const CodedOutcome outcome{bytes, std::min(need, bytes), coded.inHeader(), rmse};
+  inputs.notes->heights.add({planOf(coded), verdict, coded.expected, outcome});
 }
 
 void noteExpected(const EncodeInputs& inputs, Plan plan, double bytes) {

@@ -16,13 +16,9 @@ Plan planOf(const CodedHeights& coded);
 /// areas or a residual.
 Plan planOf(const QuantisedHeights& quantised, Coding base);
 
-/// Notes heights that were coded.
-void note(const EncodeInputs& inputs, const CodedHeights& coded, Verdict verdict);
-
-/// What fewestBytes() is to do with the heights that lose. inputs: outlive the result.
-inline auto notingLonger(const EncodeInputs& inputs) {
-  return [&inputs](const CodedHeights& lost) { note(inputs, lost, Verdict::kLonger); };
-}
+/// Notes heights that were coded. need: bytes of its tracks that the target needs, at most.
+void note(const EncodeInputs& inputs, const CodedHeights& coded, Verdict verdict,
+          uint64_t need = UINT64_MAX);
 
 /// Notes a plan that is not tried, because it is expected to take so many bytes.
 void noteExpected(const EncodeInputs& inputs, Plan plan, double bytes);

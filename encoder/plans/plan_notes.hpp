@@ -27,6 +27,7 @@ enum class Verdict : uint8_t {
 /// What a coded plan came to.
 struct CodedOutcome {
   uint64_t bytes = 0;      ///< of all tracks, whether or not the target needs all of them
+  uint64_t needed = 0;     ///< of these, what the target needs; of a taken plan, what is sent
   uint64_t in_header = 0;  ///< bytes of the header that only some plans need
   double rmse = 0;         ///< that all bytes leave, by the encoder's account, in samples
 
@@ -57,5 +58,11 @@ class ComponentNotes {
 struct PlanNotes {
   ComponentNotes heights, texture;
 };
+
+/// What fewestBytes() is to do with the candidates that lose. inputs: outlive the result.
+template <class Inputs>
+auto notingLonger(const Inputs& inputs) {
+  return [&inputs](const auto& lost) { note(inputs, *lost.coded, Verdict::kLonger, lost.need); };
+}
 
 }  // namespace tetrakis::inline plans

@@ -6,9 +6,23 @@
 
 namespace tetrakis::inline selection {
 
+namespace {
+
+/// Bytes of the packets that belong to the component.
+uint64_t sentOf(const Selection& selection, Component component) {
+  uint64_t bytes = 0;
+  for (const Packet& packet : selection.packets)
+    if (packet.component == component) bytes += packet.length();
+  return bytes;
+}
+
+}  // namespace
+
 void noteTaken(const EncodeInputs& inputs, const Selection& taken) {
-  if (taken.heights) note(inputs, *taken.heights, Verdict::kTaken);
-  if (taken.texture) note(inputs, *taken.texture, Verdict::kTaken);
+  if (taken.heights)
+    note(inputs, *taken.heights, Verdict::kTaken, sentOf(taken, Component::kGeometry));
+  if (taken.texture)
+    note(inputs, *taken.texture, Verdict::kTaken, sentOf(taken, Component::kTexture));
 }
 
 void noteOthers(const EncodeInputs& inputs, const Selection& better, const Selection& lost) {

@@ -97,7 +97,7 @@ HeightsCandidate storedIfShorter(const EncodeInputs& inputs, HeightsCandidate he
     noteExpected(inputs, planOf(*coded.quantised, Coding::kStored), static_cast<double>(stored));
     return heights;
   }
-  note(inputs, coded, Verdict::kLonger);
+  note(inputs, coded, Verdict::kLonger, heights.need);
   return candidateOf(storeHeights(coded.quantised, inputs.options.threads));
 }
 
@@ -108,7 +108,7 @@ TextureCandidate storedIfShorter(const EncodeInputs& inputs, TextureCandidate te
     if (!coded.header.stored) noteStoredExpected(inputs, stored);
     return texture;
   }
-  note(inputs, coded, Verdict::kLonger);
+  note(inputs, coded, Verdict::kLonger, texture.need);
   return candidateOf(storeTexture(coded.source));
 }
 

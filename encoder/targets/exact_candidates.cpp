@@ -108,7 +108,7 @@ std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
                                              const HeightsCandidate& lossy,
                                              const ByNeighbours& neighbours, uint64_t room) {
   std::vector<HeightsCandidate> ways = restoredWithin(inputs, *lossy.coded, neighbours, room);
-  if (!ways.empty()) return fewestBytes(std::move(ways), heights::notingLonger(inputs));
+  if (!ways.empty()) return fewestBytes(std::move(ways), notingLonger(inputs));
   if (!hasLosslessWay(*lossy.coded)) return {};
   if (canBeCorrected(*lossy.coded)) {
     if (auto corrected = correctedHeights(inputs, *lossy.coded, room)) return corrected;

@@ -89,7 +89,7 @@ HeightsCandidate preferExact(const EncodeInputs& inputs, HeightsCandidate lossy)
   const auto exact =
       exactHeightsFor(inputs, steps * lossy.coded->quantised->steps.step, lossy.bytes());
   if (!exact) return lossy;
-  return fewestBytes<CodedHeights>({std::move(lossy), {exact}}, heights::notingLonger(inputs));
+  return fewestBytes<CodedHeights>({std::move(lossy), {exact}}, notingLonger(inputs));
 }
 
 /// Heights of the PSNR. They are coded to the last bit where no lossy heights reach it, as with
@@ -115,8 +115,7 @@ TextureCandidate preferExact(const EncodeInputs& inputs, TextureCandidate lossy)
   const double rmse = rmseOf(qualityAfter(inputs, lossy, lossy.bytes()));
   if (rmse > kNearlyExact * gapOfValues(*lossy.coded)) return lossy;
   TextureCandidate lossless = codeLossless(inputs, *lossy.coded);
-  return fewestBytes<CodedTexture>({std::move(lossy), std::move(lossless)},
-                                   textures::notingLonger(inputs));
+  return fewestBytes<CodedTexture>({std::move(lossy), std::move(lossless)}, notingLonger(inputs));
 }
 
 /// Each component reaches the PSNR by itself.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/textures/texture_notes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -11,7 +12,7 @@ namespace {
 
 CodedOutcome outcomeOf(uint64_t bytes, const TextureHeader& header, double squares,
                        double counted) {
-  return {bytes, header.tables.code.size(), std::sqrt(squares / counted)};
+  return {bytes, bytes, header.tables.code.size(), std::sqrt(squares / counted)};
 }
 
 Verdict verdictOf(PassedFor reason) {
@@ -50,15 +51,13 @@ Plan planOf(const TextureHeader& header) {
   return plan;
 }
 
-void note(const EncodeInputs& inputs, const CodedTexture& coded, Verdict verdict) {
+void note(const EncodeInputs& inputs, const CodedTexture& coded, Verdict verdict, uint64_t need) {
   if (inputs.notes == nullptr) return;
   double squares = 0;
   for (const EncodedTrack& track : coded.tracks) squares += track.points.back().distortion;
-  inputs.notes->texture.add(
-      {planOf(coded.header),
-       verdict,
-       {},
-       outcomeOf(bytesOf(coded.tracks), coded.header, squares, coded.counted())});
+  CodedOutcome outcome = outcomeOf(bytesOf(coded.tracks), coded.header, squares, coded.counted());
+  outcome.needed = std::min(need, outcome.bytes);
+  inputs.notes->texture.add({planOf(coded.header), verdict, {}, outcome});
 }
 
 void notePassed(const EncodeInputs& inputs, const TextureSource& source,

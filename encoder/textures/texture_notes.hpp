@@ -12,13 +12,9 @@ namespace tetrakis::inline textures {
 /// header: with filters, if it is that of coded coefficients.
 Plan planOf(const TextureHeader& header);
 
-/// Notes a texture that was coded.
-void note(const EncodeInputs& inputs, const CodedTexture& coded, Verdict verdict);
-
-/// What fewestBytes() is to do with the textures that lose. inputs: outlive the result.
-inline auto notingLonger(const EncodeInputs& inputs) {
-  return [&inputs](const CodedTexture& lost) { note(inputs, lost, Verdict::kLonger); };
-}
+/// Notes a texture that was coded. need: bytes of its tracks that the target needs, at most.
+void note(const EncodeInputs& inputs, const CodedTexture& coded, Verdict verdict,
+          uint64_t need = UINT64_MAX);
 
 /// Notes what encodeTexture() has passed over.
 void notePassed(const EncodeInputs& inputs, const TextureSource& source,

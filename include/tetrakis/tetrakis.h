@@ -262,7 +262,9 @@ typedef struct tks_weighed_plan {
   double within;         /* of TKS_RESIDUAL_WITHIN; else 0 */
   double expected_bytes; /* by an estimate of its tracks; < 0: none was made */
   int coded;             /* 0: it was not coded, and what follows is 0 */
-  uint64_t coded_bytes;  /* of its tracks, also of those that the stream does not need */
+  uint64_t coded_bytes;  /* of its tracks */
+  uint64_t needed_bytes; /* of these, what the target needs; of a plan that was taken, what the
+                            stream holds */
   uint64_t header_bytes; /* of the header, which other plans do without */
   double rmse;           /* that all coded bytes leave, as the encoder's account has it: within some
                             per cent, but for the verdict TKS_VERDICT_MISSES_TARGET */
@@ -305,9 +307,9 @@ typedef struct tks_encode_options {
   tks_explain explain; /* is told each plan that was weighed, once: those of the heights in the
                           order in which they were first thought of, then those of the texture. One
                           of each component has TKS_VERDICT_TAKEN. It is called on the thread that
-                          called tks_encode, when the stream is made and proved, and on no error
-                          but that memory then ends; the stream does not depend on it. NULL: nobody
-                          is told */
+                          called tks_encode, when the stream is made and proved, after which only
+                          TKS_NO_MEMORY is left. The stream does not depend on it. NULL: nobody is
+                          told */
   void* explain_user;
 } tks_encode_options;
 

@@ -34,7 +34,7 @@ Candidate<Coded> candidateOf(Coded coded) {
 }
 
 /// The candidate of the fewest bytes; of equal ones the first. There is at least one. lost: called
-/// with what each of the others has coded.
+/// with each of the others.
 template <class Coded, class Lost>
 Candidate<Coded> fewestBytes(std::vector<Candidate<Coded>> candidates, const Lost& lost) {
   assert(!candidates.empty());
@@ -42,7 +42,7 @@ Candidate<Coded> fewestBytes(std::vector<Candidate<Coded>> candidates, const Los
       candidates.begin(), candidates.end(),
       [](const Candidate<Coded>& a, const Candidate<Coded>& b) { return a.bytes() < b.bytes(); });
   for (auto one = candidates.begin(); one != candidates.end(); ++one)
-    if (one != best) lost(*one->coded);
+    if (one != best) lost(*one);
   return std::move(*best);
 }
 

@@ -38,7 +38,10 @@ Json ifPositive(double value) {
 
 Json codedJson(const tks_weighed_plan& plan) {
   if (plan.coded == 0) return {};
-  return {{"bytes", plan.coded_bytes}, {"header_bytes", plan.header_bytes}, {"rmse", plan.rmse}};
+  return {{"bytes", plan.coded_bytes},
+          {"needed_bytes", plan.needed_bytes},
+          {"header_bytes", plan.header_bytes},
+          {"rmse", plan.rmse}};
 }
 
 Json planJson(const tks_weighed_plan& plan) {
@@ -86,25 +89,32 @@ std::string sentence(const Json& plan) {
   return text;
 }
 
-using Row = std::array<std::string, 5>;
+constexpr size_t kNumbers = 4;
+using Row = std::array<std::string, kNumbers + 2>;
 
 Row rowOf(const Json& plan) {
-  const Json& coded = plan["coded"];
-  return {shown(coded.is_null() ? coded : coded["bytes"]), shown(plan["expected_bytes"]),
-          shown(coded.is_null() ? coded : coded["rmse"]), plan["verdict"].get<std::string>(),
+  const auto outcome = [&](const char* key) {
+    const Json& coded = plan["coded"];
+    return shown(coded.is_null() ? coded : coded[key]);
+  };
+  return {shown(plan["expected_bytes"]),
+          outcome("bytes"),
+          outcome("needed_bytes"),
+          outcome("rmse"),
+          plan["verdict"].get<std::string>(),
           sentence(plan)};
 }
 
 /// Lines of which numbers end below each other, and words begin so.
 std::string aligned(const std::vector<Row>& rows) {
-  std::array<size_t, 5> widths{};
+  std::array<size_t, kNumbers + 2> widths{};
   for (const Row& row : rows)
     for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
   std::string text;
   for (const Row& row : rows) {
     for (size_t i = 0; i + 1 < row.size(); ++i) {
       const std::string space(widths[i] - row[i].size(), ' ');
-      text += i < 3 ? "  " + space + row[i] : "  " + row[i] + space;
+      text += i < kNumbers ? "  " + space + row[i] : "  " + row[i] + space;
     }
     text += "  " + row.back() + "\n";
   }
@@ -128,7 +138,7 @@ std::string ExplainedPlans::table() const {
   std::string text;
   for (const auto& component : json_.items()) {
     if (component.value().is_null()) continue;
-    std::vector<Row> rows = {{"bytes", "expected", "rmse", "verdict", "plan"}};
+    std::vector<Row> rows = {{"expected", "coded", "needed", "rmse", "verdict", "plan"}};
     for (const Json& plan : component.value()) rows.push_back(rowOf(plan));
     text += component.key() + "\n" + aligned(rows);
   }

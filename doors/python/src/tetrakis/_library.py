@@ -126,6 +126,7 @@ class WeighedPlan(ctypes.Structure):
         ("expected_bytes", c_double),
         ("coded", c_int),
         ("coded_bytes", c_uint64),
+        ("needed_bytes", c_uint64),
         ("header_bytes", c_uint64),
         ("rmse", c_double),
     ]
