@@ -118,7 +118,6 @@ Result<std::vector<uint8_t>> encodeStream(const EncodeInputs& given) {
       given.ofLines(height_lines, coded_heights).ofLines(texel_lines, coded_image);
   const Result<Selection> selection = codeWithPriorities(inputs);
   if (!selection.ok()) return selection.status();
-  noteTaken(inputs, *selection);
   beginStage(kWritten);
   return writeStream(inputs, *selection);
 }

@@ -3,26 +3,14 @@
 
 #include "encoder/heights/heights_notes.hpp"
 #include "encoder/textures/texture_notes.hpp"
+#include "ratecontrol/needs/packet_budget.hpp"
 
 namespace tetrakis::inline selection {
 
-namespace {
-
-/// Bytes of the packets that belong to the component.
-uint64_t sentOf(const Selection& selection, Component component) {
-  uint64_t bytes = 0;
-  for (const Packet& packet : selection.packets)
-    if (packet.component == component) bytes += packet.length();
-  return bytes;
-}
-
-}  // namespace
-
-void noteTaken(const EncodeInputs& inputs, const Selection& taken) {
-  if (taken.heights)
-    note(inputs, *taken.heights, Verdict::kTaken, sentOf(taken, Component::kGeometry));
-  if (taken.texture)
-    note(inputs, *taken.texture, Verdict::kTaken, sentOf(taken, Component::kTexture));
+void noteTaken(const EncodeInputs& inputs, const Selection& taken, uint64_t payload_bytes) {
+  const auto sent = payloadWithin(taken.packets, payload_bytes);
+  if (taken.heights) note(inputs, *taken.heights, Verdict::kTaken, sent[0]);
+  if (taken.texture) note(inputs, *taken.texture, Verdict::kTaken, sent[1]);
 }
 
 void noteOthers(const EncodeInputs& inputs, const Selection& better, const Selection& lost) {

@@ -25,7 +25,7 @@ bool isGenerous(const EncodeInputs& inputs, const CodedHeights& heights) {
 bool mayBeShort(const EncodeInputs& inputs, const HeightsCandidate& lossy, uint64_t room) {
   const HeightSteps& steps = lossy.coded->quantised->steps;
   if (!steps.exact) return isGenerous(inputs, *lossy.coded) || lossy.bytes() < room;
-  return mayTakeNoMore(steps, extentOf(*inputs.heights), room);
+  return mayTakeNoMore(inputs, *lossy.coded->quantised, room);
 }
 
 /// Whether there are such heights, in at most so many bytes. They are noted: what has room may yet
