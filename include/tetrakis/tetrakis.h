@@ -262,7 +262,7 @@ typedef struct tks_weighed_plan {
   double within;         /* of TKS_RESIDUAL_WITHIN; else 0 */
   double expected_bytes; /* by an estimate of its tracks; < 0: none was made */
   int coded;             /* 0: it was not coded, and what follows is 0 */
-  uint64_t coded_bytes;  /* of its tracks */
+  uint64_t coded_bytes;  /* of its tracks; where it had lost, coding may have ended early */
   uint64_t needed_bytes; /* of these, what the target needs; of a plan that was taken, what the
                             stream holds */
   uint64_t header_bytes; /* of the header, which other plans do without */
