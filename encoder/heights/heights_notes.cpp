@@ -67,6 +67,24 @@ std::optional<double> cutOf(const CodedHeights& coded) {
   return std::sqrt(std::max(squares - coded.left, 0.) / coded.counted());
 }
 
+/// Notes the same plan with flat areas if the heights have none, or without them, where the estimate
+/// of both has decided.
+void noteFlatChoice(const EncodeInputs& inputs, const CodedHeights& coded) {
+  if (!coded.flat.ratio || coded.hasCorrections()) return;
+  Plan other = planOf(coded);
+  other.filters.reset();
+  const auto bytes = static_cast<double>(bytesOf(coded.tracks));
+  const auto at = std::lower_bound(other.layers.begin(), other.layers.end(), Layer::kFlatAreas);
+  const bool is_flat = at != other.layers.end() && *at == Layer::kFlatAreas;
+  if (is_flat) {
+    other.layers.erase(at);
+  } else {
+    other.layers.insert(at, Layer::kFlatAreas);
+  }
+  noteExpected(inputs, std::move(other),
+               is_flat ? bytes / *coded.flat.ratio : bytes * *coded.flat.ratio);
+}
+
 }  // namespace
 
 Plan planOf(const QuantisedHeights& quantised, Coding base) {
@@ -99,10 +117,11 @@ void note(const EncodeInputs& inputs, const CodedHeights& coded, Verdict verdict
   const uint64_t bytes = bytesOf(coded.tracks);
   const CodedOutcome outcome{bytes, std::min(need, bytes), coded.inHeader(), rmse};
   inputs.notes->heights.add({planOf(coded), verdict, coded.expected, outcome});
+  noteFlatChoice(inputs, coded);
 }
 
 void noteExpected(const EncodeInputs& inputs, Plan plan, double bytes) {
-  if (inputs.notes == nullptr) return;
+  if (inputs.notes == nullptr || !std::isfinite(bytes)) return;
   inputs.notes->heights.add({std::move(plan), Verdict::kExpectedLonger, bytes});
 }
 

@@ -16,7 +16,7 @@ namespace tetrakis::inline plans {
 /// Whether a plan was taken, or else why not.
 enum class Verdict : uint8_t {
   kTaken,
-  kExpectedLonger,  ///< an estimate says that it takes more bytes: it was not coded
+  kExpectedLonger,  ///< an estimate says that it takes more bytes, or hardly fewer: not coded
   kLonger,          ///< it takes more bytes than another one, or as many
   kMissesTarget,    ///< all of its bytes do not reach the error that is asked for
   kNoRoom,          ///< the budget does not hold it

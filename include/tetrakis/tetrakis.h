@@ -230,7 +230,8 @@ typedef enum tks_residual TKS_INT {
 /* Whether the encoder took a plan, or else why not. */
 typedef enum tks_verdict TKS_INT {
   TKS_VERDICT_TAKEN = 0,
-  TKS_VERDICT_EXPECTED_LONGER = 1, /* an estimate says that it takes more bytes: not coded */
+  TKS_VERDICT_EXPECTED_LONGER = 1, /* an estimate says that it takes more bytes, or hardly fewer:
+                                      it was not coded */
   TKS_VERDICT_LONGER = 2,          /* it takes more bytes than another plan, or as many */
   TKS_VERDICT_MISSES_TARGET = 3,   /* all of its bytes do not reach the error asked for */
   TKS_VERDICT_NO_ROOM = 4,         /* tks_encode_options.bytes does not hold it */
