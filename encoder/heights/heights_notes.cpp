@@ -67,8 +67,8 @@ std::optional<double> cutOf(const CodedHeights& coded) {
   return std::sqrt(std::max(squares - coded.left, 0.) / coded.counted());
 }
 
-/// Notes the same plan with flat areas if the heights have none, or without them, where the
-/// estimate of both has decided.
+/// Notes the same plan with flat areas if the heights have none, or without them, where an estimate
+/// of both has decided.
 void noteFlatChoice(const EncodeInputs& inputs, const CodedHeights& coded) {
   if (!coded.flat.ratio || coded.hasCorrections()) return;
   Plan other = planOf(coded);
