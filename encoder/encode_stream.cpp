@@ -11,6 +11,7 @@
 #include "encoder/heights/quantised_heights.hpp"
 #include "encoder/heights/ways/heights_for_target.hpp"
 #include "encoder/selection/selection.hpp"
+#include "encoder/selection/selection_notes.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/meet_target.hpp"
 #include "encoder/textures/coded_texture.hpp"
@@ -102,8 +103,10 @@ Result<Selection> codeWithPriorities(const EncodeInputs& inputs) {
   Result<Selection> with = codeForTarget(inputs.with(inputs.options, &priorities));
   if (!with.ok() || !mapsAreInDoubt(inputs, *with)) return with;
   Result<Selection> without = codeForTarget(inputs.with(inputs.options, nullptr));
-  if (without.ok() && !mapsPay(inputs, *with, *without)) return without;
-  return with;
+  if (!without.ok()) return with;
+  const bool pay = mapsPay(inputs, *with, *without);
+  noteOthers(inputs, pay ? *with : *without, pay ? *without : *with);
+  return pay ? with : without;
 }
 
 }  // namespace

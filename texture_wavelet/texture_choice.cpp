@@ -61,12 +61,13 @@ EncodedTexture encodeOnce(const TextureSource& source, Purpose purpose,
   const bool may_pay = purpose == Purpose::kLossless && options.tables;
   const FewValues few = may_pay ? fewValuesOf(source, photograph) : FewValues();
   if (few.none()) return encodeByWavelet(source, purpose, options, photograph);
-  EncodedTexture in_tables = encodeInTables(source, few, options, photograph);
+  EncodedTexture better = encodeInTables(source, few, options, photograph);
   TextureOptions until = options;
-  until.limit = std::min(options.limit, withinReach(bytesOf(in_tables)));
-  EncodedTexture plain = encodeByWavelet(source, purpose, until, photograph);
-  const bool pays = showsBetter(in_tables, plain, until, source.texels.samples.size());
-  return pays ? std::move(in_tables) : std::move(plain);
+  until.limit = std::min(options.limit, withinReach(bytesOf(better)));
+  EncodedTexture other = encodeByWavelet(source, purpose, until, photograph);
+  if (!showsBetter(better, other, until, source.texels.samples.size())) std::swap(better, other);
+  passOver(options.passed, passedOf(other), better);
+  return better;
 }
 
 /// What is made of a photograph in one track: as it is, and with an overlay.
@@ -122,6 +123,12 @@ Attempts attemptsBesideDrawn(const TextureSource& source, Purpose purpose,
   return attempt(source, purpose, options, photograph, {});
 }
 
+/// Lists all attempts, over which a drawing has won.
+void passOverAll(PassedTextures* list, const Attempts& attempts, const EncodedTexture& drawn) {
+  for (const std::optional<EncodedTexture>* encoded : {&attempts.plain, &attempts.overlaid})
+    if (*encoded) passOver(list, passedOf(**encoded), drawn);
+}
+
 /// Attempts that the limit of a comparison ended early are no use.
 Attempts completeOnes(Attempts attempts) {
   for (std::optional<EncodedTexture>* encoded : {&attempts.plain, &attempts.overlaid})
@@ -155,14 +162,20 @@ Comparison compareWhole(const EncodedTexture& drawn, const TextureSource& source
   const uint64_t bytes = bytesOf(drawn);
   const bool lossless = purpose == Purpose::kLossless;
   const uint64_t limit = lossless ? withinReach(bytes) : kLossyReach * bytes;
-  if (bytes <= kFewBytes || leastBytes(source.texels) > limit) return {true, {}};
-  const TextureOptions until = {.limit = limit, .threads = options.threads, .tables = lossless};
+  if (bytes <= kFewBytes) return {true, {}};
+  if (const uint64_t least = leastBytes(source.texels); least > limit) {
+    passOverExpected(options.passed, false, least);
+    return {true, {}};
+  }
+  const TextureOptions until = {
+      .limit = limit, .threads = options.threads, .tables = lossless, .passed = options.passed};
   Attempts attempts = attemptsBesideDrawn(source, Purpose::kLossless, until);
   const EncodedTexture& wavelet = betterOf(source, Purpose::kLossless, until, attempts);
-  if (!wavelet.tracks.front().complete) return {true, {}};
   const bool drawn_wins =
-      lossless && showsBetter(drawn, wavelet, until, source.texels.samples.size());
-  if (!lossless || options.visual) return {drawn_wins, {}};
+      !wavelet.tracks.front().complete ||
+      (lossless && showsBetter(drawn, wavelet, until, source.texels.samples.size()));
+  if (drawn_wins) passOverAll(options.passed, attempts, drawn);
+  if (drawn_wins || !lossless || options.visual) return {drawn_wins, {}};
   return {drawn_wins, completeOnes(std::move(attempts))};
 }
 
@@ -176,6 +189,7 @@ Comparison compareCut(const EncodedTexture& drawn, const TextureSource& source, 
   Attempts attempts = attemptsBesideDrawn(source, purpose, one_track);
   const EncodedTexture& wavelet = betterOf(source, purpose, one_track, attempts);
   const bool drawn_wins = showsBetter(drawn, wavelet, options, source.texels.samples.size());
+  if (drawn_wins) passOverAll(options.passed, attempts, drawn);
   const bool may_end_early = one_track.limit < options.limit;
   return {drawn_wins, may_end_early ? completeOnes(std::move(attempts)) : std::move(attempts)};
 }
@@ -206,6 +220,8 @@ EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
   attempts = attempt(source, purpose, options, photograph, std::move(attempts));
   const bool pays = overlayPays(source, purpose, options, attempts);
   EncodedTexture& better = pays ? *attempts.overlaid : *attempts.plain;
+  if (attempts.overlaid)
+    passOver(options.passed, passedOf(pays ? *attempts.plain : *attempts.overlaid), better);
   if (one_track && (pays || !ends_early)) return std::move(better);
   const TextureHeader like = std::move(better.header);
   return encodeByWavelet(source, purpose, options, pays ? Mask(photograph) : Mask(), &like);
@@ -237,15 +253,22 @@ EncodedTexture encodeModelled(const TextureSource& source, Purpose purpose,
   if (std::optional<EncodedTexture> drawn = encodeDrawn(source.texels)) {
     Comparison compared = compare(*drawn, source, purpose, options);
     if (compared.drawn_wins) return std::move(*drawn);
+    PassedTexture lost = passedOf(*drawn);
     drawn.reset();
     options.priorities = nullptr;
-    return encodePhotograph(source, purpose, options, std::move(compared.attempts));
+    EncodedTexture photograph =
+        encodePhotograph(source, purpose, options, std::move(compared.attempts));
+    passOver(options.passed, std::move(lost), photograph);
+    return photograph;
   }
   EncodedTexture photograph = encodePhotograph(source, purpose, options, {});
   const uint64_t most = mostToTry(photograph, purpose, options);
   std::optional<EncodedTexture> drawn = encodeDrawn(source.texels, most);
-  const bool drawn_wins = drawn && compare(*drawn, source, purpose, options).drawn_wins;
-  return drawn_wins ? std::move(*drawn) : std::move(photograph);
+  if (!drawn) return photograph;
+  const bool drawn_wins = compare(*drawn, source, purpose, options).drawn_wins;
+  if (drawn_wins) std::swap(*drawn, photograph);
+  passOver(options.passed, passedOf(*drawn), photograph);
+  return photograph;
 }
 
 }  // namespace
@@ -255,8 +278,14 @@ EncodedTexture encodeTexture(const TextureSource& source, Purpose purpose, Textu
   EncodedTexture encoded = encodeModelled(source, purpose, options);
   const uint64_t stored = storedBytes(source.texels);
   const bool shorter = stored < bytesOf(encoded) && stored <= options.room;
-  return purpose == Purpose::kLossless && shorter ? encodeStoredTexture(source.texels)
-                                                  : std::move(encoded);
+  if (purpose != Purpose::kLossless) return encoded;
+  if (!shorter) {
+    passOverExpected(options.passed, true, stored);
+    return encoded;
+  }
+  EncodedTexture samples = encodeStoredTexture(source.texels);
+  passOver(options.passed, passedOf(encoded), samples);
+  return samples;
 }
 
 EncodedTexture encodeReversibly(const TextureSource& source, TextureHeader lossy,

@@ -54,8 +54,9 @@ uint64_t textureBesideBound(const EncodeInputs& inputs, const Candidates& candid
   tks_encode_options options = inputs.options;
   options.max_error = 0;
   options.psnr = psnrOf(inputs, *candidates.heights.coded);
-  const EncodeInputs to_psnr = inputs.with(options, inputs.priorities);
-  const std::shared_ptr<const CodedHeights> heights = codeForPsnr(inputs, options);
+  EncodeInputs to_psnr = inputs.with(options, inputs.priorities);
+  to_psnr.notes = nullptr;  // these heights are no candidates
+  const std::shared_ptr<const CodedHeights> heights = codeForPsnr(to_psnr, options);
   if (!heights) return kAllBytes;
   const Candidates both = withCurves(to_psnr, {{heights}, candidates.texture});
   const uint64_t need = heightsNeed(to_psnr, both.heights).value_or(kAllBytes);

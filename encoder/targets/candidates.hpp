@@ -54,6 +54,6 @@ TextureCandidate codeLossless(const EncodeInputs& inputs, const CodedTexture& te
 /// The candidate itself, or the samples stored without coding where these take fewer bytes, as
 /// noise does.
 HeightsCandidate storedIfShorter(const EncodeInputs& inputs, HeightsCandidate heights);
-TextureCandidate storedIfShorter(TextureCandidate texture);
+TextureCandidate storedIfShorter(const EncodeInputs& inputs, TextureCandidate texture);
 
 }  // namespace tetrakis::inline targets

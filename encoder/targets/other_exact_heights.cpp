@@ -6,6 +6,7 @@
 
 #include "codec/geometry/drawn_heights/drawn_heights_estimate.hpp"
 #include "encoder/heights/height_errors.hpp"
+#include "encoder/heights/heights_notes.hpp"
 #include "encoder/heights/ways/exact_heights.hpp"
 #include "encoder/targets/component_curves.hpp"
 
@@ -35,7 +36,16 @@ bool isGenerous(const EncodeInputs& inputs, const CodedHeights& heights) {
 bool mayBeShort(const EncodeInputs& inputs, const HeightsCandidate& lossy, uint64_t room) {
   const HeightSteps& steps = lossy.coded->quantised->steps;
   if (!steps.exact) return isGenerous(inputs, *lossy.coded) || lossy.bytes() < room;
-  return mayTakeNoMore(steps, extentOf(*inputs.heights), room);
+  return mayTakeNoMore(inputs, *lossy.coded->quantised, room);
+}
+
+/// Whether there are such heights, in at most so many bytes. They are noted: what has room may yet
+/// turn out worse than the lossy heights.
+bool areWithin(const EncodeInputs& inputs, const HeightsCandidate& exact, uint64_t most) {
+  if (!exact.coded) return false;
+  const bool within = exact.bytes() <= most;
+  note(inputs, *exact.coded, within ? Verdict::kWorseInBudget : Verdict::kNoRoom);
+  return within;
 }
 
 }  // namespace
@@ -51,7 +61,7 @@ FewValues fewValues(const EncodeInputs& inputs, const HeightsCandidate& lossy) {
       {quantised.steps.steps, extentOf(*quantised.samples), quantised.steps.valid}, most);
   if (!few && !isGenerous(inputs, *lossy.coded)) return {};
   FewValues exact{{exactHeightsFor(inputs, kAnyError, most)}};
-  if (!exact.heights.coded || exact.heights.bytes() > most) return {};
+  if (!areWithin(inputs, exact.heights, most)) return {};
   const CodedHeights& coded = *exact.heights.coded;
   const bool shapes = coded.header.drawn || (few && coded.hasCorrections());
   if (!shapes && coded.layers.table_bytes == 0) return {};
@@ -78,7 +88,7 @@ HeightsCandidate shortExactHeights(const EncodeInputs& inputs, const HeightsCand
       static_cast<uint64_t>(kClearlyShort * static_cast<double>(inputs.options.bytes));
   HeightsCandidate exact = few;
   if (!few.coded && mayBeShort(inputs, lossy, room)) exact = {exactHeightsFor(inputs, 0, room)};
-  if (!exact.coded || exact.bytes() > room) return {};
+  if (!areWithin(inputs, exact, room)) return {};
   return exact;
 }
 

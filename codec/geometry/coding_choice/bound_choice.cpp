@@ -113,16 +113,19 @@ BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader&
   if (largest == 0) return {.correct = false};
   if (plane.samples() <= kSearchedSamples) return {};
   std::deque<PartTrial> trials;
-  uint64_t rounded = 0;
+  uint64_t rounded = 0, samples = 0;
   const Mask valid = steps.lifting(plane).valid;
   const IsCoded is_coded = valid.all() ? IsCoded() : [&](size_t i) { return valid[i]; };
   for (const Window& part : typicalParts(plane, kPartSide, is_coded)) {
     trials.emplace_back(cropped(steps, plane, part), part, wavelet, largest);
     rounded += trials.back().rounded();
+    samples += part.extent().samples();
   }
   const BestCut cut = bestCut(trials, largest);
   const bool correct = cut.bytes < rounded;
-  return {!correct, correct, cut.mean_square};
+  const double parts = static_cast<double>(plane.samples()) / static_cast<double>(samples);
+  return {!correct, correct, cut.mean_square, parts * static_cast<double>(rounded),
+          parts * static_cast<double>(cut.bytes)};
 }
 
 }  // namespace tetrakis::inline coding_choice

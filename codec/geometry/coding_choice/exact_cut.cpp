@@ -110,22 +110,28 @@ bool isWorth(double worth, double whole_bytes) {
   return worth < (1 + kHalving) * whole_bytes;
 }
 
-std::optional<ExactCut> chooseExactCut(const PlaneView<const int32_t>& heights, int range_bits,
-                                       uint64_t whole_bytes) {
+std::optional<ExactCut> estimateExactCut(const PlaneView<const int32_t>& heights, int range_bits,
+                                         uint64_t whole_bytes) {
   const auto bytes = static_cast<double>(whole_bytes);
   const auto samples = static_cast<double>(markedIn(heights.extent(), heights.valid));
   if (8 * bytes <= kLeastBits * samples) return {};
   TriedCuts cuts(heights, range_bits, whole_bytes);
-  if (!isWorth(cuts.at(kUsualLog2).worth, kHopeless * bytes)) return {};
+  if (!isWorth(cuts.at(kUsualLog2).worth, kHopeless * bytes)) return cuts.at(kUsualLog2);
   int best = kUsualLog2;
   for (const int stride : {-1, 1}) {
     while (best + stride >= 0 && best + stride <= kLastLog2 &&
            cuts.at(best + stride).worth < cuts.at(best).worth)
       best += stride;
   }
-  const ExactCut& cut = cuts.at(best);
-  if (cut.bytes > bytes || !isWorth(cut.worth, bytes)) return {};
+  ExactCut cut = cuts.at(best);
+  cut.pays = cut.bytes <= bytes && isWorth(cut.worth, bytes);
   return cut;
+}
+
+std::optional<ExactCut> chooseExactCut(const PlaneView<const int32_t>& heights, int range_bits,
+                                       uint64_t whole_bytes) {
+  const std::optional<ExactCut> cut = estimateExactCut(heights, range_bits, whole_bytes);
+  return cut && cut->pays ? cut : std::nullopt;
 }
 
 }  // namespace tetrakis::inline coding_choice

@@ -6,6 +6,7 @@
 #include "codec/geometry/coding_choice/exact_cut.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_estimate.hpp"
 #include "codec/wavelet/choice/typical_plane.hpp"
+#include "encoder/heights/heights_notes.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "encoder/heights/ways/facet_heights.hpp"
 #include "encoder/heights/ways/lossless_heights.hpp"
@@ -26,14 +27,18 @@ constexpr double kMostSteps = 2;
 
 }  // namespace
 
-bool mayTakeNoMore(const HeightSteps& steps, Extent extent, uint64_t bytes) {
-  const PlaneView<const int32_t> plane = steps.lifting(extent);
+bool mayTakeNoMore(const EncodeInputs& inputs, const QuantisedHeights& heights, uint64_t bytes) {
+  const HeightSteps& steps = heights.steps;
+  const PlaneView<const int32_t> plane = steps.lifting(extentOf(*heights.samples));
   const double whole = typicalCost(plane, steps.range_bits, 0).bits / 8;
   const double most = kClearlyMore * static_cast<double>(bytes);
   if (whole <= most) return true;
-  if (whole > kMostByCut * most || !steps.table.empty()) return false;
-  const auto cut = chooseExactCut(plane, steps.range_bits, static_cast<uint64_t>(whole));
-  return cut && cut->bytes <= most;
+  if (whole <= kMostByCut * most && steps.table.empty()) {
+    const auto cut = chooseExactCut(plane, steps.range_bits, static_cast<uint64_t>(whole));
+    if (cut && cut->bytes <= most) return true;
+  }
+  noteExpected(inputs, planOf(heights, Coding::kWavelet), whole);
+  return false;
 }
 
 std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, double error,
@@ -54,7 +59,7 @@ std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, 
   if (const auto facets = facetsOf(**heights); facets && mayFit(*facets, **heights, lossy_bytes))
     return codeLosslessHeights(lossless, *heights);
   if (error > kMostSteps * steps.step) return nullptr;
-  if (!mayTakeNoMore(steps, plane.extent(), lossy_bytes)) return nullptr;
+  if (!mayTakeNoMore(inputs, **heights, lossy_bytes)) return nullptr;
   return codeLosslessHeights(lossless, *heights);
 }
 

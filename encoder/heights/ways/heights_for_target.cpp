@@ -8,6 +8,7 @@
 #include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/height_options.hpp"
+#include "encoder/heights/heights_notes.hpp"
 #include "encoder/heights/ways/bounded_heights.hpp"
 #include "encoder/heights/ways/exact_heights.hpp"
 #include "encoder/heights/ways/lossless_heights.hpp"
@@ -58,7 +59,10 @@ Heights codeWithinBound(const EncodeInputs& inputs, Quantised quantised) {
   Heights bounded = codeBoundedHeights(inputs, std::move(quantised));
   const uint64_t bytes = bytesOf(bounded->tracks);
   Heights exact = exactHeightsFor(inputs, error, bytes);
-  return exact && bytesOf(exact->tracks) < bytes ? exact : bounded;
+  if (!exact) return bounded;
+  const bool shorter = bytesOf(exact->tracks) < bytes;
+  note(inputs, shorter ? *bounded : *exact, Verdict::kLonger);
+  return shorter ? exact : bounded;
 }
 
 /// Coding ends at a part of the target error: the account is not precise enough to end at the
