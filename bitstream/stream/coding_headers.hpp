@@ -21,11 +21,11 @@ enum class Coding : uint8_t { kStored = 0, kDrawn = 1, kWavelet = 2 };
 /// Kinds of the parts of a component. Those of heights and of textures have numbers of their own
 /// where they are not the same.
 struct PartKind {
-  static constexpr uint64_t kRepeatedLines = 1, kPriorities = 2, kValidity = 3,
-                            kBridges = 4, kLateMask = 5, kNodata = 6, kValueTable = 7,
-                            kFlatAreas = 8, kCorrections = 9, kCutOut = 16, kOverlay = 17,
-                            kColours = 18, kFurtherColour = 19, kChannelTables = 20,
-                            kWhiteLevel = 21, kBandWeights = 22, kBound = 64;
+  static constexpr uint64_t kRepeatedLines = 1, kPriorities = 2, kValidity = 3, kBridges = 4,
+                            kLateMask = 5, kNodata = 6, kValueTable = 7, kFlatAreas = 8,
+                            kCorrections = 9, kCutOut = 16, kOverlay = 17, kColours = 18,
+                            kFurtherColour = 19, kChannelTables = 20, kWhiteLevel = 21,
+                            kBandWeights = 22, kBound = 64;
 };
 
 /// Which wavelet: codec/wavelet/wavelet_spec.hpp.
@@ -44,7 +44,7 @@ struct WaveletHeader {
   template <class V>
   void visit(V& v, uint8_t& planes) {
     v.u8("planes", planes, 0, kMostPlanes);
-    for (uint8_t& filter : filters) v.u8("filter", filter, 0, 4);
+    for (uint8_t& filter : filters) v.u8("filter", filter, 0, 5);
     v.u8("fraction_bits", fraction_bits, 0, kMaxFractionBits);
     v.u8("sample_bits", bits, 0, 32);
     if (fraction_bits > 0) return;

@@ -24,7 +24,7 @@ struct WaveletSpec {
   static constexpr int kJointBits = 20;
 
   /// Sums of this level are of 64 bits. Coarse low bands are larger than samples: they are doubled,
-  /// and kQuiet multiplies their mean by 1.71 at every level.
+  /// and kQuiet and kOrthogonal multiply their mean by 1.71 and 1.60 at every level.
   bool wide(int level) const {
     return level > kNarrowLevels || bits > widestSamples(filter(level));
   }

@@ -59,8 +59,7 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
      "cut-out, doubled low bands, levels of several filters, shears of coefficients, texture by "
      "wavelet"},
     {"cutout_rgb_budget_70x45", "cut-out, fraction bits, hidden colours, texture by wavelet"},
-    {"cutout_grey16_1x41",
-     "cut-out, fraction bits, hidden colours, levels of several filters, texture by wavelet"},
+    {"cutout_grey16_1x41", "cut-out, fraction bits, hidden colours, texture by wavelet"},
     {"checker_rgb_16x16", "drawn texture"},
     {"ramp_129x96", "fraction bits, levels of several filters, texture by wavelet"},
     {"ramp_90x40", "fraction bits, levels of several filters, texture by wavelet"},
@@ -121,7 +120,7 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
      "doubled low bands, heights by wavelet, nodata, relative steps, voids, wide sums"},
     {"relative_surveys_75x61",
      "doubled low bands, heights by wavelet, regions of heights, relative steps, wide sums"},
-    {"facets_83x61", "doubled low bands, facets, heights by wavelet"},
+    {"facets_83x61", "doubled low bands, facets, heights by wavelet, levels of several filters"},
     {"facets_voids_64x75",
      "doubled low bands, facets, heights by wavelet, levels of several filters, nodata, regions of "
      "heights, voids"},
@@ -149,7 +148,7 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"joint_index_33x33_40x40",
      "doubled low bands, heights by wavelet, index, levels of several filters, shears of "
      "coefficients, texture by wavelet"},
-    {"regions_groups_200x70", "flat areas, fraction bits, heights by wavelet, regions of heights"},
+    {"regions_groups_200x70", "fraction bits, heights by wavelet, regions of heights"},
     {"regions_long_150x9", "doubled low bands, heights by wavelet, regions of heights"},
     {"regions_joint_index_40x33_50x47",
      "doubled low bands, heights by wavelet, index, levels of several filters, regions of heights, "

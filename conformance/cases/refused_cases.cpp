@@ -185,7 +185,7 @@ std::vector<VectorCase> refusedHeaders() {
     h.geometry->regions.side_log2 = 4;
   });
   refuse("filter", "a filter that there is not",
-         [](StreamHeader& h) { h.geometry->wavelet.filters[1] = 5; });
+         [](StreamHeader& h) { h.geometry->wavelet.filters[1] = 6; });
   refuse("voids", "integer heights with voids and no value for them",
          [](StreamHeader& h) { h.layers.validity_bytes = 9; });
   refuse("nodata", "voids of a value that the type has not",

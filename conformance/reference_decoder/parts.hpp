@@ -76,7 +76,7 @@ void readWavelet(Reader& in, int coding, Header& c) {
   c.planes = coding == 2 ? in.u8(0, 30) : kDrawnPlanes;
   if (coding != 2) return;
   WaveletHeader& w = c.wavelet;
-  for (int& filter : w.filters) filter = in.u8(0, 4);
+  for (int& filter : w.filters) filter = in.u8(0, 5);
   w.fractionBits = in.u8(0, 8);
   w.sampleBits = in.u8(0, 32);
   if (w.fractionBits > 0) return;

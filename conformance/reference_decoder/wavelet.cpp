@@ -189,6 +189,7 @@ const Filter& filterOf(const WaveletHeader& header, int level) {
       {13, 15, {{0}, {1435, -176}, {-3653, 706, -186}, {2218, -254, 116}}},
       {8, 20, {{-157, 41, -17, 8, -3}, {77, -24, 12, -6, 2}}},
       {8, 20, {{-150, 25, -3}, {75, -13, 2}}},
+      {12, 15, {{-7895, 81}, {-258, 64}, {4447, 105}, {2189, -297}}},
   };
   return kFilters[filterNumber(header, level)];
 }
@@ -221,8 +222,10 @@ Plane levelOf(const WaveletHeader& header, const std::vector<Subband>& subbands,
       return subband.orientation == kHH && subband.level == l;
     });
     const int splits = (hh->splitsX == l) + (hh->splitsY == l);
-    if (filterNumber(header, l) != 2) continue;
-    for (int i = 0; i < splits; ++i) weight = (weight * int64_t{821297201} + (1 << 29)) >> 30;
+    const size_t filter = filterNumber(header, l);
+    if (filter != 2 && filter != 5) continue;
+    const int64_t factor = filter == 2 ? 821297201 : 847671299;
+    for (int i = 0; i < splits; ++i) weight = (weight * factor + (1 << 29)) >> 30;
   }
   int d = 0;
   for (int l = 1; l <= level; ++l) d += doublesLow(header, l);

@@ -9,8 +9,8 @@ namespace tetrakis::inline plans {
 
 namespace {
 
-constexpr std::array<const char*, kFilters> kFilterNames = {"short", "six-tap", "quiet", "long",
-                                                            "smooth"};
+constexpr std::array<const char*, kFilters> kFilterNames = {"short", "six-tap", "quiet",
+                                                            "long",  "smooth",  "orthogonal"};
 
 const char* nameOf(Layer layer) {
   switch (layer) {

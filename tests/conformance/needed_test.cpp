@@ -131,7 +131,7 @@ TEST(NeededRanges, LeaveOutWhatNobodyKnows) {
   const samples::Raster heights = ridges(201, 170, TKS_I16),
                         image = samples::make({samples::Pattern::kRidges, 180, 150, 3, TKS_U8});
   const Bytes plain = encodeRegions(&heights, &image, lossless());
-  const Domain sphere{9, {0, 0}, "sphere"};
+  const Domain sphere{9, {0, 0}};
   const Bytes bytes =
       LaterStream(plain, {unknown(5, sphere, 3, ""), known(Component::kTexture),
                           unknown(6, sphere, 0, "later"), known(Component::kGeometry)})

@@ -114,7 +114,7 @@ Bytes withAnyWavelet(const Bytes& stream, uint32_t trial) {
   HeaderParts component = componentOfStream(stream);
   Bytes& fields = component.wavelet;
   fields.resize(kFilters);
-  for (uint32_t i = 0; i < 3; ++i) fields.push_back(static_cast<uint8_t>((h >> (2 * i) & 7) % 5));
+  for (uint32_t i = 0; i < 3; ++i) fields.push_back(static_cast<uint8_t>((h >> (2 * i) & 7) % 6));
   fields.push_back(kFractions[(h >> 8) % 5]);
   fields.push_back(kSampleBits[(h >> 16) % 6]);
   if (fields[kFractionByte] == 0) {

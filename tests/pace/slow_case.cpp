@@ -78,7 +78,7 @@ Extent anyExtent(Dice& dice, uint64_t most_samples, uint32_t most_side) {
 }
 
 void anyWavelet(Dice& dice, WaveletHeader& wavelet) {
-  for (uint8_t& filter : wavelet.filters) filter = static_cast<uint8_t>(dice.below(5));
+  for (uint8_t& filter : wavelet.filters) filter = static_cast<uint8_t>(dice.below(6));
   wavelet.fraction_bits = dice.oneIn(2) ? static_cast<uint8_t>(dice.below(9)) : uint8_t{0};
   wavelet.bits = static_cast<uint8_t>(dice.below(33));
   if (wavelet.fraction_bits > 0) return;

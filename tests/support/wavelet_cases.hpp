@@ -25,7 +25,8 @@ inline std::ostream& operator<<(std::ostream& out, const WaveletSpec& spec) {
 namespace test {
 
 inline constexpr std::array<FilterId, kFilters> kAllFilters = {
-    FilterId::kShort, FilterId::kSixTap, FilterId::kQuiet, FilterId::kLong, FilterId::kSmooth};
+    FilterId::kShort, FilterId::kSixTap, FilterId::kQuiet,
+    FilterId::kLong,  FilterId::kSmooth, FilterId::kOrthogonal};
 /// Those that keep the mean, and may be lifted jointly.
 inline constexpr std::array<FilterId, 4> kTwoStepFilters = {FilterId::kShort, FilterId::kSixTap,
                                                             FilterId::kLong, FilterId::kSmooth};
@@ -72,8 +73,9 @@ inline Plane inverse(const WaveletSpec& spec, Plane plane, const Size& size, Mas
 
 inline std::vector<WaveletSpec> mixedSpecs() {
   constexpr auto kS = FilterId::kShort, kM = FilterId::kSixTap, kQ = FilterId::kQuiet,
-                 kL = FilterId::kLong;
-  return {{{kL, kL, kQ}, false, kNarrowBits},
+                 kL = FilterId::kLong, kO = FilterId::kOrthogonal;
+  return {{{kL, kL, kO}, false, kNarrowBits},
+          {{kL, kO, kO}, false, kNarrowBits},
           {{kL, kQ, kQ}, false, kNarrowBits},
           {{kS, kQ, kM}, true, kNarrowBits}};
 }

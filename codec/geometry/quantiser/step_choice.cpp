@@ -26,7 +26,7 @@ namespace {
 
 constexpr double kMostSteps = 1 << 26;
 /// Parts of the range that the steps of lossy streams divide it into: finer than any of them
-/// resolves. With a larger number heights are too wide for the filter kQuiet.
+/// resolves. With a larger number heights are too wide for the filter kOrthogonal.
 constexpr double kLossySteps = 1 << 20;
 /// The step of a largest error is at most this part of it. A larger number takes bits that are cut
 /// anyway; with a smaller one the rounding of samples takes more of the bound.

@@ -27,12 +27,13 @@ using Filters = std::array<uint8_t, WaveletSpec::kChoices>;
 constexpr auto kS = static_cast<uint8_t>(FilterId::kShort);
 constexpr auto kM = static_cast<uint8_t>(FilterId::kSixTap);
 constexpr auto kQ = static_cast<uint8_t>(FilterId::kQuiet);
+constexpr auto kO = static_cast<uint8_t>(FilterId::kOrthogonal);
 constexpr auto kL = static_cast<uint8_t>(FilterId::kLong);
 constexpr auto kN = static_cast<uint8_t>(FilterId::kSmooth);
 /// Filters of lossy streams. More choices save bytes, and take the time of a transform of the
 /// typical parts each.
 constexpr std::array<Filters, 6> kLossyChoices = {
-    {{kL, kL, kL}, {kL, kL, kQ}, {kL, kQ, kQ}, {kQ, kQ, kQ}, {kS, kS, kS}, {kN, kN, kN}}};
+    {{kL, kL, kL}, {kL, kL, kO}, {kL, kO, kO}, {kO, kO, kO}, {kS, kS, kS}, {kN, kN, kN}}};
 
 /// Filters for the last bit, and by how much the estimate of their bits counts more because of what
 /// prefixes are worth (docs/EXPERIMENTS.md, "Cuts of lossless streams"). The estimate makes
@@ -55,7 +56,7 @@ constexpr double kSignificant = 0.1;
 /// Fraction bits of lossy coefficients. Four save 9 % of the bytes of whole metres against the
 /// lossless transform; more would save less noise than they take range.
 constexpr int kMostFractionBits = 4;
-constexpr int kGrowingBits = 20;  // with more, the low bands of kQuiet pass 2^30
+constexpr int kGrowingBits = 20;  // with more, the low bands of kQuiet and kOrthogonal pass 2^30
 
 /// Doubling low bands after level 2 in the place of level 4 halves the roundings of levels 3 and 4,
 /// and takes 1/16 of a bit a sample. That is worth it where few bits are lossless, because then
@@ -175,7 +176,7 @@ Choice chooseLossy(const std::vector<PlanePart>& parts, int bits, const RateTarg
   Choice best;
   float usual = 0, finer = 0;
   for (const Filters& filters : kLossyChoices) {
-    if (filters.back() == kQ && bits > kGrowingBits) continue;
+    if (filters.back() == kO && bits > kGrowingBits) continue;
     const WaveletHeader header =
         headerWith(filters, std::clamp(kBitsWithFractions - bits, 0, kMostFractionBits), bits);
     std::vector<float> details;

@@ -19,7 +19,7 @@ enum class Purpose : uint8_t {
 };
 
 /// Bits of samples with fraction bits, at most; wider samples have none. With a larger number the
-/// low bands of kQuiet pass 2^30; with a smaller one wide samples lose by roundings.
+/// low bands of kOrthogonal pass 2^30; with a smaller one wide samples lose by roundings.
 inline constexpr int kBitsWithFractions = 20;
 
 /// What the filters of lossy streams are chosen for.

@@ -17,8 +17,9 @@
 //   kShort        two taps a step (the 5/3)
 //   kSixTap       six taps a step
 //   kLong         ten taps a step, for rough terrain
-//   kQuiet        four steps, nearly orthogonal, with weights below 1, which keep roundings small:
-//                 images, and coarse levels
+//   kOrthogonal   four steps, nearly orthogonal: lossy images, and coarse levels of lossy terrain
+//   kQuiet        likewise, with weights below 1, which keep roundings small: coarse levels of
+//                 lossless images
 //   kSmooth       no detail of polynomials up to degree 5, for ground without roughness
 #pragma once
 
@@ -29,8 +30,15 @@
 namespace tetrakis::inline lifting {
 
 /// Which filter of the menu. The numbers stand in stream headers.
-enum class FilterId : uint8_t { kShort = 0, kSixTap = 1, kQuiet = 2, kLong = 3, kSmooth = 4 };
-inline constexpr int kFilters = 5;
+enum class FilterId : uint8_t {
+  kShort = 0,
+  kSixTap = 1,
+  kQuiet = 2,
+  kLong = 3,
+  kSmooth = 4,
+  kOrthogonal = 5
+};
+inline constexpr int kFilters = 6;
 
 inline constexpr size_t kMaxPairs = 5;
 

@@ -52,7 +52,7 @@ TEST(MaskedWavelet, RestoresValuesThatWrapAround) {
 }
 
 /// Samples of 26 bits have coefficients below 2^30, beside voids and doubled too. The low bands of
-/// kQuiet grow: it is not offered for so many bits.
+/// four-step filters grow: these are not offered for so many bits.
 TEST(MaskedWavelet, AmplifiesLittle) {
   Random random(3);
   for (const FilterId id : kTwoStepFilters) {
