@@ -159,6 +159,7 @@ void fillHeights(const tks_decoder& decoder, tks_info& info) {
   info.voids_known = voidsAreKnown(decoder);
   info.has_nodata = header.layers.has_nodata;
   info.nodata = header.layers.nodata;
+  info.columns_go_round = geometry.wavelet.ring;
 }
 
 void fillTexture(const tks_decoder& decoder, tks_info& info) {

@@ -21,8 +21,8 @@ inline constexpr size_t kMostListed = 16;                       ///< domains, an
 inline ListedComponent listed(const StreamHeader& header, Component component) {
   const bool heights = component == Component::kGeometry;
   const auto fill = [&](const auto& of, uint8_t kind) {
-    return ListedComponent{
-        component, kind, {Domain::kGrid, of.shown(), ""}, of.regions.side_log2, ""};
+    const uint8_t domain = of.wavelet.ring ? Domain::kCylinder : Domain::kGrid;
+    return ListedComponent{component, kind, {domain, of.shown(), ""}, of.regions.side_log2, ""};
   };
   return heights ? fill(*header.geometry, ListedComponent::kHeights)
                  : fill(*header.texture, ListedComponent::kColours);
@@ -49,16 +49,18 @@ inline std::vector<ListedComponent> listOf(const StreamHeader& header) {
 
 /// The component that a decoder takes one of the list for, given those before it.
 inline Component roleOf(const ListedComponent& one, const StreamHeader& before) {
-  if (one.domain.kind != Domain::kGrid) return Component::kOther;
-  if (one.kind == ListedComponent::kHeights && !before.geometry) return Component::kGeometry;
-  if (one.kind == ListedComponent::kColours && !before.texture) return Component::kTexture;
+  const bool grid = one.domain.kind == Domain::kGrid;
+  const bool heights = one.kind == ListedComponent::kHeights && one.domain.isKnown();
+  const bool colours = one.kind == ListedComponent::kColours && grid;
+  if (heights && !before.geometry) return Component::kGeometry;
+  if (colours && !before.texture) return Component::kTexture;
   return Component::kOther;
 }
 
 template <class V>
 void visitDomain(V& v, Domain& domain) {
   v.u8("domain_kind", domain.kind, 0, UINT8_MAX);
-  if (domain.kind != Domain::kGrid) return v.rest(domain.rest);
+  if (!domain.isKnown()) return v.rest(domain.rest);
   v.varint("width", domain.grid.width, 1, kMaxSide);
   v.varint("height", domain.grid.height, 1, kMaxSide);
 }
@@ -68,6 +70,7 @@ void visitKnown(V& v, StreamHeader& header, const ListedComponent& one) {
   if (one.component == Component::kGeometry) {
     if (!header.geometry) header.geometry.emplace();
     header.geometry->regions.side_log2 = one.region_log2;
+    header.geometry->wavelet.ring = one.domain.kind == Domain::kCylinder;
     header.geometry->visit(v, one.domain.grid);
     header.layers.visit(v);
     header.geometry->visitBound(v);

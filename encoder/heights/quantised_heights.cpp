@@ -232,6 +232,7 @@ GeometryHeader headerOf(const QuantisedHeights& heights) {
   header.exact = heights.steps.exact;
   header.base = heights.steps.base;
   header.step = heights.steps.step;
+  header.wavelet.ring = heights.samples->columns_go_round != 0;
   return header;
 }
 

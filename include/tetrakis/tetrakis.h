@@ -133,6 +133,10 @@ typedef struct tks_heights {
   const uint8_t* positions;       /* of tks_fit_positions: longitudes and latitudes for receivers
                                      that do not know the CRS; NULL: none */
   size_t positions_size;          /* in bytes */
+  int columns_go_round;           /* non-zero: the last column lies beside the first one, as on a
+                                     globe. No jump is left between the two; a window is then cut
+                                     out of the whole plane. Without a texture, and not laid out
+                                     for windows (else TKS_UNSUPPORTED) */
 } tks_heights;
 
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed.
@@ -430,6 +434,7 @@ typedef struct tks_info {
   size_t positions_size;
   const uint8_t* texture_positions; /* of the texture alone */
   size_t texture_positions_size;
+  int columns_go_round;         /* of the heights (tks_heights) */
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);

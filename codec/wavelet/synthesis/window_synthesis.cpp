@@ -29,7 +29,7 @@ WindowSynthesis::WindowSynthesis(const WaveletSpec& spec, const Pyramid& pyramid
       window_(window),
       ll_x_{window.x, window.x + window.width},
       ll_y_{window.y, window.y + window.height} {
-  assert(window.isInside(pyramid.plane()));
+  assert(window.isInside(pyramid.plane()) && !spec.ring);
   for (int level = 1; level <= pyramid.levels(); ++level) {
     const Extent whole = pyramid.low(level - 1).extent;
     const uint32_t reach = synthesisReach(spec_.filter(level));

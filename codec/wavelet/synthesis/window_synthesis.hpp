@@ -2,7 +2,7 @@
 // WindowSynthesis is the inverse wavelet of a window. It gives the samples that the inverse wavelet
 // of the whole plane would give there, from the coefficients that reach the window. At every level
 // the window grows by the reach of the filter and then halves, so the work follows the size of the
-// window and not that of the plane.
+// window and not that of the plane. The plane is no ring.
 //
 // Coefficients that lie outside must not change a window. So the stream header says how many bytes
 // a complete track has, because a window cannot see whether all tracks are complete; and sums
