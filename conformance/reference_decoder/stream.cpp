@@ -60,7 +60,7 @@ uint64_t samplesOf(const Stream& stream) {
 int levelOf(const Stream& stream) {
   uint64_t most = 0;
   for (const Component& c : stream.components)
-    if (c.domain.kind == 0) most = std::max(most, uint64_t(c.domain.width) * c.domain.height);
+    if (c.domain.known()) most = std::max(most, uint64_t(c.domain.width) * c.domain.height);
   int level = 0;
   while (most > uint64_t{1} << (2 * (level + 8))) ++level;
   return level;
@@ -70,7 +70,7 @@ int levelOf(const Stream& stream) {
 Domain readDomain(Reader& in) {
   Domain domain;
   domain.kind = in.byte();
-  if (domain.kind != 0) {
+  if (!domain.known()) {
     restOf(in);
     return domain;
   }
@@ -88,7 +88,7 @@ void readComponent(Reader& in, const std::vector<Domain>& domains, Stream& strea
   if (in.outcome() != Outcome::kDone) return;
   Component component{-1, regions.log2 > 0, domains[number]};
   const bool grid = component.domain.kind == 0;
-  if (grid && kind == 0 && !stream.geometry) component.role = 0;
+  if (component.domain.known() && kind == 0 && !stream.geometry) component.role = 0;
   if (grid && kind == 1 && !stream.texture) component.role = 1;
   if (component.role >= 0 && regions.log2 > 0 && regions.log2 < 4) in.fail(Outcome::kCorrupt);
   if (component.role == 0) readHeights(in, component.domain, regions, stream);

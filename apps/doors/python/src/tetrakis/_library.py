@@ -65,6 +65,7 @@ class Heights(ctypes.Structure):
         ("geo_keys", c_char_p),
         ("positions", c_void_p),
         ("positions_size", c_size_t),
+        ("columns_go_round", c_int),
     ]
 
 
@@ -241,6 +242,7 @@ class StreamInfo(ctypes.Structure):
         ("positions_size", c_size_t),
         ("texture_positions", c_void_p),
         ("texture_positions_size", c_size_t),
+        ("columns_go_round", c_int),
     ]
 
 
