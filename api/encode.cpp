@@ -9,6 +9,7 @@
 #include <initializer_list>
 
 #include "api/buffer.hpp"
+#include "api/explained.hpp"
 #include "api/guarded.hpp"
 #include "api/proof.hpp"
 #include "api/sized.hpp"
@@ -182,13 +183,19 @@ Status encodeAndProve(const tks_heights* heights, const tks_image* image,
     return o.progress == nullptr || o.progress(o.user, done) == 0;
   });
   const Watched watched(&watch);
+  PlanNotes notes;
   Result<std::vector<uint8_t>> stream =
-      encodeStream({.heights = known_heights, .image = known_image, .options = known.options});
+      encodeStream({.heights = known_heights,
+                    .image = known_image,
+                    .options = known.options,
+                    .notes = known.options.explain != nullptr ? &notes : nullptr});
   if (!stream.ok()) return stream.status();
   watch.stage(1);
   Status proved = prove(*stream, known_heights, known_image, known.options);
   if (!proved.ok()) return proved;
   watch.stage(1);
+  if (known.options.explain != nullptr)
+    explain(notes, heights != nullptr ? known.heights.scale : 1, known.options);
   giveBytes(*stream, *out);
   return {};
 }

@@ -44,18 +44,31 @@ std::vector<tks_range> rangesOfTracks(const tks_decoder& decoder, Component comp
   return ranges;
 }
 
+/// Where the front of a decoder ends once ranges, in order, are there too.
+uint64_t frontWith(const tks_decoder& decoder, const std::vector<tks_range>& ranges) {
+  uint64_t front = std::max<uint64_t>(decoder.parsed.bytes, decoder.data.size());
+  for (const tks_range& range : ranges) {
+    front += decoder.pieces.from(front).size();
+    if (range.offset > front) return front;
+    front = std::max(front, range.offset + range.size);
+  }
+  return front + decoder.pieces.from(front).size();
+}
+
 /// The ranges, and the last byte if no gap would tell that what is missing is not needed: a decoder
 /// that has but the front of a stream decodes it as a prefix, whose samples are rounded otherwise.
+/// Bytes that are there already may close the gaps between the ranges.
 std::vector<tks_range> withGap(const tks_decoder& decoder, std::vector<tks_range> ranges) {
-  const uint64_t end = decoder.parsed.bytes + decoder.parsed.header.payload_bytes;
-  uint64_t known = decoder.parsed.bytes;
-  for (const tks_range& range : ranges) {
-    if (range.offset != known) return ranges;
-    known += range.size;
-  }
   if (ranges.empty()) return ranges;
-  if (known + 1 < end) ranges.push_back({end - 1, 1, 0});
-  if (known + 1 == end) ++ranges.back().size;
+  const uint64_t end = decoder.parsed.bytes + decoder.parsed.header.payload_bytes;
+  const uint64_t front = frontWith(decoder, ranges),
+                 behind = ranges.back().offset + ranges.back().size;
+  if (front >= end || behind > front || decoder.pieces.hasAny({front, end})) return ranges;
+  if (behind + 1 == end) {
+    ++ranges.back().size;
+  } else {
+    ranges.push_back({end - 1, 1, 0});
+  }
   return ranges;
 }
 

@@ -11,6 +11,7 @@
 #include "encoder/heights/quantised_heights.hpp"
 #include "encoder/heights/ways/heights_for_target.hpp"
 #include "encoder/selection/selection.hpp"
+#include "encoder/selection/selection_notes.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/meet_target.hpp"
 #include "encoder/textures/coded_texture.hpp"
@@ -25,6 +26,10 @@ namespace {
 
 // The parts of all work that are done when each stage ends; the rest of the work proves the stream.
 constexpr double kHeightsCoded = 0.4, kTextureCoded = 0.8, kSelected = 0.9, kWritten = 0.95;
+/// Maps of priorities are in doubt where they take more than this part of the budget. A larger
+/// number has more streams coded twice, with maps and without them; a smaller one keeps maps that
+/// cost small budgets decibels.
+constexpr uint64_t kCertain = 16;
 
 /// Both components before they are coded; null: there is none.
 struct Quantised {
@@ -87,7 +92,6 @@ Result<Selection> codeForTarget(const EncodeInputs& inputs) {
 /// budget they take too little to be in doubt (docs/EXPERIMENTS.md), and coding twice takes twice
 /// the time.
 bool mapsAreInDoubt(const EncodeInputs& inputs, const Selection& with) {
-  constexpr uint64_t kCertain = 16;
   return inputs.budgeted() && with.heights && with.texture &&
          bytesOfMaps(with) * kCertain > inputs.options.bytes;
 }
@@ -99,8 +103,10 @@ Result<Selection> codeWithPriorities(const EncodeInputs& inputs) {
   Result<Selection> with = codeForTarget(inputs.with(inputs.options, &priorities));
   if (!with.ok() || !mapsAreInDoubt(inputs, *with)) return with;
   Result<Selection> without = codeForTarget(inputs.with(inputs.options, nullptr));
-  if (without.ok() && !mapsPay(inputs, *with, *without)) return without;
-  return with;
+  if (!without.ok()) return with;
+  const bool pay = mapsPay(inputs, *with, *without);
+  noteOthers(inputs, pay ? *with : *without, pay ? *without : *with);
+  return pay ? with : without;
 }
 
 }  // namespace

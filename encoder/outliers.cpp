@@ -17,15 +17,20 @@ namespace tetrakis::inline encoder {
 
 namespace {
 
-constexpr double kHuge = 1e30;      // whatever is beyond it is no height
-constexpr double kNoHeight = 1e10;  // no height in any unit is as large
+/// Floats beyond this size are no heights, if there are others. A larger number overlooks voids;
+/// with a smaller one data in tiny units would count as voids.
+constexpr double kHuge = 1e30;
+/// A single outlying value of this size or more is a void that files fill in. A larger number
+/// leaves more of these values for the user to judge; a smaller one takes heights for voids.
+constexpr double kNoHeight = 1e10;
+/// The least numbers of 16 and 32 bits, which files write where they have no height.
+constexpr std::array kFillValues = {-32768.0, -32767.0, -2147483648.0};
 
 /// Whether a value is one that files write where they have no height: rows of nines below zero, the
 /// least numbers of 16 bits and of 32, in any type, and numbers too large for a height.
 bool isFill(double value) {
-  constexpr std::array kLeast = {-32768.0, -32767.0, -2147483648.0};
   if (std::abs(value) >= kNoHeight ||
-      std::find(kLeast.begin(), kLeast.end(), value) != kLeast.end())
+      std::find(kFillValues.begin(), kFillValues.end(), value) != kFillValues.end())
     return true;
   double nines = -999;
   while (nines > value) nines = 10 * nines - 9;

@@ -14,8 +14,13 @@ namespace {
 
 /// Along each side: zeros of T_kNodes, at which Chebyshev polynomials are orthogonal.
 constexpr int kNodes = 2 * GroundPositions::kMostDegree;
-/// Along each side, edges included, the places at which errors are measured.
+/// Along each side, edges included, the places at which errors are measured. More of them find
+/// larger errors between the nodes, and take time by their square.
 constexpr int kChecks = 41;
+/// Places farther from the centre of the tangent plane, in radii of the sphere, have no positions:
+/// 8 are 152 degrees. A larger number accepts places where a polynomial needs many terms.
+constexpr double kFarthest = 8;
+constexpr uint8_t kFinest = 46;  // coefficients stay below kMostCoefficient
 
 double node(int i) {
   return std::cos(std::numbers::pi * (i + 0.5) / kNodes);
@@ -35,7 +40,6 @@ std::optional<std::vector<TangentPoint>> pointsAt(const Locator& locate, const T
       const auto place = locate(at(i), at(j));
       if (!place) return std::nullopt;
       const TangentPoint point = plane.project(*place);
-      constexpr double kFarthest = 8;  // a sphere's radii: 152 degrees off the centre
       if (!(std::abs(point[0]) < kFarthest && std::abs(point[1]) < kFarthest)) return std::nullopt;
       points.push_back(point);
     }
@@ -119,7 +123,6 @@ GroundPositions rounded(const std::array<Series, 2>& series, GroundPositions fra
 /// Polynomials of one degree with the coarsest unit that meets the tolerance.
 std::optional<GroundPositions> coarsest(const std::array<Series, 2>& series, const Target& target,
                                         GroundPositions frame, double tolerance) {
-  constexpr uint8_t kFinest = 46;  // coefficients stay below kMostCoefficient
   frame.exponent = kFinest;
   if (target.errorOf(rounded(series, frame)) > tolerance) return std::nullopt;
   // The error of rounding halves from unit to unit, apart from chance.

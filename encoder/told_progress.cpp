@@ -6,6 +6,16 @@
 
 namespace tetrakis::inline encoder {
 
+namespace {
+
+// The part of the rest of a stage that all pieces of one work complete; most stages have several
+// works.
+constexpr double kOfTheRest = 0.25;
+// Callers are told of progress no more often than this.
+constexpr std::chrono::milliseconds kBetweenTellings(50);
+
+}  // namespace
+
 void ToldProgress::stage(double until) {
   assert(until >= 0 && until <= 1);
   const std::lock_guard lock(mutex_);
@@ -15,10 +25,6 @@ void ToldProgress::stage(double until) {
 }
 
 void ToldProgress::pass(size_t pieces) {
-  // The part of the rest of a stage that all pieces of one work complete; most stages have several
-  // works.
-  constexpr double kOfTheRest = 0.25;
-  constexpr std::chrono::milliseconds kBetweenTellings(50);
   assert(pieces > 0);
   const std::lock_guard lock(mutex_);
   if (stopped_) throw Stopped();

@@ -16,6 +16,10 @@ namespace tetrakis::inline texture {
 
 namespace {
 
+/// The part of the bytes that colours beside luma take, about, when bridges are chosen for luma. A
+/// larger number chooses them for a finer step.
+constexpr uint64_t kColourPart = 3;
+
 using Planes = std::vector<std::vector<int32_t>>;
 
 /// The channels that become colour planes; of those with tables, the places.
@@ -52,7 +56,7 @@ int bitsOf(const WaveletCoding& coding) {
   return bits;
 }
 
-/// What bridges are chosen for. Colours take about a third of the bytes that are left.
+/// What bridges are chosen for. Colours take a part of the bytes that are left.
 BridgeTarget bridgeTarget(const WaveletCoding& coding, uint64_t opening_bytes) {
   BridgeTarget target{coding.purpose};
   if (coding.purpose == Purpose::kLossless) return target;
@@ -60,7 +64,7 @@ BridgeTarget bridgeTarget(const WaveletCoding& coding, uint64_t opening_bytes) {
   target.mean_square = coding.options.mean_square;
   if (room == UINT64_MAX) return target;
   const uint64_t left = room - std::min(room, opening_bytes);
-  target.bytes = coding.source.colours() >= 3 ? left / 3 * 2 : left;
+  target.bytes = coding.source.colours() >= 3 ? left / kColourPart * (kColourPart - 1) : left;
   return target;
 }
 

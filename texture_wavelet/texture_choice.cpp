@@ -23,13 +23,31 @@ namespace tetrakis::inline texture {
 
 namespace {
 
+/// A wavelet that takes this part more bytes than a drawing, or than tables, has lost to it. A
+/// larger number ends trials earlier, and lets fewer wavelets win by their prefixes.
+constexpr uint64_t kReachPart = 2;
+/// No other attempt is made to save a part of this number of bytes. A larger number saves time.
+constexpr uint64_t kFewBytes = 1024;
+/// The part of the texels that a photograph under an overlay has at least: an overlay of nearly
+/// everything is the drawing once more. A larger number takes the time of more trials.
+constexpr size_t kPhotographPart = 4;
+/// The part of the bits of one channel's residuals that no wavelet stays below; wavelets take about
+/// twice as many. A larger number tries wavelets that are too long, which takes time.
+constexpr double kResidualPart = 2;
+/// A drawing of a lossy texture wins if the wavelet takes more than this many times its bytes. A
+/// larger factor lets fewer drawings win, whose prefixes show less.
+constexpr uint64_t kLossyReach = 2;
+/// Halves of a table's bytes up to which a drawing is tried by its estimate, which is up to 2.5
+/// times too high for few values. A larger number takes time, a smaller one misses dithers.
+constexpr uint64_t kHalvesOfTables = 5;
+/// The part of a photograph's bytes that a drawing has to save to be tried. A larger number tries
+/// more drawings, which takes time.
+constexpr uint64_t kSavedPart = 5;
+
 /// A wavelet that takes more than so many bytes has lost to a drawing of `bytes`.
 uint64_t withinReach(uint64_t bytes) {
-  return bytes + bytes / 2;
+  return bytes + bytes / kReachPart;
 }
-
-/// So few bytes are not worth the time of another attempt.
-constexpr uint64_t kFewBytes = 1024;
 
 TextureOptions oneTrack(TextureOptions options) {
   options.region_log2 = 0;
@@ -43,12 +61,13 @@ EncodedTexture encodeOnce(const TextureSource& source, Purpose purpose,
   const bool may_pay = purpose == Purpose::kLossless && options.tables;
   const FewValues few = may_pay ? fewValuesOf(source, photograph) : FewValues();
   if (few.none()) return encodeByWavelet(source, purpose, options, photograph);
-  EncodedTexture in_tables = encodeInTables(source, few, options, photograph);
+  EncodedTexture better = encodeInTables(source, few, options, photograph);
   TextureOptions until = options;
-  until.limit = std::min(options.limit, withinReach(bytesOf(in_tables)));
-  EncodedTexture plain = encodeByWavelet(source, purpose, until, photograph);
-  const bool pays = showsBetter(in_tables, plain, until, source.texels.samples.size());
-  return pays ? std::move(in_tables) : std::move(plain);
+  until.limit = std::min(options.limit, withinReach(bytesOf(better)));
+  EncodedTexture other = encodeByWavelet(source, purpose, until, photograph);
+  if (!showsBetter(better, other, until, source.texels.samples.size())) std::swap(better, other);
+  passOver(options.passed, passedOf(other), better);
+  return better;
 }
 
 /// What is made of a photograph in one track: as it is, and with an overlay.
@@ -89,7 +108,7 @@ struct Comparison {
 /// An overlay of nearly everything is the drawing once more.
 bool isMostlyPhotograph(const std::vector<uint8_t>& photograph) {
   const auto left = std::count(photograph.begin(), photograph.end(), 1);
-  return 4 * static_cast<size_t>(left) >= photograph.size();
+  return kPhotographPart * static_cast<size_t>(left) >= photograph.size();
 }
 
 std::vector<uint8_t> photographOf(const TextureSource& source, Purpose purpose) {
@@ -104,6 +123,12 @@ Attempts attemptsBesideDrawn(const TextureSource& source, Purpose purpose,
   return attempt(source, purpose, options, photograph, {});
 }
 
+/// Lists all attempts, over which a drawing has won.
+void passOverAll(PassedTextures* list, const Attempts& attempts, const EncodedTexture& drawn) {
+  for (const std::optional<EncodedTexture>* encoded : {&attempts.plain, &attempts.overlaid})
+    if (*encoded) passOver(list, passedOf(**encoded), drawn);
+}
+
 /// Attempts that the limit of a comparison ended early are no use.
 Attempts completeOnes(Attempts attempts) {
   for (std::optional<EncodedTexture>* encoded : {&attempts.plain, &attempts.overlaid})
@@ -111,8 +136,9 @@ Attempts completeOnes(Attempts attempts) {
   return attempts;
 }
 
-/// Bytes that no wavelet stays below, whatever the image: half of the bits of the residuals of one
-/// channel, predicted along gradients. Wavelets take about twice as many, and the other channels'.
+/// Bytes that no wavelet stays below, whatever the image: a part of the bits of the residuals of
+/// one channel, predicted along gradients. Wavelets take about twice as many, and the other
+/// channels'.
 uint64_t leastBytes(const Texels& texels) {
   double bits = 0;
   const size_t channels = texels.channels, row = channels * texels.width;
@@ -126,24 +152,30 @@ uint64_t leastBytes(const Texels& texels) {
       bits += std::bit_width(static_cast<uint32_t>(std::abs(*at - predicted)));
     }
   }
-  return static_cast<uint64_t>(bits / 2 / 8);
+  return static_cast<uint64_t>(bits / kResidualPart / 8);
 }
 
 /// A drawn texture wins if it takes too few bytes for the wavelet to restore every sample within
-/// about as many, or within twice as many if that is not asked for.
+/// about as many, or within a multiple if that is not asked for.
 Comparison compareWhole(const EncodedTexture& drawn, const TextureSource& source, Purpose purpose,
                         const TextureOptions& options) {
   const uint64_t bytes = bytesOf(drawn);
   const bool lossless = purpose == Purpose::kLossless;
-  const uint64_t limit = lossless ? withinReach(bytes) : 2 * bytes;
-  if (bytes <= kFewBytes || leastBytes(source.texels) > limit) return {true, {}};
-  const TextureOptions until = {.limit = limit, .threads = options.threads, .tables = lossless};
+  const uint64_t limit = lossless ? withinReach(bytes) : kLossyReach * bytes;
+  if (bytes <= kFewBytes) return {true, {}};
+  if (const uint64_t least = leastBytes(source.texels); least > limit) {
+    passOverExpected(options.passed, false, least);
+    return {true, {}};
+  }
+  const TextureOptions until = {
+      .limit = limit, .threads = options.threads, .tables = lossless, .passed = options.passed};
   Attempts attempts = attemptsBesideDrawn(source, Purpose::kLossless, until);
   const EncodedTexture& wavelet = betterOf(source, Purpose::kLossless, until, attempts);
-  if (!wavelet.tracks.front().complete) return {true, {}};
   const bool drawn_wins =
-      lossless && showsBetter(drawn, wavelet, until, source.texels.samples.size());
-  if (!lossless || options.visual) return {drawn_wins, {}};
+      !wavelet.tracks.front().complete ||
+      (lossless && showsBetter(drawn, wavelet, until, source.texels.samples.size()));
+  if (drawn_wins) passOverAll(options.passed, attempts, drawn);
+  if (drawn_wins || !lossless || options.visual) return {drawn_wins, {}};
   return {drawn_wins, completeOnes(std::move(attempts))};
 }
 
@@ -157,6 +189,7 @@ Comparison compareCut(const EncodedTexture& drawn, const TextureSource& source, 
   Attempts attempts = attemptsBesideDrawn(source, purpose, one_track);
   const EncodedTexture& wavelet = betterOf(source, purpose, one_track, attempts);
   const bool drawn_wins = showsBetter(drawn, wavelet, options, source.texels.samples.size());
+  if (drawn_wins) passOverAll(options.passed, attempts, drawn);
   const bool may_end_early = one_track.limit < options.limit;
   return {drawn_wins, may_end_early ? completeOnes(std::move(attempts)) : std::move(attempts)};
 }
@@ -187,6 +220,8 @@ EncodedTexture encodePhotograph(const TextureSource& source, Purpose purpose,
   attempts = attempt(source, purpose, options, photograph, std::move(attempts));
   const bool pays = overlayPays(source, purpose, options, attempts);
   EncodedTexture& better = pays ? *attempts.overlaid : *attempts.plain;
+  if (attempts.overlaid)
+    passOver(options.passed, passedOf(pays ? *attempts.plain : *attempts.overlaid), better);
   if (one_track && (pays || !ends_early)) return std::move(better);
   const TextureHeader like = std::move(better.header);
   return encodeByWavelet(source, purpose, options, pays ? Mask(photograph) : Mask(), &like);
@@ -201,16 +236,16 @@ Comparison compare(const EncodedTexture& drawn, const TextureSource& source, Pur
   return (whole ? compareWhole : compareCut)(drawn, source, purpose, options);
 }
 
-/// What does not look drawn has to save a fifth of the photograph's bytes, or to fit whole into the
+/// What does not look drawn has to save a part of the photograph's bytes, or to fit whole into the
 /// budget, to be tried. Lossy tracks without an aim have bits behind the last one of the texels.
-/// Estimates of what has few values are up to 2.5 times the bytes.
+/// Estimates of what has few values are too high.
 uint64_t mostToTry(const EncodedTexture& photograph, Purpose purpose,
                    const TextureOptions& options) {
   const uint64_t bytes = bytesOf(photograph);
   if (options.room < bytes) return options.room;
-  if (photograph.header.tables.present) return 5 * bytes / 2;
+  if (photograph.header.tables.present) return kHalvesOfTables * bytes / 2;
   const bool aimed = purpose == Purpose::kLossless || options.mean_square > 0;
-  return aimed && bytes > kFewBytes ? bytes - bytes / 5 : 0;
+  return aimed && bytes > kFewBytes ? bytes - bytes / kSavedPart : 0;
 }
 
 EncodedTexture encodeModelled(const TextureSource& source, Purpose purpose,
@@ -218,15 +253,22 @@ EncodedTexture encodeModelled(const TextureSource& source, Purpose purpose,
   if (std::optional<EncodedTexture> drawn = encodeDrawn(source.texels)) {
     Comparison compared = compare(*drawn, source, purpose, options);
     if (compared.drawn_wins) return std::move(*drawn);
+    PassedTexture lost = passedOf(*drawn);
     drawn.reset();
     options.priorities = nullptr;
-    return encodePhotograph(source, purpose, options, std::move(compared.attempts));
+    EncodedTexture photograph =
+        encodePhotograph(source, purpose, options, std::move(compared.attempts));
+    passOver(options.passed, std::move(lost), photograph);
+    return photograph;
   }
   EncodedTexture photograph = encodePhotograph(source, purpose, options, {});
   const uint64_t most = mostToTry(photograph, purpose, options);
   std::optional<EncodedTexture> drawn = encodeDrawn(source.texels, most);
-  const bool drawn_wins = drawn && compare(*drawn, source, purpose, options).drawn_wins;
-  return drawn_wins ? std::move(*drawn) : std::move(photograph);
+  if (!drawn) return photograph;
+  const bool drawn_wins = compare(*drawn, source, purpose, options).drawn_wins;
+  if (drawn_wins) std::swap(*drawn, photograph);
+  passOver(options.passed, passedOf(*drawn), photograph);
+  return photograph;
 }
 
 }  // namespace
@@ -236,8 +278,14 @@ EncodedTexture encodeTexture(const TextureSource& source, Purpose purpose, Textu
   EncodedTexture encoded = encodeModelled(source, purpose, options);
   const uint64_t stored = storedBytes(source.texels);
   const bool shorter = stored < bytesOf(encoded) && stored <= options.room;
-  return purpose == Purpose::kLossless && shorter ? encodeStoredTexture(source.texels)
-                                                  : std::move(encoded);
+  if (purpose != Purpose::kLossless) return encoded;
+  if (!shorter) {
+    passOverExpected(options.passed, true, stored);
+    return encoded;
+  }
+  EncodedTexture samples = encodeStoredTexture(source.texels);
+  passOver(options.passed, passedOf(encoded), samples);
+  return samples;
 }
 
 EncodedTexture encodeReversibly(const TextureSource& source, TextureHeader lossy,

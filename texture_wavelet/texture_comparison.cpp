@@ -11,6 +11,15 @@ namespace tetrakis::inline texture {
 
 namespace {
 
+/// Halvings of the bytes at which prefixes are compared. More of them count earlier prefixes.
+constexpr int kHalvings = 4;
+/// The share of the bytes that has to be saved for each dB that prefixes lose: without loss, and
+/// for a PSNR. A larger share keeps prefixes, and takes bytes.
+constexpr double kWholePerDb = 0.04, kAimedPerDb = 0.01;
+/// Decibels of prefixes that one decibel at the end of a budget is worth. A larger number serves
+/// whole streams, and costs prefixes quality.
+constexpr double kEndPerPrefix = 2;
+
 /// Bytes of the header that not every way to code an image has.
 uint64_t tableBytes(const EncodedTexture& encoded) {
   return encoded.header.tables.code.size();
@@ -31,11 +40,10 @@ double lossOf(double squares, double other) {
   return 10 * portable::log10((1 + squares) / (1 + other));
 }
 
-/// By how many dB prefixes of `a` are worse than those of `b`: the mean over a half, a quarter, an
-/// eighth and a sixteenth of the bytes. What is drawn shows little until it is nearly whole, and an
+/// By how many dB prefixes of `a` are worse than those of `b`: the mean over a half of the bytes, a
+/// quarter, and so on. What is drawn shows little until it is nearly whole, and an
 /// overlay lies ahead of all else.
 double prefixLoss(const EncodedTexture& a, const EncodedTexture& b, uint64_t bytes) {
-  constexpr int kHalvings = 4;
   double loss = 0;
   for (int k = 1; k <= kHalvings; ++k)
     loss += lossOf(distortionAt(a, bytes >> k), distortionAt(b, bytes >> k)) / kHalvings;
@@ -64,7 +72,6 @@ uint64_t bytesOf(const EncodedTexture& encoded) {
 
 bool showsBetter(const EncodedTexture& a, const EncodedTexture& b, const TextureOptions& options,
                  uint64_t samples) {
-  constexpr double kWholePerDb = 0.04, kAimedPerDb = 0.01, kEndPerPrefix = 2;
   const bool aimed = options.mean_square > 0;
   if (aimed || (isWhole(a, options.room) && isWhole(b, options.room))) {
     const double squares = options.mean_square * static_cast<double>(samples);

@@ -28,6 +28,16 @@ namespace tetrakis::inline texture {
 
 namespace {
 
+/// Coding for a PSNR ends at the target's squared error over this number. A larger number takes
+/// time; with a smaller one more textures miss the target and are coded once more.
+constexpr double kPartOfTarget = 2;
+/// Coding ends early only for targets above this squared error, in texel units: below it rounding
+/// counts as much. A smaller number has more textures coded twice.
+constexpr double kLeastSquares = 1;
+/// The squared error that an overlay takes off texels, as a part of the squared range: without it
+/// colours are off by half the range. A smaller number puts overlays further ahead of other bytes.
+constexpr double kOverlayPart = 4;
+
 /// What the squared error of each channel counts.
 using ChannelWeights = std::array<double, 4>;
 
@@ -189,12 +199,12 @@ std::vector<EncodedTrack> encodePlanes(TransformedPlanes transformed, const Trac
   return encodeTracks(sources, options);
 }
 
-/// Coding ends at half of the error that is to be reached: the account is not as exact as that, and
-/// samples are rounded, which matters where few steps are left.
+/// Coding ends at a part of the error that is to be reached: the account is not as exact as that,
+/// and samples are rounded, which matters where few steps are left.
 TrackOptions untilReached(const TextureOptions& options, uint64_t samples) {
   TrackOptions tracks{options.limit, options.threads};
-  if (options.mean_square > 1)
-    tracks.enough = options.mean_square / 2 * static_cast<double>(samples);
+  if (options.mean_square > kLeastSquares)
+    tracks.enough = options.mean_square / kPartOfTarget * static_cast<double>(samples);
   return tracks;
 }
 
@@ -221,7 +231,7 @@ void prepend(std::span<const uint8_t> opening, double worth, EncodedTrack& track
 EncodedTrack withOpening(const Opening& opening, const Texels& texels, EncodedTrack track) {
   const double most = texels.white();
   const auto samples = static_cast<double>(texels.samples.size());
-  prepend(opening.overlay, most * most / 4 * samples, track);
+  prepend(opening.overlay, most * most / kOverlayPart * samples, track);
   prepend(opening.alpha, most * most * samples / texels.channels, track);
   return track;
 }

@@ -12,6 +12,7 @@
 #include "codec/wavelet/choice/filter_choice.hpp"
 #include "codec/wavelet/priority_map.hpp"
 #include "texture_wavelet/mask/cutout.hpp"
+#include "texture_wavelet/passed_texture.hpp"
 
 namespace tetrakis::inline texture {
 
@@ -47,6 +48,8 @@ struct TextureOptions {
   double mean_square = 0;       ///< error that a lossy texture is to reach, if there is a target
   bool tables = true;           ///< of values: lossless textures may have them
   const PriorityMap* priorities = nullptr;  ///< what comes earlier; null: nothing
+  /// Takes the attempts that are passed over; null: nobody asked for them.
+  PassedTextures* passed = nullptr;
 };
 
 }  // namespace tetrakis::inline texture

@@ -20,19 +20,27 @@ namespace tetrakis::inline texture {
 
 namespace {
 
+/// Samples that make a degree of sight. A larger number lets details weigh less, as from farther
+/// away, and costs whoever steps nearer.
 constexpr double kSamplesPerDegree = 64;
-constexpr uint8_t kLevels = 6;  // coarser ones are seen as they are
+/// Levels that are weighed; coarser ones are seen as they are. More levels take bytes of the
+/// header.
+constexpr uint8_t kLevels = 6;
+/// The frequency of the peak of luma, in cycles per degree. Lower ones weigh 1.
+constexpr double kPeak = 8;
+/// How fast the sensitivity to colour falls with the frequency. A larger number takes bytes from
+/// details of colour for luma.
+constexpr double kColourFall = 0.09;
 
 double lumaSensitivity(double frequency) {
   const auto curve = [](double f) {
     return 2.6 * (0.0192 + 0.114 * f) * portable::exp(-portable::pow(0.114 * f, 1.1));
   };
-  constexpr double kPeak = 8;
   return frequency <= kPeak ? 1 : curve(frequency) / curve(kPeak);
 }
 
 double colourSensitivity(double frequency) {
-  return portable::exp(-0.09 * frequency);
+  return portable::exp(-kColourFall * frequency);
 }
 
 /// The middle of a band: three quarters of the level's highest frequency, along both axes for HH.

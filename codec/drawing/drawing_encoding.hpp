@@ -92,15 +92,19 @@ class DrawingEncoding : public DrawingDecisions {
   }
 
  private:
+  /// The error is measured each time that the codeword has grown by kGrowth; of drawings of more
+  /// than kLargeDrawing samples by kLargeGrowth, because each time takes a good part of that of
+  /// coding them. Smaller factors give the account more points, and take time.
+  static constexpr double kGrowth = 1.4, kLargeGrowth = 2.0;
   static constexpr size_t kLargeDrawing = size_t{1} << 18;
+  /// Bytes at which the error is measured first. Fewer of them take the time of points that are too
+  /// close to be packets.
   static constexpr uint64_t kLeastStep = 32;
-  /// Within the first so many bytes a vertex stands for so many samples that a wrong one makes the
-  /// prefix worse.
+  /// Within this number of bytes a vertex stands for enough samples to make the prefix worse where
+  /// it is wrong. A larger number makes more bytes wait until their packet is complete.
   static constexpr uint64_t kDippingBytes = 512;
 
-  /// The error is measured as often as the codeword has grown by so much; of large drawings less
-  /// often, because each time takes a good part of that of coding them.
-  double growth() const { return samples_.numbers.size() > kLargeDrawing ? 2.0 : 1.4; }
+  double growth() const { return samples_.numbers.size() > kLargeDrawing ? kLargeGrowth : kGrowth; }
 
   void note(uint64_t bytes) {
     const double squares = measure_();

@@ -17,6 +17,13 @@ namespace tetrakis::inline drawing {
 
 namespace {
 
+/// Values of samples that are like none around that are told apart. With fewer, wide terrain would
+/// seem to take few bits; more of them take memory.
+constexpr size_t kAlones = 1 << 14;
+/// Samples whose rows stand for a large plane, about. More of them tell its bits more exactly, and
+/// take time.
+constexpr size_t kSamplesOfAll = size_t{1} << 19;
+
 /// Bits of so many decisions, each coded as often as it occurs.
 double entropyOf(std::span<const uint32_t> counts) {
   double all = 0, bits = 0;
@@ -54,8 +61,6 @@ class Tally {
   }
 
  private:
-  static constexpr size_t kAlones = 1 << 14;  // differences of wide terrain, which takes many bits
-
   std::array<std::array<uint32_t, 3>, 16> kinds_{};
   std::vector<uint32_t> alones_ = std::vector<uint32_t>(kAlones);
   Alone alone_;
@@ -66,8 +71,7 @@ class Tally {
 /// Some rows of a large plane stand for all of them.
 template <class Value>
 double estimateDrawing(const PlaneView<const Value>& samples, Alone alone) {
-  constexpr size_t kSamples = size_t{1} << 19;
-  const auto between = static_cast<uint32_t>(1 + samples.extent().samples() / kSamples);
+  const auto between = static_cast<uint32_t>(1 + samples.extent().samples() / kSamplesOfAll);
   Tally<Value> tally(alone);
   uint32_t rows = 0;
   for (uint32_t y = 1; y < samples.height; y += between, ++rows) {

@@ -14,6 +14,8 @@ namespace tetrakis::inline mesh {
 
 namespace {
 
+/// Samples for each triangle that are left where fine levels are skipped, and the same where
+/// nothing is known of the finer levels. More samples fit meshes a little better, and take time.
 constexpr uint64_t kPerTriangle = 5, kPerQuietTriangle = 1;
 
 /// Finest levels that can be left out with so many samples left for each triangle.

@@ -15,9 +15,17 @@ namespace tetrakis::inline mesh {
 
 namespace {
 
+/// Halves and sevenths of the triangles that are wanted: those of the first stage and of the
+/// second. Twice as many triangles at first, or one stage more, change less than half a percent,
+/// and take time.
+constexpr uint64_t kFirstHalves = 3, kSecondSevenths = 8;
+/// Samples for a triangle of the finest mesh whose order is refined for all budgets; each mesh has
+/// half of the triangles of the one before. Fewer samples take time.
+constexpr size_t kSamplesForATriangle = 4;
+
 /// Triangles of the first of the stages for one mesh.
 uint64_t firstStage(uint32_t wanted) {
-  return wanted * uint64_t{3} / 2;
+  return wanted * kFirstHalves / 2;
 }
 
 }  // namespace
@@ -48,7 +56,8 @@ FittedSequence::FittedSequence(Lattice lattice, const WeightedSurface& surface,
 /// Above a quarter of a triangle a sample the samples themselves nearly fit.
 void FittedSequence::refine() {
   FittedMoments fitted(lattice_, surface_);
-  for (size_t triangles = lattice_.sampleCount() / 4; triangles > 0; triangles /= 2) {
+  for (size_t triangles = lattice_.sampleCount() / kSamplesForATriangle; triangles > 0;
+       triangles /= 2) {
     const size_t count = longestPrefix(static_cast<uint32_t>(triangles));
     if (count == 0) return;
     fitted.coarsen(std::span(order_).first(count));
@@ -58,11 +67,10 @@ void FittedSequence::refine() {
 }
 
 /// Two stages, close to the mesh that is wanted, each of which settles which vertices the next one
-/// has. Twice as many triangles at first, or one stage more, change less than half a percent. Above
-/// a triangle a sample the samples themselves nearly fit.
+/// has. Above a triangle a sample the samples themselves nearly fit.
 void FittedSequence::refineFor(uint32_t wanted) {
   FittedMoments fitted(lattice_, surface_);
-  const uint64_t stages[] = {firstStage(wanted), wanted * uint64_t{8} / 7, wanted};
+  const uint64_t stages[] = {firstStage(wanted), wanted * kSecondSevenths / 7, wanted};
   for (size_t stage = 0; stage + 1 < std::size(stages); ++stage) {
     if (stages[stage] > lattice_.sampleCount()) continue;
     const size_t count = longestPrefix(static_cast<uint32_t>(stages[stage]));

@@ -20,10 +20,14 @@ namespace {
 
 constexpr uint32_t kNoTwin = std::numeric_limits<uint32_t>::max();
 /// Doubled area of the smallest triangle that a turned edge may leave: what has fewer samples is
-/// right at all of them, and wrong between.
+/// right at all of them, and wrong between. Larger areas forbid turns that gain.
 constexpr int64_t kLeastArea = 4;
 /// A turn has to take this share off the error of two triangles, so that sweeps come to an end.
 constexpr double kLeastGain = 0x1p-20;
+/// Rounds of turning edges and fitting heights, and sweeps over all edges in each. Twice as many
+/// rounds gain nothing; each takes time.
+constexpr int kRounds = 3;
+constexpr uint32_t kSweeps = 3;
 
 uint32_t following(uint32_t half_edge) {
   return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
@@ -76,8 +80,6 @@ class EdgeTurner {
   }
 
   FittedMesh turned() && {
-    constexpr int kRounds = 3;
-    constexpr uint32_t kSweeps = 3;
     for (int round = 0; round < kRounds; ++round) {
       for (size_t t = 0; t < errors_.size(); ++t) errors_[t] = errorOf(cornersOf(t));
       std::fill(changes_.begin(), changes_.end(), 0u);

@@ -17,11 +17,16 @@ namespace tetrakis::inline mesh {
 
 namespace {
 
-/// Finest levels that can be left out with so many valid samples left for each triangle. At a coast
+/// Valid samples for each triangle that are left where fine levels are skipped. At a coast
 /// triangles are as small as samples are dense, so meshes want more samples here than elsewhere
-/// (budget_mesh.hpp).
+/// (budget_mesh.hpp). More samples take time.
+constexpr uint64_t kValidPerTriangle = 20;
+/// The part of the range of heights that voids lie below the lowest of them. Deeper pits draw more
+/// triangles to the borders of voids.
+constexpr int64_t kPitPart = 4;
+
+/// Finest levels that can be left out with kValidPerTriangle samples left for each triangle.
 uint32_t spareLevels(const WeightedSurface& surface, uint32_t max_triangles) {
-  constexpr uint64_t kValidPerTriangle = 20;
   if (!surface.view.weights.empty() || surface.known.empty()) return 0;
   const auto known = static_cast<uint64_t>(
       std::count_if(surface.known.begin(), surface.known.end(), [](uint8_t v) { return v != 0; }));
@@ -40,7 +45,7 @@ MaskedSurface withPits(MaskedSurface masked) {
     low = std::min(low, heights[i]);
     high = std::max(high, heights[i]);
   }
-  const int64_t depth = (int64_t{high} - low) / 4 + 1;
+  const int64_t depth = (int64_t{high} - low) / kPitPart + 1;
   const auto floor =
       static_cast<int32_t>(std::max<int64_t>(low - depth, std::numeric_limits<int32_t>::min()));
   for (size_t i = 0; i < heights.size(); ++i) {

@@ -48,8 +48,8 @@ Read readAt(const Line& line, size_t place) {
 
 /// FORMAT 7, "Rings": of any place.
 Read readRing(const Line& line, int64_t place) {
-  const auto n = static_cast<int64_t>(line.values.size()), round = n + n % 2;
-  place = (place % round + round) % round;
+  const auto n = static_cast<int64_t>(line.values.size()), places = n + n % 2;
+  place = (place % places + places) % places;
   if (place < n) return readAt(line, static_cast<size_t>(place));
   const Read before = readAt(line, static_cast<size_t>(n - 2)), after = readAt(line, 1);
   if (!before || !after) return std::nullopt;

@@ -8,6 +8,14 @@
 
 namespace tetrakis::inline heights {
 
+namespace {
+
+/// A late mask comes where coefficients leave this many times the squared error of the target, 6 dB
+/// before it. A larger factor shows prefixes their voids earlier, with coarser heights.
+constexpr double kBeforeEnd = 4;
+
+}  // namespace
+
 bool CodedHeights::restoresSamples() const {
   return header.stored() || header.exact || corrects();
 }
@@ -34,7 +42,6 @@ CodedHeights tryHeights(std::shared_ptr<const QuantisedHeights> quantised,
                        options.threads, target.purpose == Purpose::kLossy});
   if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
   HeightLayers layers = layersAround(*quantised, std::move(choice), options.priorities);
-  constexpr double kBeforeEnd = 4;  // of squared error: the mask comes 6 dB before the target
   layers.mask_room = target.mask_room;
   layers.mask_room.squares = kBeforeEnd * target.mean_square * quantised->counted();
   std::vector<EncodedTrack> coefficients =

@@ -29,11 +29,12 @@ struct CodedHeights {
   /// and a late mask among them, then corrections; other tracks hold coefficients alone, or
   /// corrections alone.
   std::vector<EncodedTrack> tracks;
-  uint64_t correction_bytes = 0;       ///< bytes of corrections in the first track
-  double left = 0;                     ///< QuantisedHeights::left, or the error of stored samples
-  double shown_void = 0;               ///< squared error, in steps, of a void shown as ground
-  FlatLayer flat = {};                 ///< beside which the coefficients were coded
-  std::vector<Account> accounts = {};  ///< of an attempt: of the coefficients of each track
+  uint64_t correction_bytes = 0;        ///< bytes of corrections in the first track
+  double left = 0;                      ///< QuantisedHeights::left, or the error of stored samples
+  double shown_void = 0;                ///< squared error, in steps, of a void shown as ground
+  FlatLayer flat = {};                  ///< beside which the coefficients were coded
+  std::vector<Account> accounts = {};   ///< of an attempt: of the coefficients of each track
+  std::optional<double> expected = {};  ///< bytes by the estimate for which they were tried
 
   /// The complete tracks restore every sample.
   bool restoresSamples() const;

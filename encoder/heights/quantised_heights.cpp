@@ -24,6 +24,17 @@ namespace tetrakis::inline heights {
 
 namespace {
 
+/// log2 of the squared error of a sample of unknown validity, and of the largest error of a sample,
+/// over the squared range. With more, masks come earlier among the coefficients, and exceptions
+/// weigh more beside all other samples.
+constexpr double kValidityLog2 = -4, kSampleLog2 = 4;
+/// A relative step beside exact steps is tried if it is this many times as wide. A smaller factor
+/// takes the time of another way of coding where exact steps mostly win.
+constexpr double kCoarser = 8;
+/// The part of a relative step that the step of coefficients may have. A larger part tries relative
+/// steps where the cut cannot come near to their multiples.
+constexpr double kFine = 1. / 4;
+
 /// Steps that suit the target, and whether corrections are to restore the samples that the steps do
 /// not show.
 struct ChosenSteps {
@@ -144,11 +155,11 @@ double QuantisedHeights::counted() const {
 }
 
 double QuantisedHeights::validityWorth() const {
-  return portable::exp2(2.0 * steps.range_bits - 4);
+  return portable::exp2(2.0 * steps.range_bits + kValidityLog2);
 }
 
 double QuantisedHeights::mostOfASample() const {
-  return portable::exp2(2.0 * steps.range_bits + 4);
+  return portable::exp2(2.0 * steps.range_bits + kSampleLog2);
 }
 
 double QuantisedHeights::squaresOf(const HeightSteps& other) const {
@@ -176,7 +187,6 @@ Result<std::shared_ptr<const QuantisedHeights>> quantiseInMultiples(const Encode
 }
 
 double relativeStepOf(const QuantisedHeights& heights) {
-  constexpr double kCoarser = 8;
   const HeightSteps& steps = heights.steps;
   if (heights.samples->step > 0) return 0;
   const double relative = findRelativeStep(*heights.samples, steps.valid);
@@ -186,7 +196,6 @@ double relativeStepOf(const QuantisedHeights& heights) {
 
 std::shared_ptr<const QuantisedHeights> quantiseForRelative(const EncodeInputs& inputs,
                                                             double relative_step) {
-  constexpr double kFine = 1. / 4;  // of the relative step
   Result<HeightSteps> steps = toSteps(*inputs.heights, {.leave_outliers = true});
   if (!steps.ok() || steps->step > kFine * relative_step) return nullptr;
   const double rmse = kRelativeCut * relative_step / steps->step;

@@ -29,6 +29,10 @@ struct QuantisedHeights {
   /// distance from it, and is nevertheless wrong.
   static constexpr double kInexact = 1e-200;
 
+  /// Fields of so few samples are small (isSmall()). A larger number saves bytes where estimates
+  /// are wrong, and takes the time of all ways to code a field.
+  static constexpr uint64_t kFewSamples = 1 << 14;
+
   const tks_heights* samples = nullptr;  ///< the input, which outlives this
   HeightSteps steps;
   GeometryLayers layers;               ///< the bytes of coefficients are not known yet
@@ -55,7 +59,7 @@ struct QuantisedHeights {
 
   /// Whether there are so few samples that estimates are often wrong, and that all ways to code the
   /// heights can be tried.
-  bool isSmall() const { return extentOf(*samples).samples() <= 1 << 14; }
+  bool isSmall() const { return extentOf(*samples).samples() <= kFewSamples; }
 
   /// The squared error, in steps, of a sample whose validity is not decoded rightly yet: that of a
   /// height which is off by a quarter of the range.

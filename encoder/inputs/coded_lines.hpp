@@ -22,8 +22,10 @@ struct CodedLines {
   /// most often, divided by the mean weight: the mean squared error of all samples is at most as
   /// many times that of the coded ones.
   double heaviest = 1;
-  static constexpr double kNearlyAlike = 1.1;  ///< `heaviest` where the difference is no matter
-  std::vector<uint32_t> shown_by;              ///< how many samples each coded one stands for
+  /// `heaviest` up to which a PSNR is met on coded samples. A larger number drops lines of more
+  /// files, and asks coded samples for an error that much smaller.
+  static constexpr double kNearlyAlike = 1.1;
+  std::vector<uint32_t> shown_by;  ///< how many samples each coded one stands for
 
   /// The coded part of `whole`. Its data is `samples`, which outlives the result.
   tks_heights of(const tks_heights& whole) const;

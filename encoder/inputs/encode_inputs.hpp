@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// EncodeInputs is the input of one encoding (heights, image, options, priorities) and the lines of
-// both components that are coded. The functions derive from it what both components need alike.
+// EncodeInputs is the input of one encoding (heights, image, options, priorities), with the lines
+// of both components that are coded, and the place for notes of what is weighed. The functions
+// derive from it what both components need alike.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include "codec/wavelet/choice/filter_choice.hpp"
 #include "codec/wavelet/priority_map.hpp"
 #include "encoder/inputs/coded_lines.hpp"
+#include "encoder/plans/plan_notes.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::inline inputs {
@@ -32,6 +34,7 @@ struct EncodeInputs {
   /// The same of the caller's image.
   const tks_image* whole_image = nullptr;
   const CodedLines* texel_lines = nullptr;
+  PlanNotes* notes = nullptr;  ///< of the plans that are weighed; null: nobody asked for them
 
   bool budgeted() const { return options.bytes != 0; }
   /// The caller's heights with all their lines.
@@ -76,7 +79,8 @@ struct EncodeInputs {
             .whole = whole,
             .lines = lines,
             .whole_image = whole_image,
-            .texel_lines = texel_lines};
+            .texel_lines = texel_lines,
+            .notes = notes};
   }
 };
 

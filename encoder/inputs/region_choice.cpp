@@ -9,7 +9,8 @@ namespace tetrakis::inline inputs {
 
 namespace {
 
-/// Sides of regions: they cost 1 to 3 % of the bytes (docs/MEASUREMENTS.md, "Windows").
+/// Sides of regions: they cost 1 to 3 % of the bytes (docs/MEASUREMENTS.md, "Windows"). Smaller
+/// regions cost more bytes, and windows need fewer.
 constexpr int kRegionLog2 = 9;
 /// Sides of regions in streams made for windows: they cost as much again, and a window of 512 takes
 /// a third less.

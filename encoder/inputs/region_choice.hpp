@@ -9,7 +9,8 @@
 namespace tetrakis::inline inputs {
 
 /// The largest number of heights in one region; more lie in several regions unless the caller says
-/// otherwise.
+/// otherwise. A larger number saves more planes the bytes that regions cost, and their windows take
+/// the whole plane.
 inline constexpr uint64_t kOneRegionHeights = 1025 * 1025;
 
 struct RegionChoice {

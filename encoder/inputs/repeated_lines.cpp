@@ -15,6 +15,19 @@ namespace tetrakis::inline inputs {
 
 namespace {
 
+/// One run of this number of runs may be longer than the others, and is broken. A larger number
+/// lets longer runs be, so that fewer lines are coded, and samples count less alike.
+constexpr size_t kLongRunIn = 20;
+/// The longest run, in mean runs, with which lines still count as repeated. A larger number saves
+/// the lines of more files, and lets samples count that much less alike.
+constexpr size_t kMostUneven = 2;
+/// The share of the samples that may be left where repeated lines are dropped. With a larger share
+/// the map of lines takes more bytes than it saves.
+constexpr double kMostLeft = 0.9;
+/// A map of lines may take this part of a budget. A smaller number lets maps take more of small
+/// budgets; a larger one codes lines that repeat others.
+constexpr uint64_t kMapPart = 8;
+
 /// The samples as bytes.
 class SampleBytes {
  public:
@@ -86,12 +99,13 @@ struct EvenLines {
   uint32_t longest;  ///< of their runs
 };
 
-/// Breaks runs that are longer than 19 of 20 runs are, and runs that would leave fewer than `least`
-/// lines: lines in them are coded though they repeat others. Where the longest run that is left is
-/// still more than twice the mean, no line counts as repeated.
+/// Breaks runs that are longer than nearly all runs are, and runs that would leave fewer than
+/// `least` lines: lines in them are coded though they repeat others. Where the longest run that is
+/// left is still much longer than the mean, no line counts as repeated.
 EvenLines evened(std::vector<uint8_t> repeated, uint32_t least) {
   std::vector<uint32_t> runs = runsOf(repeated);
-  const auto usual = runs.begin() + static_cast<ptrdiff_t>((runs.size() - 1) * 19 / 20);
+  const auto usual =
+      runs.begin() + static_cast<ptrdiff_t>((runs.size() - 1) * (kLongRunIn - 1) / kLongRunIn);
   std::nth_element(runs.begin(), usual, runs.end());
   const uint32_t most =
       std::min(*usual, static_cast<uint32_t>((repeated.size() + least - 1) / least));
@@ -100,7 +114,7 @@ EvenLines evened(std::vector<uint8_t> repeated, uint32_t least) {
     if (run == most) repeat = 0;
     run = repeat ? run + 1 : 1;
   }
-  const bool uneven = size_t{most} * codedOf(repeated) > 2 * repeated.size();
+  const bool uneven = size_t{most} * codedOf(repeated) > kMostUneven * repeated.size();
   if (uneven) return {std::vector<uint8_t>(repeated.size()), 1};
   return {std::move(repeated), most};
 }
@@ -108,7 +122,6 @@ EvenLines evened(std::vector<uint8_t> repeated, uint32_t least) {
 }  // namespace
 
 CodedLines findRepeatedLines(const SampleGrid& grid, uint32_t least) {
-  constexpr double kPays = 0.9;  // of the samples are left
   assert(grid.extent.samples() > 0 && least > 0);
   const SampleBytes samples(grid);
   auto [columns, most_columns] = evened(samples.repeatedColumns(), least);
@@ -121,7 +134,7 @@ CodedLines findRepeatedLines(const SampleGrid& grid, uint32_t least) {
   if (one_value && samples_of_all <= kOneRegionHeights) return {};
   const auto all = static_cast<double>(samples_of_all);
   const double left = static_cast<double>(lines.extent.samples()) / all;
-  if (left > kPays) return {};
+  if (left > kMostLeft) return {};
   lines.heaviest = static_cast<double>(uint64_t{most_columns} * most_rows) * left;
   lines.samples = samples.without(columns, rows);
   const std::vector<uint32_t> across = runsOf(columns), down = runsOf(rows);
@@ -134,10 +147,9 @@ CodedLines findRepeatedLines(const SampleGrid& grid, uint32_t least) {
 }
 
 CodedLines linesThatPay(const tks_encode_options& options, const SampleGrid& grid, uint32_t least) {
-  constexpr uint64_t kPart = 8;  // of a budget is too much for a map
   if (options.picture_error != nullptr) return {};
   CodedLines lines = findRepeatedLines(grid, least);
-  const bool long_map = options.bytes != 0 && lines.repeats.code.size() > options.bytes / kPart;
+  const bool long_map = options.bytes != 0 && lines.repeats.code.size() > options.bytes / kMapPart;
   return long_map ? CodedLines() : lines;
 }
 

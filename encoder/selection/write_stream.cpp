@@ -8,6 +8,7 @@
 
 #include "bitstream/stream/checksum.hpp"
 #include "bitstream/stream/header.hpp"
+#include "encoder/selection/selection_notes.hpp"
 #include "encoder/selection/stated_place.hpp"
 #include "ratecontrol/needs/packet_budget.hpp"
 
@@ -126,6 +127,7 @@ Result<std::vector<uint8_t>> writeStream(const EncodeInputs& inputs, const Selec
   }
   stream.insert(stream.end(), payload.begin(), payload.end());
   assert(!inputs.budgeted() || stream.size() <= budget);
+  noteTaken(inputs, selection, payload_bytes);
   return stream;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // writeStream() writes the finished stream of a selection: the header, its index, and the packets
-// that fit the budget.
+// that fit the budget. It notes the plans of what it has written as taken.
 #pragma once
 
 #include <cstdint>

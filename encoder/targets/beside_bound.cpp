@@ -21,6 +21,9 @@ namespace tetrakis::inline targets {
 namespace {
 
 constexpr double kLeastPsnr = 0.1, kMostPsnr = 300;  // dB; 0 is no target
+/// Heights beside a bound are coded for this PSNR at least, in dB, so that there are packets to
+/// order. A larger number takes time; with a smaller one a coarse bound leaves packets too few.
+constexpr double kOrderedPsnr = 30;
 
 /// The PSNR of heights. Exact samples are as good as errors spread evenly within half of the step
 /// that all of them are multiples of.
@@ -39,7 +42,6 @@ double psnrOf(const EncodeInputs& inputs, const CodedHeights& heights) {
 /// where the step that the caller gave is too coarse for this PSNR.
 std::shared_ptr<const CodedHeights> codeForPsnr(const EncodeInputs& inputs,
                                                 tks_encode_options options) {
-  constexpr double kOrderedPsnr = 30;
   options.psnr = std::max(options.psnr, kOrderedPsnr);
   const EncodeInputs to_psnr = inputs.with(options, inputs.priorities);
   const Result<std::shared_ptr<const QuantisedHeights>> quantised = quantiseHeights(to_psnr);
@@ -52,8 +54,9 @@ uint64_t textureBesideBound(const EncodeInputs& inputs, const Candidates& candid
   tks_encode_options options = inputs.options;
   options.max_error = 0;
   options.psnr = psnrOf(inputs, *candidates.heights.coded);
-  const EncodeInputs to_psnr = inputs.with(options, inputs.priorities);
-  const std::shared_ptr<const CodedHeights> heights = codeForPsnr(inputs, options);
+  EncodeInputs to_psnr = inputs.with(options, inputs.priorities);
+  to_psnr.notes = nullptr;  // these heights are no candidates
+  const std::shared_ptr<const CodedHeights> heights = codeForPsnr(to_psnr, options);
   if (!heights) return kAllBytes;
   const Candidates both = withCurves(to_psnr, {{heights}, candidates.texture});
   const uint64_t need = heightsNeed(to_psnr, both.heights).value_or(kAllBytes);

@@ -10,7 +10,9 @@
 #include "encoder/heights/direct_heights.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/height_options.hpp"
+#include "encoder/heights/heights_notes.hpp"
 #include "encoder/targets/component_curves.hpp"
+#include "encoder/textures/texture_notes.hpp"
 #include "encoder/views/pairs.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
 #include "ratecontrol/allocation/packet_slopes.hpp"
@@ -89,15 +91,25 @@ HeightsCandidate storedIfShorter(const EncodeInputs& inputs, HeightsCandidate he
   assert(!inputs.budgeted());
   const CodedHeights& coded = *heights.coded;
   const uint64_t samples = storedBytes(*inputs.heights, coded.quantised->steps.validCount());
-  const bool shorter =
-      samples > 0 && samples + coded.quantised->layers.validity_bytes < heights.bytes();
-  return shorter ? candidateOf(storeHeights(coded.quantised, inputs.options.threads))
-                 : std::move(heights);
+  if (samples == 0) return heights;
+  const uint64_t stored = samples + coded.quantised->layers.validity_bytes;
+  if (stored >= heights.bytes()) {
+    noteExpected(inputs, planOf(*coded.quantised, Coding::kStored), static_cast<double>(stored));
+    return heights;
+  }
+  note(inputs, coded, Verdict::kLonger, heights.need);
+  return candidateOf(storeHeights(coded.quantised, inputs.options.threads));
 }
 
-TextureCandidate storedIfShorter(TextureCandidate texture) {
-  const bool shorter = storedBytes(texture.coded->source->texels) < texture.bytes();
-  return shorter ? candidateOf(storeTexture(texture.coded->source)) : std::move(texture);
+TextureCandidate storedIfShorter(const EncodeInputs& inputs, TextureCandidate texture) {
+  const CodedTexture& coded = *texture.coded;
+  const uint64_t stored = storedBytes(coded.source->texels);
+  if (stored >= texture.bytes()) {
+    if (!coded.header.stored) noteStoredExpected(inputs, stored);
+    return texture;
+  }
+  note(inputs, coded, Verdict::kLonger, texture.need);
+  return candidateOf(storeTexture(coded.source));
 }
 
 }  // namespace tetrakis::inline targets

@@ -26,7 +26,8 @@ struct Candidates {
   std::shared_ptr<const PairErrors> errors = {};  ///< of both; null where there is but one
 };
 
-/// RMSE in steps, or texel units, below which the last bit is worth a try.
+/// RMSE in steps, or texel units, below which the last bit is worth a try. A larger number takes
+/// the time of more trials; with a smaller one budgets end before the last bit that could hold it.
 inline constexpr double kNearlyExact = 0.6;
 
 /// The candidates with the curves of both components and with the errors that viewers see: those
@@ -53,6 +54,6 @@ TextureCandidate codeLossless(const EncodeInputs& inputs, const CodedTexture& te
 /// The candidate itself, or the samples stored without coding where these take fewer bytes, as
 /// noise does.
 HeightsCandidate storedIfShorter(const EncodeInputs& inputs, HeightsCandidate heights);
-TextureCandidate storedIfShorter(TextureCandidate texture);
+TextureCandidate storedIfShorter(const EncodeInputs& inputs, TextureCandidate texture);
 
 }  // namespace tetrakis::inline targets

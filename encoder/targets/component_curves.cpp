@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "codec/mesh/decimation/decimation.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/views/shown_mesh.hpp"
 
@@ -11,10 +12,19 @@ namespace tetrakis::inline targets {
 
 namespace {
 
+/// Tracks of more samples are decoded anew for each prefix. A larger number takes eight bytes of
+/// memory for each sample, and saves some hundredths of the time of encoding.
+constexpr size_t kRemembered = size_t{1} << 22;
+/// Heights end where their squared error is this part of the error of a mesh of the triangle
+/// budget. With 16 the RMSE of the mesh would fall by 3 % at most; a larger number takes bytes from
+/// the texture.
+constexpr double kMeshPart = 16;
+
 /// The budget does not limit the audit of lossless coefficients, because they are sent whole or not
-/// at all. Lossy ones of 20 bits have no fraction bits either.
+/// at all. Lossy ones of as many bits have no fraction bits either.
 AuditScope auditScope(const EncodeInputs& inputs, size_t samples, const WaveletHeader& wavelet) {
-  const bool lossless = wavelet.fraction_bits == 0 && wavelet.bits > 0 && wavelet.bits < 20;
+  const bool lossless =
+      wavelet.fraction_bits == 0 && wavelet.bits > 0 && wavelet.bits < kBitsWithFractions;
   return {samples, inputs.budgeted() && !lossless ? inputs.options.bytes : UINT64_MAX,
           inputs.options.max_error > 0};
 }
@@ -23,7 +33,6 @@ AuditScope auditScope(const EncodeInputs& inputs, size_t samples, const WaveletH
 /// remembering all states takes eight bytes a sample beside the memory of encoding, and saves some
 /// hundredths of its time.
 bool areTooLarge(const std::vector<EncodedTrack>& tracks, size_t samples) {
-  constexpr size_t kRemembered = size_t{1} << 22;
   return tracks.size() > 1 && samples > kRemembered;
 }
 
@@ -35,8 +44,7 @@ TrackOrder trackOrderOf(const tks_encode_options& options) {
 
 /// The mean squared error of the heights (in steps) below which more bytes no longer help, with a
 /// triangle budget whose meshes cameras do not look at (encoder/views/shown_mesh.hpp). A mesh of
-/// that many triangles is itself off by sixteen times as much, so that its RMSE would fall by 3 %
-/// at most. 0 without a triangle budget.
+/// that many triangles is itself off by kMeshPart times as much. 0 without a triangle budget.
 double meshFloor(const QuantisedHeights& heights, uint32_t triangles) {
   if (triangles == 0) return 0;
   const Result<MeshSequence> sequence =
@@ -44,7 +52,7 @@ double meshFloor(const QuantisedHeights& heights, uint32_t triangles) {
   if (!sequence.ok()) return 0;
   const double squares = sequence->squaredError(sequence->bestPrefix(triangles));
   assert(squares >= 0);
-  return squares / heights.counted() / 16;
+  return squares / heights.counted() / kMeshPart;
 }
 
 }  // namespace

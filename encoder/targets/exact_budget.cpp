@@ -2,6 +2,7 @@
 #include "encoder/targets/exact_budget.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <optional>
@@ -21,6 +22,13 @@
 namespace tetrakis::inline targets {
 
 namespace {
+
+/// The parts of the budget whose pictures decide between exact and lossy streams. More of them take
+/// the time of decoding and looking; smaller ones count for early prefixes.
+constexpr std::array<double, 6> kPictureParts = {1. / 16, 1. / 8, 1. / 4, 1. / 2, 3. / 4, 1.};
+/// The squared error of pictures, in parts of 255, that nobody can see: 60 dB. A larger number lets
+/// fewer errors count against the prefixes of exact streams.
+constexpr double kUnseen = 65025e-6;
 
 /// Whether the last bit of each component is in reach of the budget, or the stream lacks the
 /// component: the budget holds all of the component, or its error is nearly that of exact samples.
@@ -113,7 +121,7 @@ std::vector<double> errorsWithin(const EncodeInputs& inputs, const PrefixErrors&
                                  Selection selection) {
   selection.packets = joinNeighbours(selection.packets);
   std::vector<uint64_t> lengths;
-  for (const double part : {1. / 16, 1. / 8, 1. / 4, 1. / 2, 3. / 4, 1.})
+  for (const double part : kPictureParts)
     lengths.push_back(static_cast<uint64_t>(part * static_cast<double>(inputs.options.bytes)));
   return errors.of(selection, lengths);
 }
@@ -121,7 +129,6 @@ std::vector<double> errorsWithin(const EncodeInputs& inputs, const PrefixErrors&
 /// Whether the tried pictures are as good with all bytes, and better by as many decibels as
 /// prefixes lose in all. Errors that nobody can see do not count.
 bool pays(const std::vector<double>& tried, const std::vector<double>& lossy) {
-  constexpr double kUnseen = 65025e-6;  // 60 dB
   double logarithms = 0;
   for (size_t i = 0; i < lossy.size(); ++i)
     logarithms += portable::log(std::max(tried[i], kUnseen) / std::max(lossy[i], kUnseen));

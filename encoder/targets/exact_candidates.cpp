@@ -1,19 +1,50 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/targets/exact_candidates.hpp"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "base/portable_math.hpp"
 #include "encoder/heights/height_errors.hpp"
+#include "encoder/heights/heights_notes.hpp"
 #include "encoder/heights/ways/corrected_heights.hpp"
 #include "encoder/heights/ways/relative_heights.hpp"
 #include "encoder/heights/ways/restored_heights.hpp"
 #include "encoder/targets/component_curves.hpp"
+#include "encoder/textures/texture_notes.hpp"
 
 namespace tetrakis::inline targets {
 
 namespace {
+
+/// Longer parts of a lossless component than these look like the whole of it: photographs have 40
+/// dB. Larger parts let late prefixes decide, which lossless components show as well.
+constexpr double kMostOfHeights = 1. / 2, kMostOfTexels = 1. / 8;
+/// The parts of these parts at which prefixes are compared. More of them take the time of decoding
+/// two prefixes each.
+constexpr std::array<double, 5> kComparedParts = {1. / 16, 1. / 8, 1. / 4, 1. / 2, 1.};
+/// A prefix of a lossless component may take this many times the bytes of a lossy one. A larger
+/// factor ends more streams exact, and their prefixes lose as many bytes.
+constexpr double kPriceOfExact = 1.03;
+/// The RMSE, in steps, from which on corrections follow. Finer cuts take as many bytes or more in
+/// all, and behind coarser cuts prefixes lose quality.
+constexpr double kExactCut = 0.3;
+/// The same beside a texture that is not exact: the texture gains more from 3 % of the bytes than
+/// prefixes lose.
+constexpr double kSharedExactCut = 0.5;
+/// Budgets above this many times the bytes of texels in tables end with the tables. A larger number
+/// compares prefixes more often; a smaller one costs prefixes quality.
+constexpr uint64_t kRoomOfTexelTable = 2;
+
+/// Whether the candidate takes fewer bytes than the room. It is noted: what has room may yet turn
+/// out worse than the lossy candidate.
+template <class Coded>
+bool hasRoom(const EncodeInputs& inputs, const Candidate<Coded>& candidate, uint64_t room) {
+  const bool has_room = candidate.bytes() < room;
+  note(inputs, *candidate.coded, has_room ? Verdict::kWorseInBudget : Verdict::kNoRoom);
+  return has_room;
+}
 
 /// The lossy heights with corrections that restore their samples, made in each way that takes fewer
 /// than `room` bytes.
@@ -22,7 +53,9 @@ std::vector<HeightsCandidate> restoredWithin(const EncodeInputs& inputs, const C
   const uint32_t threads = inputs.options.threads;
   std::vector<HeightsCandidate> ways;
   const auto add = [&](std::optional<CodedHeights> way) {
-    if (way && bytesOf(way->tracks) < room) ways.push_back(candidateOf(*std::move(way)));
+    if (!way) return;
+    HeightsCandidate candidate = candidateOf(*std::move(way));
+    if (hasRoom(inputs, candidate, room)) ways.push_back(std::move(candidate));
   };
   if (neighbours.relative_step > 0) add(codeRelative(lossy, neighbours.relative_step, threads));
   if (neighbours.facets) {
@@ -33,12 +66,8 @@ std::vector<HeightsCandidate> restoredWithin(const EncodeInputs& inputs, const C
   return ways;
 }
 
-/// Longer parts of a lossless component than these look like the whole of it: photographs have 40
-/// dB.
-constexpr double kMostOfHeights = 1. / 2, kMostOfTexels = 1. / 8;
-
 /// Whether prefixes of the first candidate, up to a part of it, are as good in the mean as prefixes
-/// of the second that have 3 % fewer bytes. Both have curves.
+/// of the second that have a few percent fewer bytes; else the first is noted. Both have curves.
 template <class Coded>
 bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
                    const Candidate<Coded>& lossy, double most) {
@@ -48,10 +77,12 @@ bool keepsPrefixes(const EncodeInputs& inputs, const Candidate<Coded>& tried,
     return squaresOf(*candidate.coded, prefix, inputs.options.threads);
   };
   double logarithms = 0;
-  for (const double part : {1. / 16, 1. / 8, 1. / 4, 1. / 2, 1.}) {
+  for (const double part : kComparedParts) {
     const double bytes = part * most * static_cast<double>(tried.bytes());
-    logarithms += portable::log(squares_after(tried, bytes) / squares_after(lossy, bytes / 1.03));
+    logarithms +=
+        portable::log(squares_after(tried, bytes) / squares_after(lossy, bytes / kPriceOfExact));
   }
+  if (logarithms > 0) note(inputs, *tried.coded, Verdict::kWorsePrefixes);
   return logarithms <= 0;
 }
 
@@ -59,23 +90,20 @@ bool canBeCorrected(const CodedHeights& heights) {
   return hasLosslessWay(heights) && heights.quantised->table.empty();
 }
 
-/// The RMSE, in steps, from which on corrections follow. Finer cuts take as many bytes or more in
-/// all, and behind coarser cuts prefixes lose quality.
-constexpr double kExactCut = 0.3;
-/// The same beside a texture that is not exact: the texture gains more from 3 % of the bytes than
-/// prefixes lose.
-constexpr double kSharedExactCut = 0.5;
-
 /// The heights with corrections in fewer than `room` bytes. The cut is fine, so that prefixes are
 /// those of the lossy heights for long, unless this takes far more bytes than another cut.
 std::optional<HeightsCandidate> correctedHeights(const EncodeInputs& inputs,
                                                  const CodedHeights& lossy, uint64_t room) {
   std::optional<CodedHeights> corrected = codeCorrected(inputs, lossy, kExactCut);
   const uint64_t bytes = corrected ? bytesOf(corrected->tracks) : room;
-  if (const std::optional<double> rmse = farShorterCut(lossy, bytes))
+  if (const std::optional<double> rmse = farShorterCut(lossy, bytes)) {
+    if (corrected) note(inputs, *corrected, Verdict::kLonger);
     corrected = codeCorrected(inputs, lossy, std::max(*rmse, kExactCut));
-  if (!corrected || bytesOf(corrected->tracks) >= room) return {};
-  return candidateOf(*std::move(corrected));
+  }
+  if (!corrected) return {};
+  HeightsCandidate candidate = candidateOf(*std::move(corrected));
+  if (!hasRoom(inputs, candidate, room)) return {};
+  return candidate;
 }
 
 }  // namespace
@@ -90,13 +118,13 @@ std::optional<HeightsCandidate> exactHeights(const EncodeInputs& inputs,
                                              const HeightsCandidate& lossy,
                                              const ByNeighbours& neighbours, uint64_t room) {
   std::vector<HeightsCandidate> ways = restoredWithin(inputs, *lossy.coded, neighbours, room);
-  if (!ways.empty()) return fewestBytes(std::move(ways));
+  if (!ways.empty()) return fewestBytes(std::move(ways), notingLonger(inputs));
   if (!hasLosslessWay(*lossy.coded)) return {};
   if (canBeCorrected(*lossy.coded)) {
     if (auto corrected = correctedHeights(inputs, *lossy.coded, room)) return corrected;
   }
   HeightsCandidate whole = codeLossless(inputs, *lossy.coded);
-  if (whole.bytes() >= room) return {};
+  if (!hasRoom(inputs, whole, room)) return {};
   whole.curve = curveOfHeights(inputs, *whole.coded);
   if (!keepsPrefixes(inputs, whole, lossy, kMostOfHeights)) return {};
   return whole;
@@ -108,10 +136,13 @@ std::optional<TextureCandidate> exactTexture(const EncodeInputs& inputs,
   const bool few = gapOfValues(*lossy.coded) > 1;
   TextureCandidate whole =
       few ? codeLossless(inputs, *lossy.coded) : candidateOf(codeReversibly(inputs, *lossy.coded));
-  if (lossy.coded->header.direct() && lossy.bytes() <= whole.bytes()) return lossy;
-  if (whole.bytes() >= room) return {};
+  if (lossy.coded->header.direct() && lossy.bytes() <= whole.bytes()) {
+    note(inputs, *whole.coded, Verdict::kLonger);
+    return lossy;
+  }
+  if (!hasRoom(inputs, whole, room)) return {};
   whole.curve = curveOfTexture(inputs, *whole.coded);
-  if (few && 2 * whole.bytes() <= inputs.options.bytes) return whole;
+  if (few && kRoomOfTexelTable * whole.bytes() <= inputs.options.bytes) return whole;
   if (!keepsPrefixes(inputs, whole, lossy, kMostOfTexels)) return {};
   return whole;
 }
@@ -120,7 +151,7 @@ std::vector<HeightsCandidate> exactWays(const EncodeInputs& inputs, const Height
                                         const ByNeighbours& neighbours) {
   std::vector<HeightsCandidate> ways;
   const auto add = [&](HeightsCandidate way) {
-    if (way.bytes() >= inputs.options.bytes) return;
+    if (!hasRoom(inputs, way, inputs.options.bytes)) return;
     way.curve = curveOfHeights(inputs, *way.coded);
     if (!way.coded->hasCorrections() && !keepsPrefixes(inputs, way, lossy, kMostOfHeights)) return;
     ways.push_back(std::move(way));

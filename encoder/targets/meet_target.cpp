@@ -7,13 +7,16 @@
 #include <utility>
 #include <vector>
 
+#include "encoder/heights/heights_notes.hpp"
 #include "encoder/heights/ways/exact_heights.hpp"
+#include "encoder/selection/selection_notes.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "encoder/targets/beside_bound.hpp"
 #include "encoder/targets/candidates.hpp"
 #include "encoder/targets/component_curves.hpp"
 #include "encoder/targets/exact_budget.hpp"
 #include "encoder/targets/heights_need.hpp"
+#include "encoder/textures/texture_notes.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
 #include "ratecontrol/needs/needed_bytes.hpp"
 #include "ratecontrol/needs/packet_budget.hpp"
@@ -64,7 +67,9 @@ Selection meetBudget(const EncodeInputs& inputs, Candidates lossy) {
   lossy = withCurves(inputs, std::move(lossy));
   Selection selection = withMaskInBudget(inputs, orderPackets(lossy));
   std::optional<Selection> exact = exactWithinBudget(inputs, lossy, selection);
-  return exact ? *std::move(exact) : selection;
+  if (!exact) return selection;
+  noteOthers(inputs, *exact, selection);
+  return *std::move(exact);
 }
 
 /// The first bytes of the texture's packets that reach the PSNR; all of them where none do.
@@ -84,7 +89,7 @@ HeightsCandidate preferExact(const EncodeInputs& inputs, HeightsCandidate lossy)
   const auto exact =
       exactHeightsFor(inputs, steps * lossy.coded->quantised->steps.step, lossy.bytes());
   if (!exact) return lossy;
-  return fewestBytes<CodedHeights>({std::move(lossy), {exact}});
+  return fewestBytes<CodedHeights>({std::move(lossy), {exact}}, notingLonger(inputs));
 }
 
 /// Heights of the PSNR. They are coded to the last bit where no lossy heights reach it, as with
@@ -95,8 +100,10 @@ Result<HeightsCandidate> reachingPsnr(const EncodeInputs& inputs, HeightsCandida
     return preferExact(inputs, std::move(lossy));
   }
   const bool any_step = inputs.heights->step == 0;
-  if (const auto exact = any_step ? exactHeightsFor(inputs, 0, UINT64_MAX) : nullptr)
+  if (const auto exact = any_step ? exactHeightsFor(inputs, 0, UINT64_MAX) : nullptr) {
+    note(inputs, *lossy.coded, Verdict::kMissesTarget);
     return HeightsCandidate{exact};
+  }
   return Status(TKS_USAGE,
                 "This PSNR is above what the step of the heights allows; give a smaller step.");
 }
@@ -108,7 +115,7 @@ TextureCandidate preferExact(const EncodeInputs& inputs, TextureCandidate lossy)
   const double rmse = rmseOf(qualityAfter(inputs, lossy, lossy.bytes()));
   if (rmse > kNearlyExact * gapOfValues(*lossy.coded)) return lossy;
   TextureCandidate lossless = codeLossless(inputs, *lossy.coded);
-  return fewestBytes<CodedTexture>({std::move(lossy), std::move(lossless)});
+  return fewestBytes<CodedTexture>({std::move(lossy), std::move(lossless)}, notingLonger(inputs));
 }
 
 /// Each component reaches the PSNR by itself.
@@ -122,7 +129,7 @@ Result<Selection> meetPsnr(const EncodeInputs& inputs, Candidates candidates) {
   }
   if (texture.coded) {
     texture.need = textureNeed(inputs, texture);
-    texture = storedIfShorter(preferExact(inputs, std::move(texture)));
+    texture = storedIfShorter(inputs, preferExact(inputs, std::move(texture)));
   }
   return selectNeeded(inputs, withCurves(inputs, std::move(candidates)));
 }
@@ -137,7 +144,7 @@ Selection meetWholeHeights(const EncodeInputs& inputs, Candidates candidates) {
     texture = preferExact(inputs, std::move(texture));
   }
   if (heights.coded) heights = storedIfShorter(inputs, std::move(heights));
-  if (texture.coded) texture = storedIfShorter(std::move(texture));
+  if (texture.coded) texture = storedIfShorter(inputs, std::move(texture));
   return selectNeeded(inputs, withCurves(inputs, std::move(candidates)));
 }
 

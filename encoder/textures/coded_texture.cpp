@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/samples.hpp"
+#include "encoder/textures/texture_notes.hpp"
 #include "encoder/textures/texture_options.hpp"
 #include "ratecontrol/curves/audit.hpp"
 #include "texture_wavelet/drawn/drawn_prefixes.hpp"
@@ -21,6 +22,16 @@ namespace {
 CodedTexture codedBy(std::shared_ptr<const TextureSource> source, EncodedTexture encoded) {
   assert(!encoded.tracks.empty() && encoded.header.width == source->texels.width);
   return {std::move(source), std::move(encoded.header), std::move(encoded.tracks)};
+}
+
+/// Codes the texture by the coder that suits it, and notes what was passed over.
+CodedTexture codeNoting(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> source,
+                        Purpose purpose, TextureOptions options) {
+  PassedTextures passed;
+  if (inputs.notes != nullptr) options.passed = &passed;
+  EncodedTexture encoded = encodeTexture(*source, purpose, options);
+  notePassed(inputs, *source, passed);
+  return codedBy(std::move(source), std::move(encoded));
 }
 
 }  // namespace
@@ -50,8 +61,8 @@ double CodedTexture::counted() const {
 
 CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> source,
                          Purpose purpose) {
-  EncodedTexture encoded = encodeTexture(*source, purpose, textureOptions(inputs, source->texels));
-  return codedBy(std::move(source), std::move(encoded));
+  const TextureOptions options = textureOptions(inputs, source->texels);
+  return codeNoting(inputs, std::move(source), purpose, options);
 }
 
 CodedTexture codeReversibly(const EncodeInputs& inputs, const CodedTexture& lossy) {
@@ -67,7 +78,7 @@ CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
   if (reachesPsnr(inputs, coded, codewordsOf(coded.tracks))) return coded;
   TextureOptions to_the_end = textureOptions(inputs, coded.source->texels);
   to_the_end.mean_square = 0;
-  return codedBy(coded.source, encodeTexture(*coded.source, purposeOf(inputs), to_the_end));
+  return codeNoting(inputs, coded.source, purposeOf(inputs), to_the_end);
 }
 
 double gapOfValues(const CodedTexture& texture) {

@@ -5,8 +5,15 @@
 
 namespace tetrakis::inline textures {
 
+namespace {
+
+/// The largest number of texels in one region. A larger number saves more textures the bytes that
+/// regions cost; their windows then take the whole texture.
+constexpr uint64_t kOneRegionTexels = 2048 * 2048;
+
+}  // namespace
+
 TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) {
-  constexpr uint64_t kOneRegionTexels = 2048 * 2048;
   const tks_encode_options& options = inputs.options;
   const Extent extent = texels.extent();
   const RegionChoice regions = chooseRegions(options, extent, extent.samples() > kOneRegionTexels);

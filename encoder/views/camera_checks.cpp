@@ -14,8 +14,9 @@ namespace tetrakis::inline views {
 namespace {
 
 /// How many points of a picture are looked at: at first, and in the end about as many as
-/// a picture of 768 x 512 has pixels.
-constexpr size_t kFewPoints = 1 << 10, kManyPoints = 1 << 19;
+/// a picture of 768 x 512 has pixels; each time this many times as many as before. More points find
+/// smaller pieces of ground before a camera is refused, and take time.
+constexpr size_t kFewPoints = 1 << 10, kManyPoints = 1 << 19, kMorePoints = 8;
 
 Status blames(const Camera& camera, const char* what) {
   return {TKS_USAGE, "Camera '" + shownText(camera.name) + "' " + what + "."};
@@ -23,7 +24,7 @@ Status blames(const Camera& camera, const char* what) {
 
 /// The ground may fill so small a part of the picture that no point of a few falls on it.
 bool seesNothing(const Camera& camera, const GroundRays& ground) {
-  for (size_t count = kFewPoints; count <= kManyPoints; count *= 8) {
+  for (size_t count = kFewPoints; count <= kManyPoints; count *= kMorePoints) {
     const ScreenPoints points({camera}, count);
     if (points.blindCameras(points.seenOf(ground, {1, 1})).empty()) return false;
   }

@@ -14,8 +14,11 @@ namespace {
 /// Texels and samples for each byte of a prefix, of the level that is decoded. With 6 texels or 12
 /// heights a byte, detail that the prefix holds would be missing where the next level is just not
 /// reached: errors of every other node were up to two thirds too large. Priorities put the bytes
-/// where cameras are near.
-constexpr uint64_t kTexelsPerByte = 24, kSamplesPerByte = 24, kNearCameras = 4, kLeast = 4096;
+/// where cameras are near. Larger numbers take the time of finer levels.
+constexpr uint64_t kTexelsPerByte = 24, kSamplesPerByte = 24, kNearCameras = 4;
+/// Texels or samples of the coarsest level that is decoded, and its least side, at least. Larger
+/// numbers show the first nodes more exactly, and take time.
+constexpr uint64_t kLeast = 4096, kLeastSide = 32;
 
 /// The heights that a view of a coarser level shows, with the last ones once more where they do not
 /// reach the border.
@@ -37,7 +40,7 @@ View enoughOf(Extent whole, uint64_t samples) {
   View view;
   const uint64_t enough = std::max(samples, kLeast);
   while (view.extentIn(whole).samples() / 4 >= enough &&
-         std::min(whole.width, whole.height) >> (view.level + 1) >= 32)
+         std::min(whole.width, whole.height) >> (view.level + 1) >= kLeastSide)
     ++view.level;
   return view;
 }

@@ -19,7 +19,8 @@ GroundFrame frameOf(const tks_heights& heights);
 /// samples: of the type and size of `like`. valid: as findVoids() has it.
 Relief reliefOf(const tks_heights& like, const void* samples, const std::vector<uint8_t>& valid);
 
-/// Pixels that are looked at, of all pictures together.
+/// Pixels that are looked at, of all pictures together. With two thirds of them a mean loss of
+/// 0.015 dB becomes 0.040; more of them take time.
 inline constexpr size_t kViewPixels = 3072;
 
 std::vector<Camera> givenCameras(const tks_encode_options& options);

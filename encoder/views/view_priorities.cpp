@@ -16,9 +16,11 @@ namespace tetrakis::inline views {
 
 namespace {
 
-/// Pixels of all pictures: some hundreds for each tile. Half of them cost baviaanskloof 0.04 dB.
+/// Pixels of all pictures: some hundreds for each tile. Half of them cost baviaanskloof 0.04 dB;
+/// more of them take time.
 constexpr size_t kMapPixels = 1 << 16;
-/// A typical error of heights, as a share of their range: that of streams of 16 to 64 kB.
+/// A typical error of heights, as a share of their range: that of streams of 16 to 64 kB. A larger
+/// error suits the priorities to shorter streams.
 constexpr double kTypicalError = 0.005;
 /// The share of the computed priorities that heights get. A pixel is off as its texels are,
 /// whatever the size of their errors. Errors of heights cost in proportion to their squares only as

@@ -217,6 +217,67 @@ typedef enum tks_index TKS_INT {
                             lossless streams, and of heights alone within max_error */
 } tks_index;
 
+/* What a component is coded as, before a residual corrects it. */
+typedef enum tks_base TKS_INT {
+  TKS_BASE_STORED = 0,  /* nothing: the samples are stored */
+  TKS_BASE_DRAWING = 1, /* shapes of few values */
+  TKS_BASE_WAVELET = 2  /* coefficients */
+} tks_base;
+
+/* What corrections behind the base restore. */
+typedef enum tks_residual TKS_INT {
+  TKS_RESIDUAL_NONE = 0,
+  TKS_RESIDUAL_WITHIN = 1, /* every sample, but for an error of at most `within` */
+  TKS_RESIDUAL_EXACT = 2   /* every step or sample */
+} tks_residual;
+
+/* Whether the encoder took a plan, or else why not. */
+typedef enum tks_verdict TKS_INT {
+  TKS_VERDICT_TAKEN = 0,
+  TKS_VERDICT_EXPECTED_LONGER = 1, /* an estimate says that it takes more bytes, or hardly fewer:
+                                      it was not coded */
+  TKS_VERDICT_LONGER = 2,          /* it takes more bytes than another plan, or as many */
+  TKS_VERDICT_MISSES_TARGET = 3,   /* all of its bytes do not reach the error asked for */
+  TKS_VERDICT_NO_ROOM = 4,         /* tks_encode_options.bytes does not hold it */
+  TKS_VERDICT_WORSE_PREFIXES = 5,  /* prefixes of it lose more than its bytes save */
+  TKS_VERDICT_WORSE_IN_BUDGET = 6  /* what the budget holds of it shows more errors, or its end is
+                                      of no use there */
+} tks_verdict;
+
+/* A plan by which the encoder has coded a component, or thought of coding it. Errors are those of
+ * heights in `unit`, or of texels as these are. Texts are English words, for people: later versions
+ * may have others. The struct and its texts belong to the library and are there until the call of
+ * tks_explain returns. Later versions may append fields: `size` tells which are there. */
+typedef struct tks_weighed_plan {
+  size_t size;           /* sizeof(tks_weighed_plan) of the library */
+  int is_texture;        /* 0: it is about the heights */
+  tks_verdict verdict;
+  tks_base base;
+  tks_residual residual;
+  double step;           /* of heights, in samples; 0: places in a table, or samples themselves */
+  uint32_t table_values; /* of the tables of values, all together; 0: there is none */
+  int fractions;         /* non-zero: the wavelet keeps fractions, and does not end exact */
+  const char* filters;   /* of level 1, of level 2 and of coarser ones: "six-tap, six-tap, quiet";
+                            "": the plan has none, or an estimate did without their choice */
+  const char* predictor; /* from which the residual starts: "base", "neighbours", "relative steps",
+                            "facets"; "": there is no residual */
+  const char* layers;    /* beside the base: "mask, flat areas, regions"; "": none */
+  double cut;            /* the RMSE at which the wavelet ends ahead of the residual; < 0: it goes
+                            to its end */
+  double within;         /* of TKS_RESIDUAL_WITHIN; else 0 */
+  double expected_bytes; /* by an estimate of its tracks; < 0: none was made */
+  int coded;             /* 0: it was not coded, and what follows is 0 */
+  uint64_t coded_bytes;  /* of its tracks; where it had lost, coding may have ended early */
+  uint64_t needed_bytes; /* of these, what the target needs; of a plan that was taken, what the
+                            stream holds */
+  uint64_t header_bytes; /* of the header, which other plans do without */
+  double rmse;           /* that all coded bytes leave, as the encoder's account has it: within some
+                            per cent, but for the verdict TKS_VERDICT_MISSES_TARGET */
+} tks_weighed_plan;
+
+/* Takes one plan; see tks_encode_options.explain. */
+typedef void (*tks_explain)(void* user, const tks_weighed_plan* plan);
+
 /* What to optimise. Exactly one of bytes, psnr, max_error, lossless is non-zero. */
 typedef struct tks_encode_options {
   size_t size;       /* sizeof(tks_encode_options) */
@@ -248,6 +309,13 @@ typedef struct tks_encode_options {
                                       and so corrects the encoder's own model of the cameras; NULL:
                                       none */
   void* picture_user;
+  tks_explain explain; /* is told each plan that was weighed, once: those of the heights in the
+                          order in which they were first thought of, then those of the texture. One
+                          of each component has TKS_VERDICT_TAKEN. It is called on the thread that
+                          called tks_encode, when the stream is made and proved, after which only
+                          TKS_NO_MEMORY is left. The stream does not depend on it. NULL: nobody is
+                          told */
+  void* explain_user;
 } tks_encode_options;
 
 /* Bytes allocated by the library; release with tks_free_buffer. */

@@ -10,6 +10,10 @@ namespace tetrakis::inline allocation {
 
 namespace {
 
+/// Steps of the stated quality, of 0.75 dB each, that joined packets may span. More of them save
+/// bytes of heads, and state qualities of prefixes less exactly.
+constexpr int kQualitySteps = 2;
+
 /// Follows one component through the points of its curve.
 class Progress {
  public:
@@ -84,7 +88,6 @@ std::vector<Packet> allocate(const std::array<ComponentCurve, kComponents>& curv
 }
 
 std::vector<Packet> joinNeighbours(std::span<const Packet> packets) {
-  constexpr int kQualitySteps = 2;
   std::vector<Packet> joined;
   // The qualities that each component states ahead of its last packet, and with it.
   std::array<int, kComponents> before = {511, 511}, stated = {511, 511};

@@ -12,6 +12,10 @@ namespace tetrakis::inline allocation {
 
 namespace {
 
+/// The powers with which errors may fall behind the last prefix that was looked at. A wider range
+/// follows the prefixes before it more closely, and errs more where these fell by chance.
+constexpr double kLeastPower = 0.5, kMostPower = 2;
+
 /// before, from, to: errors at the node before that of the place, at it, and at the next one.
 double between(const PairErrors::Place& place, double before, double from, double to) {
   if (place.rest == 0) return from;
@@ -24,10 +28,9 @@ double between(const PairErrors::Place& place, double before, double from, doubl
 }  // namespace
 
 double PairErrors::Place::power(double before, double from, double to) const {
-  constexpr double kLeast = 0.5, kMost = 2;
   if (!(before > from && from > to) || ratio <= 1) return 1;
-  return std::clamp(portable::log((before - to) / (from - to)) / portable::log(ratio), kLeast,
-                    kMost);
+  return std::clamp(portable::log((before - to) / (from - to)) / portable::log(ratio), kLeastPower,
+                    kMostPower);
 }
 
 PairErrors::PairErrors(PairNodes nodes, std::vector<double> errors)

@@ -16,11 +16,26 @@ namespace tetrakis::inline curves {
 namespace {
 
 // A prefix dips if its distortion exceeds that of a shorter one by more than this factor (0.03 dB),
-// or by the smaller one where not every byte is measured.
+// or by the smaller one where not every byte is measured. Larger factors let prefixes fall back
+// further; with smaller ones more packets have to be whole.
 constexpr double kDip = 1.0067, kSparseDip = 1.005;
-constexpr uint64_t kFirstBytes = 8192;  // each of which is measured
+// The first bytes, each of which is measured. More of them find more dips, and take time.
+constexpr uint64_t kFirstBytes = 8192;
 // Samples that the audit of a small track decodes in all, which takes a few tenths of a second.
+// More of them find more dips.
 constexpr uint64_t kDecodedSamples = uint64_t{1} << 23;
+// Points behind the budget and this part of it are not measured between. A larger number saves
+// time, and the end of the budget depends on fewer measurements.
+constexpr uint64_t kBehindBudget = 4;
+// The gain between two prefixes that are measured, in decibels for each sample, and the largest
+// gain that counts. A smaller gain finds more dips, and takes time.
+constexpr double kDecibelsPerSample = 2.5e-6, kMostDecibels = 6;
+// The parts of the account at which large tracks are measured: if all of it is sent, and else. More
+// of them correct the account better, and take the time of decoding a prefix each.
+constexpr std::array kWholeParts = {0.5, 0.65, 0.8, 0.9};
+constexpr std::array kOtherParts = {0.25, 0.5, 0.75};
+// Fifths of the account of several tracks at which it is measured.
+constexpr size_t kFifthsTogether = 3;
 
 /// Collects the points that improve on all points before them, and notes whether prefixes between
 /// them dip.
@@ -55,7 +70,7 @@ class MeasuringPlan {
     const uint64_t most = kDecodedSamples / scope.samples;
     first_bytes_ = std::min(kFirstBytes, most / 2);
     const uint64_t reach =
-        scope.budget < UINT64_MAX / 2 ? scope.budget + scope.budget / 4 : UINT64_MAX;
+        scope.budget < UINT64_MAX / 2 ? scope.budget + scope.budget / kBehindBudget : UINT64_MAX;
     parts_.assign(points.size(), 1);
     uint64_t first = 0, later = 0;
     for (size_t i = 1; i < points.size(); ++i) {
@@ -80,10 +95,10 @@ class MeasuringPlan {
   /// 0.03 dB (in 12 288 samples, less in fewer), and they are no more than a few bytes apart,
   /// because passes of little gain often dip.
   uint64_t wantedBetween(const RatePoint& a, const RatePoint& b) const {
-    constexpr double kDecibelsPerSample = 2.5e-6, kMost = 6;
-    const double gain = b.distortion > 0
-                            ? std::min(kMost, 10 * portable::log10(a.distortion / b.distortion))
-                            : kMost;
+    const double gain =
+        b.distortion > 0
+            ? std::min(kMostDecibels, 10 * portable::log10(a.distortion / b.distortion))
+            : kMostDecibels;
     const double wanted =
         std::ceil(gain / (kDecibelsPerSample * static_cast<double>(scope_.samples)));
     const uint64_t bytes = b.bytes - a.bytes;
@@ -168,10 +183,8 @@ std::vector<size_t> pointsNearEnd(std::span<const RatePoint> points) {
 /// The points to measure of an account that is not measured as a whole. If all of it is sent, they
 /// lie later.
 std::vector<size_t> pointsToMeasure(std::span<const RatePoint> points, bool whole) {
-  static constexpr std::array kWhole = {0.5, 0.65, 0.8, 0.9};
-  static constexpr std::array kOther = {0.25, 0.5, 0.75};
   std::vector<size_t> measured;
-  for (const double part : whole ? std::span<const double>(kWhole) : kOther)
+  for (const double part : whole ? std::span<const double>(kWholeParts) : kOtherParts)
     measured.push_back(static_cast<size_t>(part * static_cast<double>(points.size() - 1)));
   if (!whole) return measured;
   for (const size_t point : pointsNearEnd(points)) measured.push_back(point);
@@ -207,7 +220,7 @@ std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const Au
   const bool exact = points.back().squares() == 0;
   if (points.size() < 2 || !(exact || scope.budget == UINT64_MAX))
     return {points.begin(), points.end()};
-  std::vector<size_t> measured = {points.size() * 3 / 5};
+  std::vector<size_t> measured = {points.size() * kFifthsTogether / 5};
   for (const size_t point : pointsNearEnd(points)) measured.push_back(point);
   return scaled(points, {points, measured, measure});
 }

@@ -43,7 +43,12 @@ std::vector<RatePoint> audit(const EncodedTrack& track, const AuditScope& scope,
 std::vector<RatePoint> auditTogether(std::span<const RatePoint> points, const AuditScope& scope,
                                      const Measure& measure);
 
+/// Twice the samples of the largest track of which every prefix is measured. Larger tracks measure
+/// one prefix in as many bytes as they have times more samples. A larger number finds more dips,
+/// and takes time.
 inline constexpr uint64_t kTinySamples = uint64_t{1} << 12;
+/// Samples of the largest track of which many prefixes are measured. A larger number finds dips of
+/// more tracks, and takes their time.
 inline constexpr uint64_t kSmallSamples = uint64_t{1} << 14;
 
 }  // namespace tetrakis::inline curves

@@ -15,8 +15,16 @@ namespace tetrakis::inline curves {
 
 namespace {
 
-/// A packet is at least this fraction of its track's bytes before it: heads stay below 1 %.
+/// A packet is at least this fraction of its track's bytes before it: heads stay below 1 %. A
+/// larger fraction saves bytes of heads, and orders both components in longer pieces.
 constexpr double kPacketGrowth = 0.1;
+/// The slope of the opening over the steepest slope behind it. It exceeds 1, so that rounding does
+/// not let other bytes come first.
+constexpr double kOpeningSlope = 1.01;
+/// The least bytes of the parts of a packet, whose heads take 2 % of them, and the parts' share of
+/// the track's bytes so far. Smaller parts follow what is seen more closely, and take time.
+constexpr uint64_t kLeastPart = 256;
+constexpr double kPartShare = 0.06;
 
 /// Raises the first point so that the first `opening` bytes have the steepest slope of all, because
 /// all other bytes need them.
@@ -29,7 +37,7 @@ void favour(std::vector<RatePoint>& points, uint64_t opening) {
     const auto bytes = static_cast<double>(p->bytes - opened->bytes);
     steepest = std::max(steepest, (opened->distortion - p->distortion) / bytes);
   }
-  const double worth = 1.01 * steepest * static_cast<double>(opened->bytes);
+  const double worth = kOpeningSlope * steepest * static_cast<double>(opened->bytes);
   points.front().distortion = std::max(points.front().distortion, opened->distortion + worth);
 }
 
@@ -52,9 +60,8 @@ size_t openedAt(const std::vector<RatePoint>& points, uint64_t opening) {
 /// over the finest bands take a quarter of all bytes so far. Parts that stay neighbours are joined
 /// again.
 std::vector<uint64_t> divided(uint64_t begin, uint64_t end) {
-  constexpr uint64_t kLeast = 256;  // bytes: the head takes 2 % of that
-  constexpr double kShare = 0.06;   // of the track's bytes so far
-  const auto most = std::max(kLeast, static_cast<uint64_t>(kShare * static_cast<double>(begin)));
+  const auto most =
+      std::max(kLeastPart, static_cast<uint64_t>(kPartShare * static_cast<double>(begin)));
   const uint64_t parts = std::max<uint64_t>(1, (end - begin) / most);
   std::vector<uint64_t> ends;
   for (uint64_t i = 1; i <= parts; ++i) ends.push_back(begin + (end - begin) * i / parts);

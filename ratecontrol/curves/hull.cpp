@@ -8,6 +8,10 @@ namespace tetrakis::inline curves {
 
 namespace {
 
+/// The part of the bytes before it that a packet beside a dip has at least. A larger number cuts
+/// more dips out exactly, and takes bytes of heads.
+constexpr uint64_t kPartOfTrack = 64;
+
 /// b lies on or above the chord from a to c.
 bool above(const RatePoint& a, const RatePoint& b, const RatePoint& c) {
   const auto ab = static_cast<double>(b.bytes - a.bytes),
@@ -17,7 +21,7 @@ bool above(const RatePoint& a, const RatePoint& b, const RatePoint& c) {
 
 /// Packets shorter than this are not worth their heads.
 uint64_t leastPart(uint64_t begin) {
-  return std::max<uint64_t>(kLeastPacket, begin / 64);
+  return std::max<uint64_t>(kLeastPacket, begin / kPartOfTrack);
 }
 
 }  // namespace

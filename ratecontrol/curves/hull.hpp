@@ -15,6 +15,8 @@ namespace tetrakis::inline curves {
 /// kLeastPacket) apart so that packet heads stay cheap.
 std::vector<RatePoint> lowerHull(std::span<const RatePoint> points, double growth);
 
+/// Bytes of the shortest packets. Shorter ones show first bytes sooner, and heads take more of
+/// them.
 inline constexpr uint64_t kLeastPacket = 24;
 
 /// The ends of packets on the way from one vertex of the hull of `points` to another one: at `to`,

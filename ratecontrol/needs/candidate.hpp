@@ -33,13 +33,16 @@ Candidate<Coded> candidateOf(Coded coded) {
   return {std::make_shared<const Coded>(std::move(coded))};
 }
 
-/// The candidate of the fewest bytes; of equal ones the first. There is at least one.
-template <class Coded>
-Candidate<Coded> fewestBytes(std::vector<Candidate<Coded>> candidates) {
+/// The candidate of the fewest bytes; of equal ones the first. There is at least one. lost: called
+/// with each of the others.
+template <class Coded, class Lost>
+Candidate<Coded> fewestBytes(std::vector<Candidate<Coded>> candidates, const Lost& lost) {
   assert(!candidates.empty());
   const auto best = std::min_element(
       candidates.begin(), candidates.end(),
       [](const Candidate<Coded>& a, const Candidate<Coded>& b) { return a.bytes() < b.bytes(); });
+  for (auto one = candidates.begin(); one != candidates.end(); ++one)
+    if (one != best) lost(*one);
   return std::move(*best);
 }
 

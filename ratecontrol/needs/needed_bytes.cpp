@@ -8,6 +8,10 @@ namespace tetrakis::inline needs {
 
 namespace {
 
+/// The part of a packet to which the bytes that a target needs are found. A larger number saves as
+/// many bytes, and takes the time of decoding more prefixes.
+constexpr uint64_t kClosePart = 64;
+
 /// A packet among the payload bytes of its component.
 struct PayloadRange {
   uint64_t begin, end;
@@ -36,7 +40,7 @@ std::optional<uint64_t> leastBytes(std::span<const Packet> packets,
   if (packet == ranges.end()) return {};
   if (packet->whole) return packet->end;
   uint64_t low = packet->begin, high = packet->end;
-  const uint64_t close = std::max<uint64_t>(1, (high - low) / 64);
+  const uint64_t close = std::max<uint64_t>(1, (high - low) / kClosePart);
   while (high - low > close) {
     const uint64_t middle = low + (high - low) / 2;
     (meets(middle) ? high : low) = middle;

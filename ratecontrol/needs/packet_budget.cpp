@@ -21,6 +21,17 @@ uint64_t bytesOfPackets(std::span<const Packet> packets) {
   return total;
 }
 
+std::array<uint64_t, kComponents> payloadWithin(std::span<const Packet> packets, uint64_t budget) {
+  std::array<uint64_t, kComponents> payload{};
+  for (const Packet& packet : packets) {
+    budget -= std::min<uint64_t>(budget, overheadOf(packet));
+    const uint64_t held = std::min(budget, packet.length());
+    payload[static_cast<size_t>(packet.component)] += held;
+    budget -= held;
+  }
+  return payload;
+}
+
 std::vector<Packet> keepWithinBudget(std::span<const Packet> packets, uint64_t budget) {
   uint64_t begin = 0;
   size_t kept = 0;

@@ -15,6 +15,9 @@ namespace tetrakis::inline needs {
 /// Returns the bytes of all packets with their heads.
 uint64_t bytesOfPackets(std::span<const Packet> packets);
 
+/// Returns the payload bytes of each component that the first `budget` bytes of the packets hold.
+std::array<uint64_t, kComponents> payloadWithin(std::span<const Packet> packets, uint64_t budget);
+
 /// Keeps the packets that begin within the budget.
 std::vector<Packet> keepWithinBudget(std::span<const Packet> packets, uint64_t budget);
 

@@ -11,13 +11,17 @@ namespace tetrakis::inline pictures {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kSlack = 1e-9;  // parts that places are rounded by, at most
+/// log2 of the blocks along the ground that rays begin with. Larger blocks nearly always have
+/// something above the ray, and take time; smaller ones are more to pass over.
+constexpr size_t kBlocksAlong = 5;
 
 /// Triangles of a cell, as the parts of the unit square where side >= 0: the diagonal goes from
 /// north-west to south-east where column + row is even, else from south-west to north-east.
 struct HalfCell {
   double offset, along_c, along_r;  ///< side = offset + along_c c + along_r r
 
-  bool holds(double c, double r) const { return offset + along_c * c + along_r * r >= -1e-9; }
+  bool holds(double c, double r) const { return offset + along_c * c + along_r * r >= -kSlack; }
 };
 
 struct Corners {
@@ -131,7 +135,7 @@ std::optional<GroundHit> GroundRays::hitInCell(uint32_t column, uint32_t row, co
   const float* south = north + width;
   const Corners corners{north[0], north[1], south[0], south[1]};
   std::optional<GroundHit> first;
-  double soonest = leave + 1e-9 * std::abs(leave);
+  double soonest = leave + kSlack * std::abs(leave);
   for (const CellPlane& p : planesOf(corners, (column + row) % 2 == 0)) {
     // The plane is met where the height of the ray above it falls to 0; NaN where a corner is void.
     const double c = path.origin[0] - column, r = path.origin[2] - row;
@@ -139,7 +143,7 @@ std::optional<GroundHit> GroundRays::hitInCell(uint32_t column, uint32_t row, co
     const double fall =
         path.direction[1] - p.slope_c * path.direction[0] - p.slope_r * path.direction[2];
     const double t = -above / fall;
-    if (!(t >= enter - 1e-9 * std::abs(enter) && t <= soonest)) continue;
+    if (!(t >= enter - kSlack * std::abs(enter) && t <= soonest)) continue;
     const double hit_c = path.at(0, t), hit_r = path.at(2, t);
     if (!p.half.holds(hit_c - column, hit_r - row)) continue;
     soonest = t;
@@ -188,8 +192,6 @@ std::optional<GroundHit> GroundRays::firstHit(const Path& path) const {
   if (!stay) return {};
   const Extent cells = highest_.cells();
   const size_t top = highest_.top();
-  // Larger blocks nearly always have something above the ray.
-  constexpr size_t kBlocksAlong = 5;  // log2
   size_t level = top - std::min(top, kBlocksAlong);
   double now = stay->enter;
   Cell cell{path.cellAt(0, now, 0, int64_t{cells.width} - 1),

@@ -10,9 +10,14 @@ namespace tetrakis::inline pictures {
 namespace {
 
 /// Rows between the places at which a column looks for ground; smaller pieces of ground are missed.
+/// Fewer rows between them take time.
 constexpr double kRows = 32;
-/// The precision of the places of outlines, in pixels, and the least shift that is found.
+/// The precision of the places of outlines, in pixels, and the least shift that is found. A finer
+/// one takes the time of more rays.
 constexpr double kLeastShift = 1. / 256;
+/// The factor by which the search for a moved outline grows, and the part of its reach to which the
+/// place is found. A smaller factor and a larger part take rays.
+constexpr double kFaster = 4, kFinePart = 16;
 
 /// Pixels by which an edge errs that has moved by `shift`.
 double smoothedEdge(double shift) {
@@ -78,7 +83,6 @@ void Outlines::follow(View& view, double column, const GroundRays& truth,
 }
 
 double Outlines::shiftOf(const View& view, const Crossing& crossing, const GroundRays& surface) {
-  constexpr double kFaster = 4;
   const auto ground = [&](double row) {
     return surface.hit(view.points.at(crossing.column, row).ray).has_value();
   };
@@ -92,7 +96,7 @@ double Outlines::shiftOf(const View& view, const Crossing& crossing, const Groun
       if (from == 0) return 0;
       const double start = crossing.row + away * from;
       const auto [sky, solid] = halved(at_first ? row : start, at_first ? start : row,
-                                       std::max(kLeastShift, to / 16), ground);
+                                       std::max(kLeastShift, to / kFinePart), ground);
       return std::abs((sky + solid) / 2 - crossing.row);
     }
     if (row <= crossing.from || row >= crossing.to) return std::abs(row - crossing.row);

@@ -5,7 +5,8 @@ namespace tetrakis::inline pictures {
 
 namespace {
 
-/// Columns in which outlines are followed, over all cameras.
+/// Columns in which outlines are followed, over all cameras. More of them tell their shifts more
+/// exactly, and take rays.
 constexpr size_t kOutlineColumns = 256;
 
 }  // namespace

@@ -101,6 +101,31 @@ TEST(NeededRanges, OfWindowsAreEnoughHoweverTheStreamIsCoded) {
   }
 }
 
+/// Bytes of the front, or of windows before, may close the gaps between what a window needs.
+TEST(NeededRanges, AreEnoughBesideWhateverIsThere) {
+  const samples::Raster heights = ridges(201, 170, TKS_I16);
+  const Bytes bytes = encodeRegions(&heights, nullptr, forWindows());
+  Stream whole(bytes);
+  const size_t header = whole.info().header_bytes;
+  const tks_window windows[] = {
+      {0, 0, 40, 40}, {161, 0, 40, 40}, {80, 70, 30, 30}, {0, 130, 40, 40}};
+  for (size_t front = header; front < bytes.size(); front += 1 + (bytes.size() - header) / 40) {
+    Stream stream(Prefix(bytes).first(front));
+    for (const tks_window& window : windows) {
+      tks_ranges ranges = {};
+      ASSERT_EQ(tks_needed_ranges(stream.get(), TKS_PART_HEIGHTS, &window, &ranges), TKS_OK);
+      for (size_t i = 0; i < ranges.count; ++i) {
+        const auto [offset, size, gain] = ranges.ranges[i];
+        ASSERT_EQ(tks_put(stream.get(), offset, bytes.data() + offset, size), TKS_OK);
+      }
+      tks_free_ranges(&ranges);
+      ASSERT_TRUE(decoded(stream, TKS_PART_HEIGHTS, &window) ==
+                  decoded(whole, TKS_PART_HEIGHTS, &window))
+          << front << " bytes, window from " << window.x << ", " << window.y;
+    }
+  }
+}
+
 /// Packets of components that nobody knows yet are never needed.
 TEST(NeededRanges, LeaveOutWhatNobodyKnows) {
   const samples::Raster heights = ridges(201, 170, TKS_I16),

@@ -18,6 +18,11 @@
 namespace tetrakis::inline colour {
 namespace {
 
+/// Angles, in radians, by which axes are turned at first and in the end, each half of the one
+/// before. A wider range finds better axes, and takes time.
+constexpr double kFirstAngle = 0.2, kLastAngle = 0.005;
+constexpr double kSlack = 1e-9;  // a smaller gain is one of rounding
+
 Matrix3 fixedRotation() {
   const double s3 = std::sqrt(1.0 / 3), s2 = std::sqrt(0.5), s6 = std::sqrt(1.0 / 6);
   return {{{s3, s3, s3}, {s2, 0, -s2}, {-s6, 2 * s6, -s6}}};
@@ -53,7 +58,7 @@ bool descend(Matrix3& rotation, std::array<double, 3>& rates, std::pair<size_t, 
       rotateRows(turned, p, q, turn);
       const double rate_p = rate(turned[p]);
       const double rate_q = rate(turned[q]);
-      if (!(rate_p + rate_q < (rates[p] + rates[q]) * (1 - 1e-9))) break;
+      if (!(rate_p + rate_q < (rates[p] + rates[q]) * (1 - kSlack))) break;
       rotation = turned;
       rates[p] = rate_p;
       rates[q] = rate_q;
@@ -65,7 +70,6 @@ bool descend(Matrix3& rotation, std::array<double, 3>& rates, std::pair<size_t, 
 
 /// Walks from a rotation to the nearest that needs the fewest bits.
 Matrix3 cheapestRotation(Matrix3 rotation, const ColourDetails& details, Purpose purpose) {
-  constexpr double kFirstAngle = 0.2, kLastAngle = 0.005;
   const double step = purpose == Purpose::kLossless ? 1 : meanMagnitude(details);
   if (step == 0) return rotation;
   const AxisRate rate{details, step};

@@ -11,7 +11,11 @@ namespace tetrakis::inline colour {
 
 namespace {
 
-constexpr size_t kBlocksPerScale = 2048;  // details are sampled: three of each block
+/// Blocks of each scale of which details are sampled, three of each. More of them fit axes better,
+/// and take time.
+constexpr size_t kBlocksPerScale = 2048;
+/// The share of the coefficients that the typical step leaves above itself. A larger share fits
+/// colours to higher rates.
 constexpr double kExceeding = 0.1;
 
 struct Image {

@@ -9,8 +9,11 @@ namespace tetrakis::inline colour {
 
 namespace {
 
-constexpr double kMostEnergy = 4;   // of the shears of a level: coefficients stay near their size
-constexpr double kBitsPerSet = 50;  // in the header
+/// The energy of the shears of a level, at most: coefficients stay near their size. A larger number
+/// allows turns that save more bits, and wider coefficients.
+constexpr double kMostEnergy = 4;
+/// Bits of a level's shears in the header. A larger number turns fewer levels.
+constexpr double kBitsPerSet = 50;
 
 double bitsOf(const ColourTransform& transform, int level, const ColourDetails& details,
               double step) {

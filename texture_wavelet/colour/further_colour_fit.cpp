@@ -7,6 +7,7 @@
 #include "texture_wavelet/colour/further_colour_fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -16,6 +17,19 @@
 
 namespace tetrakis::inline colour {
 namespace {
+
+/// Rounds of weighed least squares. More of them come nearer to the fewest bits, and take time.
+constexpr int kRounds = 8;
+/// Coefficients below this part of the step weigh alike. A larger number draws the fit to samples
+/// that are met already.
+constexpr double kFloorPart = 8;
+/// The parts of the fitted shears that are tried for lossy streams, where errors of the other
+/// planes count again. More of them save bits, and take the time of an estimate each.
+constexpr std::array<double, 5> kTriedParts = {0., 0.25, 0.5, 0.75, 1.};
+/// The largest shear. A larger number allows colours that are multiples of the others, and spreads
+/// errors of these more.
+constexpr double kMostShear = 2.;
+constexpr double kHold = 1e-6;  // keeps equations of planes that are alike solvable
 
 using Vector3 = std::array<double, 3>;
 
@@ -69,7 +83,7 @@ struct NormalEquations {
   Vector3 solved() const {
     Matrix3 a = squares;
     Vector3 b = products;
-    for (size_t i = 0; i < 3; ++i) a[i][i] = a[i][i] * (1 + 1e-6) + 1e-6;
+    for (size_t i = 0; i < 3; ++i) a[i][i] = a[i][i] * (1 + kHold) + kHold;
     for (size_t i = 0; i < 3; ++i) {
       for (size_t row = 0; row < 3; ++row) {
         if (row == i) continue;
@@ -85,7 +99,6 @@ struct NormalEquations {
 
 /// Coefficients of the planes whose sum with the further colour has the fewest bits.
 Vector3 fewestBits(const Planes& planes, const Details& details, double step) {
-  constexpr int kRounds = 8;
   Vector3 best{};
   for (int round = 0; round < kRounds; ++round) {
     NormalEquations equations;
@@ -100,7 +113,7 @@ Vector3 fewestBits(const Planes& planes, const Details& details, double step) {
         }
         // log2(1 + |c| / T) grows as the square of c times this.
         const double size = std::abs(rest) + step;
-        const double weight = round == 0 ? 1 : 1 / (size * (std::abs(rest) + step / 8));
+        const double weight = round == 0 ? 1 : 1 / (size * (std::abs(rest) + step / kFloorPart));
         equations.add(known, -static_cast<double>(further.channels[0][i]), before.weight * weight);
       }
     }
@@ -135,7 +148,7 @@ std::array<int16_t, 3> quantised(const Vector3& shears) {
   std::array<int16_t, 3> out{};
   std::transform(shears.begin(), shears.end(), out.begin(), [](double shear) {
     return static_cast<int16_t>(
-        std::lround(std::clamp(shear, -2., 2.) * (1 << kShearFractionBits)));
+        std::lround(std::clamp(shear, -kMostShear, kMostShear) * (1 << kShearFractionBits)));
   });
   return out;
 }
@@ -153,7 +166,7 @@ std::array<int16_t, 3> fitFurtherColour(const ColourTransform& transform,
   if (purpose == Purpose::kLossless) return quantised(direction);
   Vector3 best{};
   double least = std::numeric_limits<double>::infinity();
-  for (const double part : {0., 0.25, 0.5, 0.75, 1.}) {
+  for (const double part : kTriedParts) {
     const Vector3 shears = {part * direction[0], part * direction[1], part * direction[2]};
     const double bits = bitsWith(shears, planes, details, step);
     if (bits >= least) continue;

@@ -17,6 +17,10 @@ namespace tetrakis::inline colour {
 
 namespace {
 
+/// The colours of lossy streams are taken up to this many times the bits of the best ones, because
+/// prefixes are better with them. A larger number takes bytes.
+constexpr double kAboutAsFew = 1.01;
+
 constexpr int16_t kOne = 1 << kShearFractionBits;
 
 /// Differences to channel kChannelOrders[order][0], and its mean with them: RCT (ISO/IEC 15444-1,
@@ -90,8 +94,6 @@ ColourTransform chooseLosslessColour(std::span<const int32_t* const> channels, E
     least = bits;
     best = candidate;
   }
-  // Prefixes are better with the colours of lossy streams.
-  constexpr double kAboutAsFew = 1.01;
   const ColourTransform lossy = fitColour(channels, extent);
   if (bitsOf(samples, lossy) <= kAboutAsFew * least) return lossy;
   constexpr double kStep = 1;  // what is left when the last bits are coded

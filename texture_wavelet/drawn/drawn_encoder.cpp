@@ -15,6 +15,10 @@ namespace tetrakis::inline drawn {
 
 namespace {
 
+/// An image looks drawn if one of this number of its texels is like a neighbour. A larger number
+/// tries more drawings ahead of photographs, which takes time.
+constexpr size_t kAlikePart = 2;
+
 using NumberedColours = Numbered<DrawnColour>;
 using ColourEncoding = DrawingEncoding<DrawnColour>;
 
@@ -57,7 +61,7 @@ bool looksDrawn(const NumberedColours& image, size_t width) {
   size_t alike = 0;
   for (size_t i = 1; i < n.size(); ++i)
     alike += n[i] == n[i - 1] || (i >= width && n[i] == n[i - width]);
-  return 2 * alike >= n.size();
+  return kAlikePart * alike >= n.size();
 }
 
 /// Noise has next to no texels like their neighbours, and dithers have few; where colours are few

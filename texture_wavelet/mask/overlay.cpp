@@ -9,8 +9,16 @@ namespace tetrakis::inline mask {
 
 namespace {
 
-constexpr size_t kLeastShare = 2000;  // a colour of fewer than 1/2000 of the texels is no overlay's
-constexpr size_t kLeastAlike = 500;   // where fewer than 1/500 of them are alike there is none
+/// The part of the texels that a colour of an overlay has at least. A larger number finds smaller
+/// lettering, and colours of photographs that are alike by chance.
+constexpr size_t kLeastShare = 2000;
+/// The part of the texels that have to be like a neighbour for an overlay to be looked for. A
+/// larger number takes the time of more trials, and finds thinner overlays.
+constexpr size_t kLeastAlike = 500;
+/// One of this number of a drawn colour's texels is like the one before in its row, or this many
+/// quarters of them are like a neighbour. A larger first number, or fewer quarters, finds more
+/// lines, and takes textures of few colours for drawings.
+constexpr size_t kInRowPart = 2, kAlikeQuarters = 3;
 
 /// A colour in one number; nothing for one that does not matter.
 using Colour = std::optional<uint64_t>;
@@ -32,7 +40,7 @@ struct Use {
   /// images of few colours half of the texels are that by chance.
   bool isDrawn(size_t count) const {
     const bool large = texels * kLeastShare >= count;
-    return large && (2 * in_row >= texels || 4 * alike >= 3 * texels);
+    return large && (kInRowPart * in_row >= texels || 4 * alike >= kAlikeQuarters * texels);
   }
 };
 
@@ -98,7 +106,8 @@ std::vector<uint8_t> photographOf(const Texels& texels, Mask seen) {
   const size_t count = size_t{texels.width} * texels.height;
   Uses uses = repeatedColours(texels, seen);
   size_t alike = 0;
-  std::erase_if(uses, [&](const auto& use) { return 2 * use.second.alike * kLeastShare < count; });
+  std::erase_if(
+      uses, [&](const auto& use) { return kInRowPart * use.second.alike * kLeastShare < count; });
   for (const auto& [colour, use] : uses) alike += use.alike;
   if (alike * kLeastAlike < count) return {};
   UsesOfTexels use_of(uses, texels, seen);

@@ -11,7 +11,8 @@ namespace tetrakis::inline tables {
 
 namespace {
 
-/// So many bits a sample have to be saved.
+/// Bits a sample that a table has to save. A larger number misses tables that save bytes; with a
+/// smaller one tables take the time of trials in vain.
 constexpr double kLeastSaved = 1. / 32;
 
 /// How many samples of a channel have each value.

@@ -11,6 +11,7 @@
 #include "apps/tools/commands/command.hpp"
 #include "apps/tools/commands/encode_memory.hpp"
 #include "apps/tools/commands/encode_notes.hpp"
+#include "apps/tools/commands/explained_plans.hpp"
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/place/given_crs.hpp"
@@ -153,7 +154,9 @@ Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
   return options;
 }
 
-Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& inputs, bool quiet) {
+/// plans: are told, if they are asked for.
+Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& inputs, bool quiet,
+                            ExplainedPlans& plans) {
   Result<tks_encode_options> options = encodeOptions(arguments, inputs);
   if (!options.ok()) return options.status();
   const Result<std::vector<Camera>> cameras = wantedCameras(arguments, inputs);
@@ -171,6 +174,7 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
   Progress progress("encoding", quiet);
   options->progress = &Progress::report;
   options->user = &progress;
+  if (arguments.explain) plans.askFor(*options);
   tks_heights heights = inputs.heights ? asHeights(*inputs.heights) : tks_heights{};
   heights.step = arguments.step;
   const tks_image image = inputs.image ? asImage(*inputs.image) : tks_image{};
@@ -205,6 +209,12 @@ Status tellSummary(const EncodeArguments& arguments, std::span<const uint8_t> st
   tellNote(maskNote(decoder->info()), quiet);
   tellLine(summary(arguments.output, decoder->info()));
   return Status();
+}
+
+/// What was weighed, if somebody asked.
+Status printPlans(const EncodeArguments& arguments, const ExplainedPlans& plans) {
+  if (!arguments.explain) return Status();
+  return print(arguments.json ? dump(plans.json()) : plans.table());
 }
 
 /// The outputs, planned before any work is done.
@@ -243,12 +253,14 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
   if (!inputs.ok()) return inputs.status();
   addPlaces(arguments, *inputs, quiet);
   if (Status status = checkEncodeMemory(arguments, *inputs); !status.ok()) return status;
-  const Result<Buffer> stream = encodeInputs(arguments, *inputs, quiet);
+  ExplainedPlans plans;
+  const Result<Buffer> stream = encodeInputs(arguments, *inputs, quiet, plans);
   if (!stream.ok()) return stream.status();
   const std::span<const uint8_t> bytes = stream->bytes();
   if (Status status = outputs->stream.stage(std::as_bytes(bytes)); !status.ok()) return status;
   if (Status status = outputs->stream.commit(); !status.ok()) return status;
   if (Status status = tellSummary(arguments, bytes, quiet); !status.ok()) return status;
+  if (Status status = printPlans(arguments, plans); !status.ok()) return status;
   if (!outputs->report) return Status();
   return writeReport(arguments, *inputs, bytes, quiet, *outputs->report);
 }

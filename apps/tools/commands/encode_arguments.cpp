@@ -21,6 +21,10 @@ void addInputs(CLI::App& verb, EncodeArguments& arguments) {
   verb.add_option("--report", arguments.report, "Also write DIR/index.html: pictures and figures")
       ->type_name("DIR");
   addForce(verb, arguments.force);
+  CLI::Option* const explain =
+      verb.add_flag("--explain", arguments.explain, "Print the plans that were weighed");
+  verb.add_flag("--json", arguments.json, "With --explain: JSON instead of a table")
+      ->needs(explain);
 }
 
 void addTargets(CLI::App& verb, EncodeArguments& arguments) {
@@ -134,6 +138,8 @@ Status checkArguments(const EncodeArguments& arguments) {
     return Status(TKS_USAGE, "nothing to encode: give HEIGHT, --texture or both");
   if (arguments.height == "-" && arguments.texture == "-")
     return Status(TKS_USAGE, "heights and texture cannot both come from standard input");
+  if (arguments.explain && arguments.output == "-")
+    return Status(TKS_USAGE, "the stream and --explain cannot both go to standard output");
   if (Status status = checkMaxError(arguments.max_error); !status.ok()) return status;
   if (arguments.white_level > 0 && arguments.texture.empty())
     return Status(TKS_USAGE, "--white-level is about a texture: give --texture");

@@ -26,6 +26,7 @@ struct EncodeArguments {
   std::optional<std::string> unit, vertical_datum, crs;
   CameraChoice cameras;
   bool index = false, windows = false, force = false;
+  bool explain = false, json = false;
 };
 
 void addArguments(CLI::App& verb, EncodeArguments& arguments);

@@ -235,7 +235,7 @@ test('a bad file leaves what is shown, under its own name, and going on', async 
 
 test('in a frame that is not shown the viewer waits, and draws once it is', async () => {
   await writeFile(join(folder, 'indexed.tks'),
-    await encode({...terrainOf(193), bytes: 90000, index: true, regions: 32}));
+    await encode({...terrainOf(385), bytes: 90000, index: true, regions: 32}));
   await writeFile(join(folder, 'host.html'), '<!doctype html><iframe src="index.html?' +
     'tks=indexed.tks" style="display: none; width: 800px; height: 500px"></iframe>');
   const server = await serve(folder), page = await browser.newPage();

@@ -2,6 +2,7 @@
 #include "codec/geometry/coding_choice/bound_choice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <deque>
 #include <optional>
@@ -18,8 +19,14 @@ namespace tetrakis::inline coding_choice {
 
 namespace {
 
+/// For planes of more samples typical parts choose one way to keep the bound; smaller planes are
+/// coded both ways. A larger number takes twenty times as long as coding does, for better choices.
 constexpr uint64_t kSearchedSamples = 1025 * 1025;
+/// Samples along a side of the parts. Larger parts choose better, and take time.
 constexpr uint32_t kPartSide = 448;
+/// The factors of squared errors by which the search for the best cut goes on, in this order.
+/// Closer ones find a better cut, and take time.
+constexpr std::array<double, 4> kRatios = {2.0, 0.5, 1.3, 1 / 1.3};
 
 HeightSteps cropped(const HeightSteps& whole, Extent plane, const Window& part) {
   HeightSteps out;
@@ -88,7 +95,7 @@ BestCut bestCut(std::deque<PartTrial>& trials, int32_t largest) {
     return cut;
   };
   BestCut best = at(usualCut(largest));
-  for (const double ratio : {2.0, 0.5, 1.3, 1 / 1.3}) {
+  for (const double ratio : kRatios) {
     for (;;) {
       const BestCut next = at(best.mean_square * ratio);
       if (next.bytes >= best.bytes) break;
@@ -106,16 +113,19 @@ BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader&
   if (largest == 0) return {.correct = false};
   if (plane.samples() <= kSearchedSamples) return {};
   std::deque<PartTrial> trials;
-  uint64_t rounded = 0;
+  uint64_t rounded = 0, samples = 0;
   const Mask valid = steps.lifting(plane).valid;
   const IsCoded is_coded = valid.all() ? IsCoded() : [&](size_t i) { return valid[i]; };
   for (const Window& part : typicalParts(plane, kPartSide, is_coded)) {
     trials.emplace_back(cropped(steps, plane, part), part, wavelet, largest);
     rounded += trials.back().rounded();
+    samples += part.extent().samples();
   }
   const BestCut cut = bestCut(trials, largest);
   const bool correct = cut.bytes < rounded;
-  return {!correct, correct, cut.mean_square};
+  const double parts = static_cast<double>(plane.samples()) / static_cast<double>(samples);
+  return {!correct, correct, cut.mean_square, parts * static_cast<double>(rounded),
+          parts * static_cast<double>(cut.bytes)};
 }
 
 }  // namespace tetrakis::inline coding_choice

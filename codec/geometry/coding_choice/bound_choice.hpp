@@ -17,6 +17,8 @@ struct BoundWays {
   bool correct = true;  ///< coefficients that are cut, and corrections behind them
   /// Mean squared error, in steps, that the cut leaves; nothing: to be searched for.
   std::optional<double> mean_square = {};
+  /// Bytes of the plane by either way, as typical parts foretell them; nothing: nobody looked.
+  std::optional<double> rounded_bytes = {}, corrected_bytes = {};
 };
 
 /// Says which ways to try. largest: the error allowed, in steps. wavelet: that of coefficients that

@@ -2,6 +2,7 @@
 #include "codec/geometry/coding_choice/corrected_cut.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <span>
@@ -20,6 +21,16 @@ int32_t nearestMultiple(int64_t q, int64_t largest) {
 }
 
 namespace {
+
+/// Decoded cuts that are kept, from which the decoding of others goes on. More of them take memory,
+/// and save little time.
+constexpr size_t kKeptCuts = 2;
+/// The factors of bytes by which the search for the best cut goes on, in this order. Closer ones
+/// save bytes, and take the time of decoding and correcting each cut.
+constexpr std::array<double, 3> kStrides = {1.3, 1.1, 1.04};
+/// The search ends after its first factor where a cut takes this many times the bytes of another
+/// way: smaller factors save less. A larger number takes time.
+constexpr double kClearlyLost = 1.03;
 
 /// A part of the plane: its steps, and the heights decoded from its cut.
 struct DecodedPart {
@@ -124,11 +135,10 @@ DecodedGeometry CorrectedCut::decoded(uint64_t bytes) {
   return geometry;
 }
 
-/// Forgets all decoded cuts but two. Cuts still to be tried lie about the cut with the fewest bytes
-/// in all, so its state and that of the cut before it help most.
+/// Forgets all decoded cuts but kKeptCuts. Cuts still to be tried lie about the cut with the fewest
+/// bytes in all, so its state and that of the cut before it help most.
 void CorrectedCut::forgetFarthest() {
-  constexpr size_t kKept = 2;
-  while (known_.size() > kKept) {
+  while (known_.size() > kKeptCuts) {
     const auto last = std::prev(known_.end());
     known_.erase(last->first > shortest_ ? last : known_.begin());
   }
@@ -161,18 +171,16 @@ uint64_t CorrectedCut::bytesFor(double mean_square) const {
 /// Within a stride every turn but the last costs less than the one before. The shorter neighbour is
 /// tried first, because the usual cut goes on from it.
 uint64_t CorrectedCut::best(uint64_t rival) {
-  constexpr double kWidest = 1.3;
-  constexpr double kClearly = 1.03;  // smaller strides save less
   const auto scaled = [&](uint64_t bytes, double factor) {
     return std::min<uint64_t>(static_cast<uint64_t>(static_cast<double>(bytes) * factor),
                               coefficients_.codeword.size());
   };
   uint64_t best = bytesFor(usualCut(largest_));
-  total(scaled(best, 1 / kWidest));
+  total(scaled(best, 1 / kStrides.front()));
   uint64_t least = total(best);
-  for (const double stride : {kWidest, 1.1, 1.04}) {
-    const bool lost = static_cast<double>(least) > kClearly * static_cast<double>(rival);
-    if (lost && stride < kWidest) break;
+  for (const double stride : kStrides) {
+    const bool lost = static_cast<double>(least) > kClearlyLost * static_cast<double>(rival);
+    if (lost && stride < kStrides.front()) break;
     for (const double factor : {1 / stride, stride}) {
       for (;;) {
         const uint64_t cut = scaled(best, factor);

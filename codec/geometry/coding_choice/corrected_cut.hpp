@@ -85,10 +85,14 @@ class CorrectedCut {
   uint64_t shortest_ = 0;  ///< of the cuts that were tried, if there are any
 };
 
-/// The mean squared error, in steps, that cuts usually leave where the total bytes are fewest.
-/// Samples are rounded: a cut at an RMSE below 0.3 steps would have to code the noise of rounding.
+/// The RMSE, in steps, that cuts usually leave where the total bytes are fewest: ahead of exact
+/// corrections, and for each step of a largest error. Samples are rounded: a cut at an RMSE below
+/// 0.3 steps would have to code the noise of rounding; coarser cuts make corrections dear.
+inline constexpr double kExactRmse = 0.3, kBoundedRmse = 0.45;
+
+/// The mean squared error of such a cut.
 inline double usualCut(int32_t largest) {
-  const double rmse = largest == 0 ? 0.3 : 0.45 * largest;
+  const double rmse = largest == 0 ? kExactRmse : kBoundedRmse * largest;
   return rmse * rmse;
 }
 

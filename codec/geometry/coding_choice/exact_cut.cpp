@@ -14,7 +14,21 @@ namespace tetrakis::inline coding_choice {
 
 namespace {
 
+/// The share of the bytes that a halving of the cut against all bytes costs early prefixes. A
+/// larger share keeps prefixes of more streams, and misses shorter streams.
 constexpr double kHalving = 0.05;
+/// Estimates of coefficients err by up to this factor, alike for all steps. A larger factor takes
+/// more of an error for one of the estimate, so that corrections are expected to take less.
+constexpr double kEstimateOff = 1.15;
+/// log2 of the step of the cut that is tried first, and of the last one: finer and coarser cuts are
+/// tried while they save bytes. A first cut far from the best one takes time.
+constexpr int kUsualLog2 = 2, kLastLog2 = 12;
+/// No other cut is tried if the first one is worth less than the whole at this many times its
+/// bytes. A larger factor takes time, and finds more cuts.
+constexpr double kHopeless = 1.04;
+/// Heights of fewer bits a sample are not cut: planes and plains lose more by a cut, which shows
+/// where levels and surfaces end. A smaller number saves bytes of these heights.
+constexpr double kLeastBits = 0.1;
 
 /// Parts of a plane, one below the other, so that models which learn from one part serve the next.
 struct StackedParts {
@@ -55,12 +69,10 @@ class TriedCuts {
       : lossy_(heights, range_bits, Purpose::kLossy),
         samples_(static_cast<double>(markedIn(heights.extent(), heights.valid))),
         whole_(typicalCost(heights, range_bits, 0).bits / 8) {
-    // Estimates of coefficients err by up to this factor, alike for all steps. If the plane takes
-    // more bytes than that, it takes them outside its typical parts, and corrections will be there
-    // as well.
-    constexpr double kOff = 1.15;
+    // If the plane takes more bytes than estimates err by, it takes them outside its typical parts,
+    // and corrections will be there as well.
     coefficients_ = static_cast<double>(whole_bytes) / whole_;
-    corrections_ = coefficients_ / std::clamp(coefficients_, 1 / kOff, kOff);
+    corrections_ = coefficients_ / std::clamp(coefficients_, 1 / kEstimateOff, kEstimateOff);
   }
 
   const ExactCut& at(int log2) {
@@ -98,27 +110,28 @@ bool isWorth(double worth, double whole_bytes) {
   return worth < (1 + kHalving) * whole_bytes;
 }
 
-std::optional<ExactCut> chooseExactCut(const PlaneView<const int32_t>& heights, int range_bits,
-                                       uint64_t whole_bytes) {
-  constexpr int kUsual = 2, kLast = 12;
-  constexpr double kHopeless = 1.04;
-  // Planes and plains of fewer bits a sample lose more by a cut, which shows where levels and
-  // surfaces end.
-  constexpr double kLeastBits = 0.1;
+std::optional<ExactCut> estimateExactCut(const PlaneView<const int32_t>& heights, int range_bits,
+                                         uint64_t whole_bytes) {
   const auto bytes = static_cast<double>(whole_bytes);
   const auto samples = static_cast<double>(markedIn(heights.extent(), heights.valid));
   if (8 * bytes <= kLeastBits * samples) return {};
   TriedCuts cuts(heights, range_bits, whole_bytes);
-  if (!isWorth(cuts.at(kUsual).worth, kHopeless * bytes)) return {};
-  int best = kUsual;
+  if (!isWorth(cuts.at(kUsualLog2).worth, kHopeless * bytes)) return cuts.at(kUsualLog2);
+  int best = kUsualLog2;
   for (const int stride : {-1, 1}) {
-    while (best + stride >= 0 && best + stride <= kLast &&
+    while (best + stride >= 0 && best + stride <= kLastLog2 &&
            cuts.at(best + stride).worth < cuts.at(best).worth)
       best += stride;
   }
-  const ExactCut& cut = cuts.at(best);
-  if (cut.bytes > bytes || !isWorth(cut.worth, bytes)) return {};
+  ExactCut cut = cuts.at(best);
+  cut.pays = cut.bytes <= bytes && isWorth(cut.worth, bytes);
   return cut;
+}
+
+std::optional<ExactCut> chooseExactCut(const PlaneView<const int32_t>& heights, int range_bits,
+                                       uint64_t whole_bytes) {
+  const std::optional<ExactCut> cut = estimateExactCut(heights, range_bits, whole_bytes);
+  return cut && cut->pays ? cut : std::nullopt;
 }
 
 }  // namespace tetrakis::inline coding_choice

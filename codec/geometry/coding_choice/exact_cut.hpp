@@ -19,6 +19,7 @@ struct ExactCut {
   double mean_square;  ///< squared error of a sample, in steps, that the cut leaves
   double bytes;        ///< of it and of the corrections, as far as is known
   double worth;        ///< exactWorth() of these
+  bool pays = false;   ///< it comes near the whole coefficients
 };
 
 /// The worth of bytes whose first `cut` bytes are a cut. Behind a cut the error falls row by row,
@@ -29,9 +30,13 @@ double exactWorth(double bytes, double cut);
 /// bytes, whose own prefixes lose about as much as by one halving.
 bool isWorth(double worth, double whole_bytes);
 
-/// The best cut, by typical parts of the heights; nothing if no cut comes near the whole
-/// coefficients to the last bit, which take `whole_bytes` bytes. heights: in steps. range_bits: of
-/// them.
+/// The best cut that was looked at, by typical parts of the heights, whether or not it comes near
+/// the whole coefficients to the last bit, which take `whole_bytes` bytes; nothing if these are too
+/// few for any cut. heights: in steps. range_bits: of them.
+std::optional<ExactCut> estimateExactCut(const PlaneView<const int32_t>& heights, int range_bits,
+                                         uint64_t whole_bytes);
+
+/// The same if the cut pays; else nothing.
 std::optional<ExactCut> chooseExactCut(const PlaneView<const int32_t>& heights, int range_bits,
                                        uint64_t whole_bytes);
 

@@ -17,25 +17,34 @@
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/geometry/flat/flat_parts.hpp"
 #include "codec/wavelet/choice/compared_steps.hpp"
+#include "codec/wavelet/choice/typical_parts.hpp"
 
 namespace tetrakis::inline coding_choice {
 
 namespace {
 
-/// The shapes to try, from those of the fewest bytes to those that cover the most water.
+/// Samples of the smallest flat areas. Smaller ones save bytes at the last bit, and every prefix
+/// pays for their shapes first.
 constexpr uint32_t kLeastSamples = 8;
+/// The shapes to try, from those of the fewest bytes to those that cover the most water: the least
+/// samples of an area, and the square that opens it. More shapes take the time of a trial each.
 constexpr std::array<FlatShape, 8> kShapes = {
     {{4096, 32}, {4096, 16}, {4096, 8}, {4096, 4}, {4096}, {512}, {64}, {kLeastSamples}}};
+/// The place in kShapes of the shape that is tried first.
 constexpr size_t kLargeAreas = 4;
-/// No shapes are tried where areas of kPond samples cover a smaller share of the plane than this.
+/// No shapes are tried where areas of kPond samples cover a smaller share of the plane than one of
+/// kLeastShare. A larger kPond and a smaller kLeastShare save time, and miss small lakes.
 constexpr uint32_t kPond = 64;
 constexpr uint64_t kLeastShare = 1000;
 /// A gain below this is within the error of the estimates. Parts miss coarse levels, so their
-/// estimates are worse.
+/// estimates are worse. Larger numbers hold areas that lose bytes, smaller ones miss some that
+/// gain.
 constexpr double kClearlyOfPlane = 0.99, kClearlyOfParts = 0.98;
 /// The worth, as a share of the bytes, of a plane whose samples are all flat and stay so: squared
-/// errors do not tell that a sea with waves looks wrong.
+/// errors do not tell that a sea with waves looks wrong. A larger worth takes bytes for it.
 constexpr double kWorthOfFlatness = 0.1;
+/// Bits of the header that areas take. A larger number leaves out areas of small planes.
+constexpr double kHeaderBits = 64;
 
 /// The step, in units of the plane, that the purpose asks for.
 double stepOf(const TriedPlane& plane, const HeightPurpose& purpose, int fraction_bits) {
@@ -65,14 +74,15 @@ class FlatTrials {
                                rateOf(heights, purpose))) {}
 
   FlatChoice choose() {
-    const FlatChoice plain = {{}, wavelet_};
+    FlatChoice plain = {{}, wavelet_};
     const uint64_t samples = heights_.extent().samples();
     if (finder_.samplesOf(kPond, whole()) * kLeastShare < samples) return plain;
     for (const SampledPart& part : sampleParts(finder_, kPond, kLeastSamples))
       parts_.emplace_back(heights_, valid_, part);
-    const std::optional<FlatShape> shape = shapeThatPays();
-    if (!shape) return plain;
-    FlatLayer flat{finder_.areas(*shape, whole()), {}};
+    const Trial best = bestTrial();
+    if (best.price != kNoAreas) plain.flat.ratio = best.ratio;
+    if (!pays(best)) return plain;
+    FlatLayer flat{finder_.areas(best.shape, whole()), {}, best.ratio};
     if (flat.areas.empty()) return plain;  // there are too many
     flat.codeword = encodeFlatAreas(flat.areas, heights_.extent(), valid_);
     if (flat.codeword.size() >= purpose_.bytes) return plain;
@@ -89,6 +99,7 @@ class FlatTrials {
   struct Trial {
     FlatShape shape;
     double price = kNoAreas;
+    double ratio = 1;  ///< of bytes: the price without the worth of flat water
   };
 
   ComparedSteps stepsOfPlain() const {
@@ -100,20 +111,21 @@ class FlatTrials {
             static_cast<double>(heights_.extent().samples())};
   }
 
-  /// The shape that pays best; nothing if no shape pays. Smaller areas are added if simpler shapes
-  /// do not gain.
-  std::optional<FlatShape> shapeThatPays() {
+  /// The shape of the lowest price. Smaller areas are added if simpler shapes do not gain.
+  Trial bestTrial() {
     const ComparedSteps steps = stepsOfPlain();
-    const Trial large = {kShapes[kLargeAreas], priceOf(kShapes[kLargeAreas], steps)};
+    const Trial large = tried(kShapes[kLargeAreas], steps);
     Trial best = large;
     if (purpose_.seen) best = tryAll(large, {kShapes.rend() - kLargeAreas, kShapes.rend()}, steps);
     if (best.price == large.price || large.price == kNoAreas) {
       const Trial fine = tryAll(large, {kShapes.begin() + kLargeAreas + 1, kShapes.end()}, steps);
       if (fine.price < best.price) best = fine;
     }
-    const double clearly = parts_.size() > 1 ? kClearlyOfParts : kClearlyOfPlane;
-    if (best.price >= clearly) return {};
-    return best.shape;
+    return best;
+  }
+
+  bool pays(const Trial& trial) const {
+    return trial.price < (parts_.size() > 1 ? kClearlyOfParts : kClearlyOfPlane);
   }
 
   /// The best of the shapes, which are tried until prices rise.
@@ -121,15 +133,15 @@ class FlatTrials {
     Trial best = first;
     double before = first.price;
     for (const FlatShape& shape : shapes) {
-      const double price = priceOf(shape, steps);
-      if (price < best.price) best = {shape, price};
-      if (price > before) break;
-      before = price;
+      const Trial trial = tried(shape, steps);
+      if (trial.price < best.price) best = trial;
+      if (trial.price > before) break;
+      before = trial.price;
     }
     return best;
   }
 
-  double priceOf(const FlatShape& shape, const ComparedSteps& steps) {
+  Trial tried(const FlatShape& shape, const ComparedSteps& steps) {
     std::vector<FlatAreas> areas;
     double held = 0;
     for (const CopiedPart& part : parts_) {
@@ -139,16 +151,16 @@ class FlatTrials {
               static_cast<double>(
                   std::count_if(numbers.begin(), numbers.end(), [](uint16_t n) { return n != 0; }));
     }
-    if (held == 0) return kNoAreas;
-    const auto known = price_of_held_.find(held);  // the same areas
-    if (known != price_of_held_.end()) return known->second;
+    if (held == 0) return {shape};
+    const auto known = trial_of_held_.find(held);  // the same areas
+    if (known != trial_of_held_.end()) return {shape, known->second.price, known->second.ratio};
     const double share = held / static_cast<double>(heights_.extent().samples());
     const double worth = purpose_.seen ? kWorthOfFlatness * share : 0;
-    return price_of_held_[held] = ratioOf(std::move(areas), shape, steps) - worth;
+    const double ratio = ratioOf(std::move(areas), shape, steps);
+    return trial_of_held_[held] = {shape, ratio - worth, ratio};
   }
 
   double ratioOf(std::vector<FlatAreas> areas, const FlatShape& shape, const ComparedSteps& steps) {
-    constexpr double kHeaderBits = 64;  // of the areas' part of the header
     if (!beside_) {
       beside_ = waveletBeside(finder_.areas(shape, whole()));
       trials_ = std::vector<PartTrials>(parts_.begin(), parts_.end());
@@ -171,7 +183,7 @@ class FlatTrials {
   const HeightPurpose& purpose_;
   FlatFinder finder_;
   std::vector<CopiedPart> parts_;
-  std::map<double, double> price_of_held_;
+  std::map<double, Trial> trial_of_held_;
   WaveletHeader wavelet_;                ///< of the plane as it is
   std::optional<WaveletHeader> beside_;  ///< for the samples that the first areas leave
   std::vector<PartTrials> trials_;       ///< of that wavelet

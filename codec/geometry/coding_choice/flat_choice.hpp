@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/plane.hpp"
@@ -17,6 +18,9 @@ namespace tetrakis::inline coding_choice {
 struct FlatLayer {
   FlatAreas areas;
   std::vector<uint8_t> codeword;
+  /// Bytes with the best areas that were looked at, over those without, by the estimate; nothing:
+  /// there is hardly anything flat.
+  std::optional<double> ratio = {};
 
   /// Options for coefficients beside the areas. The layer outlives the options.
   CoefficientOptions beside(CoefficientOptions options) const {

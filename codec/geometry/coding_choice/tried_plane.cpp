@@ -13,6 +13,12 @@ namespace tetrakis::inline coding_choice {
 
 namespace {
 
+/// log2 of the coarsest step that is looked for; every plane fits it.
+constexpr int kMostLog2 = 60;
+/// The search for the step of a budget goes on by 2 to this power before it halves the interval. A
+/// larger stride takes fewer trials of fine steps, and more halvings.
+constexpr int kStrideLog2 = 4;
+
 std::vector<int32_t> scaled(std::span<const int32_t> heights, const WaveletHeader& wavelet) {
   std::vector<int32_t> values(heights.begin(), heights.end());
   for (int32_t& h : values)
@@ -81,10 +87,9 @@ double TriedPlane::bitsOfAreas() const {
 }
 
 double TriedPlane::step(double bits) const {
-  constexpr int kMost = 60;
   const auto fits = [&](int log2) { return cost(portable::exp2(log2)).bits <= bits; };
   int too_fine = -1, enough = 0;
-  for (; enough < kMost && !fits(enough); enough += 4) too_fine = enough;
+  for (; enough < kMostLog2 && !fits(enough); enough += kStrideLog2) too_fine = enough;
   while (enough - too_fine > 1) {
     const int middle = (enough + too_fine) / 2;
     (fits(middle) ? enough : too_fine) = middle;

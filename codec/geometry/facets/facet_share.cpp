@@ -18,6 +18,19 @@ namespace tetrakis::inline facets {
 
 namespace {
 
+/// Rows of a band that are known before samples count. More rows show more ways to go on, and leave
+/// fewer samples to count.
+constexpr uint32_t kBefore = 2;
+/// Floats on either side of a prediction that count as met. With more of them ground that is only
+/// smooth counts as facets.
+constexpr int32_t kNearFloats = 2;
+/// One sample in this number may be an outlier, which does not make the unit coarser. A smaller
+/// number lets more samples be larger than the unit suits.
+constexpr uint64_t kOutliersIn = 256;
+/// Bands of the plane that are examined, their rows and their columns at most. More samples tell
+/// the share of facets more exactly, and take time.
+constexpr uint32_t kBands = 32, kBandRows = 8, kBandColumns = 512;
+
 /// Looks at bands of rows, the first two of which only predict, unless no rows are above them.
 class BandReader {
  public:
@@ -49,14 +62,12 @@ class BandReader {
   }
 
  private:
-  static constexpr uint32_t kBefore = 2;
-
-  /// Whether a prediction leads to the sample, or to one of two floats on either side.
+  /// Whether a prediction leads to the sample, or to one of kNearFloats on either side.
   bool isNear(FacetRows& band, float sample) const {
     while (band.more()) {
       const uint32_t predicted = unit_.nearest(band.next().multiples).order;
       const auto rest = static_cast<int32_t>(orderOf(sample) - predicted);
-      if (rest >= -2 && rest <= 2) return true;
+      if (rest >= -kNearFloats && rest <= kNearFloats) return true;
     }
     return false;
   }
@@ -77,7 +88,6 @@ class BandReader {
 
 /// A size that all samples but a few outliers have at most.
 float largestOf(const tks_heights& heights, Mask valid) {
-  constexpr uint64_t kFew = 256;  // one in so many
   const auto* samples = static_cast<const float*>(heights.data);
   std::array<uint64_t, 256> counts{};  // by exponent field
   uint64_t all = 0;
@@ -87,7 +97,8 @@ float largestOf(const tks_heights& heights, Mask valid) {
     ++all;
   }
   size_t field = counts.size() - 1;
-  for (uint64_t beyond = counts[field]; field > 0 && beyond * kFew <= all; beyond += counts[field])
+  for (uint64_t beyond = counts[field]; field > 0 && beyond * kOutliersIn <= all;
+       beyond += counts[field])
     --field;
   return std::bit_cast<float>(static_cast<uint32_t>(field << 23));
 }
@@ -95,11 +106,10 @@ float largestOf(const tks_heights& heights, Mask valid) {
 }  // namespace
 
 FacetShare findFacets(const tks_heights& heights, Mask valid) {
-  constexpr uint32_t kBands = 32, kRows = 8, kColumns = 512;
   const int unit = FacetUnit::exponentFor(largestOf(heights, valid));
   BandReader reader(heights, valid, unit);
-  const uint32_t columns = std::min(kColumns, heights.width);
-  const uint32_t rows = std::min(kRows, heights.height);
+  const uint32_t columns = std::min(kBandColumns, heights.width);
+  const uint32_t rows = std::min(kBandRows, heights.height);
   for (uint32_t band = 0; band < kBands; ++band) {
     const auto place = [&](uint32_t room, double part) {
       return static_cast<uint32_t>((part - std::floor(part)) * room);

@@ -8,9 +8,12 @@ namespace tetrakis::inline flat {
 
 namespace {
 
+/// Samples along a side of the parts. Larger parts judge coarse levels better, and take time.
 constexpr uint32_t kPartSide = 128;
-/// Parts that are taken of each kind.
+/// Parts that are taken with shores, with small flat areas, and without any. More of them choose
+/// better, and take time: 16 of them make the choices of the whole plane.
 constexpr std::array<size_t, 3> kMost = {8, 4, 4};
+/// Planes of no more parts than this are judged whole, which takes time for each part more.
 constexpr size_t kMostParts = 16;
 
 /// The parts of a grid. The last row and column of parts take the rest of the plane.

@@ -10,8 +10,15 @@
 
 namespace tetrakis::inline quantiser {
 
+namespace {
+
+/// The grids that floats may lie near, from the widest on; 0.3048 are feet in metres. More of them
+/// take the time of a pass over the samples each, until a sample does not suit.
+constexpr std::array kGridUnits = {10., 1., 0.3048, 0.1, 0.01};
+
+}  // namespace
+
 std::optional<double> nearGrid(const tks_heights& heights, Mask valid, double error) {
-  constexpr std::array kUnits = {10., 1., 0.3048, 0.1, 0.01};  // of metres; 0.3048: feet
   assert(heights.sample == TKS_F32);
   const size_t count = size_t{heights.width} * heights.height;
   const std::span samples(static_cast<const float*>(heights.data), count);
@@ -22,9 +29,9 @@ std::optional<double> nearGrid(const tks_heights& heights, Mask valid, double er
     }
     return true;
   };
-  const auto unit = std::find_if(kUnits.begin(), kUnits.end(),
+  const auto unit = std::find_if(kGridUnits.begin(), kGridUnits.end(),
                                  [&](double wide) { return wide > 2 * error && suits(wide); });
-  return unit == kUnits.end() ? std::nullopt : std::optional(*unit);
+  return unit == kGridUnits.end() ? std::nullopt : std::optional(*unit);
 }
 
 }  // namespace tetrakis::inline quantiser

@@ -23,7 +23,8 @@ namespace tetrakis::inline quantiser {
 namespace {
 
 /// The part of the table's bytes that knots take at most: tables take up to 3 % of a stream, and a
-/// stream of heights with many values is not to pay for its early prefixes.
+/// stream of heights with many values is not to pay for its early prefixes. A smaller number gives
+/// prefixes more knots.
 constexpr size_t kMostOfTable = 32;
 
 /// A stretch of the polyline between two knots, and the place between them that errs most.

@@ -25,11 +25,31 @@ namespace tetrakis::inline quantiser {
 namespace {
 
 constexpr double kMostSteps = 1 << 26;
-constexpr double kLossySteps = 1 << 20;  // finer than any lossy stream resolves
+/// Parts of the range that the steps of lossy streams divide it into: finer than any of them
+/// resolves. With a larger number heights are too wide for the filter kQuiet.
+constexpr double kLossySteps = 1 << 20;
+/// The step of a largest error is at most this part of it. A larger number takes bits that are cut
+/// anyway; with a smaller one the rounding of samples takes more of the bound.
+constexpr double kErrorPart = 64;
 
 /// One in this number of samples may be an exception, which the step of all others does not
-/// restore.
+/// restore. A smaller number gives more files coarse steps, and their exceptions take bytes.
 constexpr size_t kExceptionsIn = 256;
+/// Outliers lie this many times as far off as all other samples are apart. A smaller number leaves
+/// more samples to corrections; a larger one makes the step of all samples coarser.
+constexpr double kFarOutlier = 1 << 20;
+/// The base is the mean where that lies this share of the range off the middle, and where steps are
+/// fewer than kFewSteps. A smaller share shows first prefixes nearer heights, and takes bits.
+constexpr double kFarMean = 0.25, kFewSteps = 1 << 24;
+/// Distances of floats in the step of floats that have no other step. Coding the last bits as
+/// corrections takes 1 to 2 % less than lifting them; more of them make prefixes coarser.
+constexpr double kFloatsInStep = 16;
+/// The decimal steps that are tried, in units of the samples. More of them take the time of a pass
+/// over the samples each.
+constexpr std::array<double, 4> kDecimalSteps = {1.0, 0.1, 0.01, 0.001};
+/// A step with exceptions has to be this many times as coarse as the exact one. A smaller factor
+/// takes corrections for steps that hardly gain.
+constexpr double kWorthCoarser = 2;
 
 template <class T>
 bool same(T a, T b) {
@@ -54,7 +74,6 @@ class Stepper {
   /// Leaves a few samples out of the range that are so far from all others that 2^26 steps cannot
   /// show both. Undeclared voids are examples: a 3.4e38 among heights of metres.
   void leaveOutliers() {
-    constexpr double kFar = 1 << 20;
     std::vector<T> sorted;
     forEachValid([&](size_t i) { sorted.push_back(samples_[i]); });
     const size_t few = sorted.size() / (2 * kExceptionsIn);
@@ -64,11 +83,11 @@ class Stepper {
     std::nth_element(sorted.begin(), low, sorted.end());
     std::nth_element(low, high, sorted.end());
     const double middle = static_cast<double>(*low), width = static_cast<double>(*high) - middle;
-    if (!(range_ > kFar * width) || width == 0) return;
+    if (!(range_ > kFarOutlier * width) || width == 0) return;
     SampleRange core = {middle, middle};
     for (const T sample : sorted) {
       const auto value = static_cast<double>(sample);
-      if (std::abs(value - middle) > kFar * width / 2) continue;
+      if (std::abs(value - middle) > kFarOutlier * width / 2) continue;
       core.low = std::min(core.low, value);
       core.high = std::max(core.high, value);
     }
@@ -80,7 +99,6 @@ class Stepper {
   /// the base is the mean where the mean is far from the middle of the range, as on open ground
   /// among trees; elsewhere it is the middle, where steps take the fewest bits.
   double typicalAbove(double step) const {
-    constexpr double kFar = 0.25, kFewSteps = 1 << 24;
     double sum = 0, count = 0;
     for (size_t i = 0; i < count_; ++i) {
       if (!isInRange(i)) continue;
@@ -88,7 +106,7 @@ class Stepper {
       ++count;
     }
     const double middle = range_ / 2, mean = count > 0 ? sum / count : middle;
-    return std::abs(mean - middle) > kFar * range_ && range_ / step < kFewSteps ? mean : middle;
+    return std::abs(mean - middle) > kFarMean * range_ && range_ / step < kFewSteps ? mean : middle;
   }
 
   HeightSteps with(double step) const {
@@ -187,11 +205,11 @@ class Stepper {
     return 1;
   }
 
-  /// Sixteen times the distance between neighbouring floats where they are largest. The last bits
-  /// of a height are noise: coding them as corrections takes 1 to 2 % less than lifting them.
+  /// A multiple of the distance between neighbouring floats where they are largest: the last bits
+  /// of a height are noise.
   double correctedStep() const {
     const double largest = std::max(std::abs(low_), std::abs(high_));
-    return std::ldexp(16.0, spacingExponent(static_cast<float>(largest)));
+    return std::ldexp(kFloatsInStep, spacingExponent(static_cast<float>(largest)));
   }
 
  private:
@@ -237,13 +255,13 @@ double powerOfTwoBelow(double x) {
 
 double lossyStep(double range, double error) {
   double step = powerOfTwoBelow(range / kLossySteps) * 2;
-  if (error > 0) step = std::min(step, powerOfTwoBelow(error / 64));
+  if (error > 0) step = std::min(step, powerOfTwoBelow(error / kErrorPart));
   return std::max(step, powerOfTwoBelow(range / kMostSteps) * 2);
 }
 
 /// The coarsest step that restores all samples except at most `exceptions`.
 std::optional<double> restoringStep(const Stepper<float>& stepper, size_t exceptions) {
-  for (const double unit : {1.0, 0.1, 0.01, 0.001}) {
+  for (const double unit : kDecimalSteps) {
     const double step = exceptions == 0 ? unit * stepper.commonMultiple(unit) : unit;
     if (stepper.fits(step) && stepper.restores(step, exceptions)) return step;
   }
@@ -257,9 +275,9 @@ std::optional<double> restoringStep(const Stepper<float>& stepper, size_t except
 std::optional<double> tolerantStep(const Stepper<float>& stepper, std::optional<double> exact) {
   const size_t few = stepper.few();
   const auto step = few > 0 ? restoringStep(stepper, few) : std::nullopt;
-  // The step gains nothing if it is less than twice the exact one or, without an exact one, less
-  // than correctedStep().
-  if (!step || *step < (exact ? 2 * *exact : stepper.correctedStep())) return exact;
+  // The step gains nothing if it is hardly coarser than the exact one or, without an exact one,
+  // finer than correctedStep().
+  if (!step || *step < (exact ? kWorthCoarser * *exact : stepper.correctedStep())) return exact;
   return step;
 }
 

@@ -2,6 +2,7 @@
 #include "codec/geometry/quantiser/value_choice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -21,14 +22,20 @@ namespace tetrakis::inline quantiser {
 
 namespace {
 
-/// A table with more than one value for this number of samples is not examined: it would not pay.
+/// A table with more than one value for this number of samples is not examined: it would not pay. A
+/// smaller number takes the time of more trials.
 constexpr size_t kSamplesForAValue = 4;
-/// At most one in this number of samples may have a value that the table leaves out.
+/// At most one in this number of samples may have a value that the table leaves out. A smaller
+/// number allows shorter tables, with more exceptions, and takes the time of more trials.
 constexpr size_t kSamplesForAnException = 16;
-/// A table of nearly all numbers in the range saves nothing.
+/// A table of nearly all numbers in the range saves nothing. A larger share takes time.
 constexpr double kNearlyAll = 0.9;
-/// A gain below this is within the error of the estimates.
+/// A gain below this is within the error of the estimates. A larger share takes tables whose
+/// prefixes lose more than the bytes gain.
 constexpr double kClearly = 0.98;
+/// The samples that a value of the table has at least, in each trial. More trials find shorter
+/// tables, and take time.
+constexpr std::array<uint32_t, 3> kLeastUses = {1, 2, 4};
 
 /// A value that samples have: its word (codec/geometry/steps/sample_order.hpp), and the number of
 /// these samples.
@@ -117,7 +124,7 @@ class TableChoice {
     sortValues();
     Candidate best;
     best.bits = exactBits(heights_, multiples_) * kClearly;
-    for (const uint32_t least : {1u, 2u, 4u}) {
+    for (const uint32_t least : kLeastUses) {
       const size_t rare = rarerThan(least);
       if (rare > samples_ / kSamplesForAnException) break;
       if (least > 1 && rare == rarerThan(least / 2)) continue;

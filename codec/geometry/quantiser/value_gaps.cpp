@@ -11,9 +11,11 @@ namespace tetrakis::inline quantiser {
 
 namespace {
 
-/// The factor by which a wide gap exceeds the usual gap and the gaps beside it.
+/// The factor by which a wide gap exceeds the usual gap and the gaps beside it. With a larger
+/// factor fewer gaps are bridged: early prefixes lose, and lossless tables take fewer bytes.
 constexpr double kWide = 16;
 /// The first values of a bridge are the usual gap apart; then each gap is twice the one before.
+/// More values make tables longer, and let errors beside an island fall more evenly.
 constexpr int kEvenValues = 16, kMostValues = 32;
 
 /// Adds the values of a bridge beside one of its ends, up to a limit in the direction of `step`.

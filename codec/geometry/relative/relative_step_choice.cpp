@@ -2,6 +2,7 @@
 #include "codec/geometry/relative/relative_step_choice.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +16,38 @@
 namespace tetrakis::inline relative {
 
 namespace {
+
+/// Runs of samples that are examined, and samples of each at most. More samples tell steps more
+/// surely, and take time.
+constexpr uint32_t kRuns = 128, kLongestRun = 512;
+/// One jump in this number may have a larger rounding than counts as usual. A larger number makes
+/// clusters wider, which hides fine steps.
+constexpr size_t kLargeRoundingIn = 100;
+/// Clusters that follow on one, whose distances to it count. More of them find steps of which few
+/// neighbouring multiples occur, and take time.
+constexpr size_t kNextClusters = 4;
+/// The least distance of clusters, and how far a jump may lie off a multiple that the step is
+/// fitted to, in roundings. A smaller distance takes noise for a step; jumps farther off spoil the
+/// fit.
+constexpr double kLeastRoundings = 4, kMostRoundings = 8;
+/// Digits of decimal steps, and one jump in kMissIn that a shorter decimal may miss. More digits
+/// and a smaller number find steps that are no decimals, or miss the step by a little.
+constexpr int kDigits = 8;
+constexpr size_t kMissIn = 1000;
+/// A step explains jumps if one of kMeritPart is a multiple by merit, and if it misses one of
+/// kMissedPart at most, and one for kSmoothPart samples on smooth ground. A larger first number and
+/// smaller others accept more steps, whose corrections may take more bytes than steps of their own.
+constexpr double kMeritPart = 3;
+constexpr size_t kMissedPart = 10, kSmoothPart = 16;
+/// The usual jump of smooth ground, in steps. With 8 or 1 the first 64 kB lose quality, and
+/// triangulated terrain takes fewer bytes: 1.27 and 1.07 for 1.50 of the smallest GeoTIFF.
+constexpr double kStepPart = 64;
+/// Shares of the jumps whose clusters are examined, and parts of the most frequent distance's jumps
+/// that a smaller distance needs. More trials find rarer steps, and take time.
+constexpr std::array<double, 2> kClusterShares = {1. / 3, 2. / 3};
+constexpr std::array<double, 2> kFrequentParts = {1. / 2, 1. / 16};
+/// Samples and jumps below which no step is looked for. With fewer, chance makes steps.
+constexpr size_t kFewest = 64;
 
 /// By how much a sample misses what its neighbours predict, and what roundings of floats may leave.
 struct Jump {
@@ -46,10 +79,9 @@ class JumpFinder {
         valid_(valid) {}
 
   Jumps find() {
-    constexpr uint32_t kRuns = 128, kLongest = 512;
     constexpr double kGolden = 0.6180339887498949;
     if (width_ < 2 || height_ < 2) return {};
-    const uint32_t length = std::min(kLongest, width_ - 1);
+    const uint32_t length = std::min(kLongestRun, width_ - 1);
     for (uint32_t run = 0; run < kRuns; ++run) {
       const double place = run * kGolden;
       const auto y = 1 + static_cast<uint32_t>((place - std::floor(place)) * (height_ - 1));
@@ -128,7 +160,9 @@ std::vector<Cluster> largest(std::vector<Cluster> clusters, double share) {
 double usualRounding(const Jumps& jumps) {
   std::vector<double> roundings;
   for (const Jump& jump : jumps.beyond) roundings.push_back(2 * jump.rounding);
-  const auto most = roundings.begin() + static_cast<ptrdiff_t>(roundings.size() * 99 / 100);
+  const auto most =
+      roundings.begin() +
+      static_cast<ptrdiff_t>(roundings.size() * (kLargeRoundingIn - 1) / kLargeRoundingIn);
   std::nth_element(roundings.begin(), most, roundings.end());
   return *most;
 }
@@ -141,10 +175,9 @@ struct Distance {
 
 /// Distances of neighbouring clusters, by rising sizes.
 std::vector<Distance> distancesOf(const std::vector<Cluster>& clusters, double least) {
-  constexpr size_t kNext = 4;
   std::vector<Distance> distances;
   for (size_t i = 0; i < clusters.size(); ++i) {
-    for (size_t next = i + 1; next < std::min(i + 1 + kNext, clusters.size()); ++next) {
+    for (size_t next = i + 1; next < std::min(i + 1 + kNextClusters, clusters.size()); ++next) {
       const double size = clusters[next].middle() - clusters[i].middle();
       if (size >= least)
         distances.push_back({size, std::min(clusters[i].count, clusters[next].count)});
@@ -160,8 +193,8 @@ class FrequentDistances {
  public:
   /// share: of the jumps that are in clusters that are looked at.
   FrequentDistances(const Jumps& jumps, double share) : rounding_(usualRounding(jumps)) {
-    constexpr double kLeast = 4;  // roundings
-    distances_ = distancesOf(largest(clustersOf(jumps, rounding_), share), kLeast * rounding_);
+    distances_ =
+        distancesOf(largest(clustersOf(jumps, rounding_), share), kLeastRoundings * rounding_);
     size_t count = 0, end = 0;
     for (const Distance& distance : distances_) {
       while (end < distances_.size() && distances_[end].size <= distance.size + rounding_)
@@ -198,14 +231,13 @@ class FrequentDistances {
 /// The step whose multiples the jumps are, by least squares over ever larger ones: the smaller ones
 /// tell which multiples these are.
 double fitted(const Jumps& jumps, double step) {
-  constexpr double kOff = 8;  // roundings
   const double largest = jumps.beyond.back().size;
   for (double reach = 2 * step; reach < 2 * largest; reach *= 2) {
     double products = 0, squares = 0;
     for (const auto& [size, rounding] : jumps.beyond) {
       if (size > reach) break;
       const double multiple = std::round(size / step);
-      if (std::abs(size - multiple * step) > kOff * rounding) continue;
+      if (std::abs(size - multiple * step) > kMostRoundings * rounding) continue;
       products += size * multiple;
       squares += multiple * multiple;
     }
@@ -217,8 +249,7 @@ double fitted(const Jumps& jumps, double step) {
 /// The decimal number of the fewest digits that explains nearly as many jumps: steps are 0.2 or
 /// 0.3048.
 double shortestDecimal(const Jumps& jumps, double step) {
-  constexpr int kDigits = 8;
-  const size_t most = jumps.misses(step) + jumps.beyond.size() / 1000;
+  const size_t most = jumps.misses(step) + jumps.beyond.size() / kMissIn;
   for (int digits = 1; digits <= kDigits; ++digits) {
     const double unit = portable::pow(10, std::floor(portable::log10(step)) - digits + 1);
     const double count = std::round(step / unit);
@@ -228,33 +259,33 @@ double shortestDecimal(const Jumps& jumps, double step) {
   return step;
 }
 
-/// A third of the jumps at least shall be multiples, beside those that are by chance, and nearly
+/// A part of the jumps at least shall be multiples, beside those that are by chance, and nearly
 /// all of those on rough ground: of the samples on smooth ground, which lie on multiples of any
-/// step, a sixteenth may be followed by a jump. On flat ground out of LERC most jumps lie between
+/// step, some may be followed by a jump. On flat ground out of LERC most jumps lie between
 /// squares.
 bool explains(const Jumps& jumps, double step) {
   double chance = 0;
   for (const Jump& jump : jumps.beyond) chance += std::min(1.0, 2 * jump.rounding / step);
   const size_t missed = jumps.misses(step), all = jumps.beyond.size();
   const auto by_merit = static_cast<double>(all - missed) - chance;
-  return 3 * by_merit >= static_cast<double>(all) && missed <= all / 10 + jumps.none / 16;
+  return kMeritPart * by_merit >= static_cast<double>(all) &&
+         missed <= all / kMissedPart + jumps.none / kSmoothPart;
 }
 
 /// Any step does on ground that is smooth between its jumps, as triangles are. One much smaller
 /// than these keeps the coefficients of some bits a sample, which is what prefixes show.
 double stepOfSmoothGround(const Jumps& jumps) {
-  constexpr double kPart = 64;
   const bool smooth = jumps.none > jumps.beyond.size();
-  return smooth ? jumps.beyond[jumps.beyond.size() / 2].size / kPart : 0;
+  return smooth ? jumps.beyond[jumps.beyond.size() / 2].size / kStepPart : 0;
 }
 
 /// The step that explains the jumps; 0: there is none. Clusters that lie a step apart also lie two
 /// or three steps from the next ones, so that half as many are mostly enough. But whole feet of
 /// whole metres lie three and four steps apart, and seldom one.
 double frequentStep(const Jumps& jumps) {
-  for (const double share : {1. / 3, 2. / 3}) {
+  for (const double share : kClusterShares) {
     const FrequentDistances distances(jumps, share);
-    for (const double part : {1. / 2, 1. / 16}) {
+    for (const double part : kFrequentParts) {
       const double distance = distances.smallest(part);
       if (distance <= 0) break;
       const double step = shortestDecimal(jumps, fitted(jumps, distance));
@@ -267,7 +298,6 @@ double frequentStep(const Jumps& jumps) {
 }  // namespace
 
 double findRelativeStep(const tks_heights& heights, Mask valid) {
-  constexpr size_t kFewest = 64;
   const uint64_t samples = uint64_t{heights.width} * heights.height;
   if (heights.sample != TKS_F32 || samples < kFewest) return 0;
   const Jumps jumps = JumpFinder(heights, valid).find();

@@ -11,11 +11,16 @@
 namespace tetrakis::inline decimation {
 namespace {
 
+/// Triangles up to which meshes are made the best ones by minimum cuts, and samples for each of
+/// these triangles at least. More triangles take 7 times the time of decimation for 0.02 dB.
+constexpr size_t kBestTriangles = 4096, kSamplesForBest = 8;
+
 /// Greedy steps cost most where few triangles are left, up to 0.2 dB below 500; there the best
 /// meshes are cheap to know.
 void improveCoarsest(const Lattice& lattice, const std::vector<double>& gains,
                      std::vector<VertexId>& order) {
-  const auto most = static_cast<uint32_t>(std::min<size_t>(4096, lattice.sampleCount() / 8));
+  const auto most = static_cast<uint32_t>(
+      std::min<size_t>(kBestTriangles, lattice.sampleCount() / kSamplesForBest));
   uint32_t triangles = 2 * lattice.rootColumns() * lattice.rootRows();
   size_t count = 0;
   for (; count < order.size() && triangles < most; ++count)

@@ -10,6 +10,11 @@
 namespace tetrakis::inline fitting {
 namespace {
 
+/// The squared error of the solution over that of zero heights. A smaller number takes steps of the
+/// solver, which nobody sees.
+constexpr double kPrecision = 0x1p-40;
+constexpr int kMaxSteps = 100;  // at condition 4 a step gains a factor of 3
+
 class NormalEquations {
  public:
   NormalEquations(const WeightedSurface& surface, std::span<const FittedLeaf> leaves,
@@ -84,10 +89,8 @@ double dot(const std::vector<double>& x, const std::vector<double>& y) {
   return sum;
 }
 
-/// x with A x = b, to 2^-20 of b in the norm of the inverse diagonal.
+/// x with A x = b, to the root of kPrecision of b in the norm of the inverse diagonal.
 std::vector<double> solve(const NormalEquations& a) {
-  constexpr double kPrecision = 0x1p-40;
-  constexpr int kMaxSteps = 100;  // at condition 4 a step gains a factor of 3
   std::vector<double> x(a.right().size()), residual = a.right();
   std::vector<double> scaled(x.size()), image(x.size());
   const auto rescale = [&] {

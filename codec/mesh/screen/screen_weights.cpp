@@ -8,7 +8,11 @@ namespace tetrakis::inline screen {
 namespace {
 
 /// Pictures are drawn with no more pixels than this; larger ones at a half, a quarter ...
+/// More pixels weigh details of pictures, and take time and memory.
 constexpr uint64_t kMostPixels = uint64_t{1} << 21;
+/// The unit of weights, and the least and the greatest weight in this unit. A larger least weight
+/// keeps more triangles where no camera looks; beside weights above the greatest one others vanish.
+constexpr double kUnit = 0x1p-10, kLeast = 16, kMost = 0x1p24;
 
 ScreenView reduced(ScreenView view) {
   while (uint64_t{view.width} * view.height > kMostPixels) {
@@ -93,7 +97,6 @@ double meanAround(const WeightedSurface& surface, const std::vector<double>& cos
 
 std::vector<float> roundedWeights(const WeightedSurface& surface,
                                   const std::vector<double>& costs) {
-  constexpr double kUnit = 0x1p-10, kLeast = 16, kMost = 0x1p24;  // multiples of the unit
   const SurfaceView& grid = surface.view;
   double sum = 0;
   size_t count = 0;

@@ -10,6 +10,12 @@ namespace tetrakis::inline screen {
 namespace {
 
 constexpr uint8_t kSky = 255;  // pale, as viewers draw it
+/// Pixels that all triangles of a picture may cover, for each of its pixels and for each sample: a
+/// mountain before others takes two or three. Larger numbers draw finer triangles, and take time.
+constexpr double kOfPixels = 32, kOfSamples = 4;
+/// The nearness over that of the picture from which on a point is seen. A smaller number sees
+/// points behind ridges, a larger one misses points of slopes.
+constexpr double kBehind = 1 - 0x1p-11;
 
 /// Sum of a row of a matrix times (column, row, height, 1).
 double dotRow(const std::array<double, 16>& m, size_t row, double x, double y, double z) {
@@ -141,7 +147,6 @@ void SurfacePicture::forEachTriangle(const WeightedSurface& surface, const Scree
 }
 
 uint32_t SurfacePicture::strideOf(const WeightedSurface& surface, const ScreenView& view) const {
-  constexpr double kOfPixels = 32, kOfSamples = 4;  // a mountain before others takes two or three
   const double most = kOfPixels * static_cast<double>(nearness_.size()) +
                       kOfSamples * static_cast<double>(surface.view.heights.size());
   const uint32_t longest = std::max(surface.view.width, surface.view.height);
@@ -201,7 +206,6 @@ void SurfacePicture::draw(const Corners& corners, const GroundImage& image) {
 }
 
 bool SurfacePicture::shows(const ScreenPoint& point) const {
-  constexpr double kBehind = 1 - 0x1p-11;
   if (point.nearness == 0 || point.x < 0 || point.y < 0 || point.x >= width_ || point.y >= height_)
     return false;
   const auto x = static_cast<uint32_t>(point.x), y = static_cast<uint32_t>(point.y);

@@ -17,13 +17,23 @@ namespace tetrakis::inline choice {
 
 namespace {
 
+/// The reaches that are tried. More of them find better bridges, and take the time of a transform
+/// of the typical parts each.
 constexpr std::array<uint8_t, 7> kReaches = {1, 2, 4, 8, 16, 64, kBridgeAll};
-/// Estimates of bits are no better than that.
+/// Bridges have to take this share of the bits: estimates are no better than that. A larger share
+/// takes bridges that lose bytes, a smaller one misses some that gain.
 constexpr double kClearly = 0.98;
-/// What preferred bridges may lose against the best, at most.
+/// The bits that preferred bridges may take over the best ones. A larger number gives more streams
+/// late masks, at as many more bytes.
 constexpr double kNearly = 1.01;
-/// How many times the bytes the target may take for what prefixes gain.
+/// How many times the bits the target may take for the sake of prefixes. A larger number helps
+/// prefixes, and costs the target bytes.
 constexpr double kMostAtTarget = 1;
+/// Bits of a bridge in the header.
+constexpr double kBridgeBits = 8;
+/// A reach is tried if it lifts one void more for this number of valid samples. A larger number
+/// takes time for voids that save next to nothing.
+constexpr size_t kFewestBridged = 1024;
 
 CostAtStep costsOf(const TypicalPlane& plane) {
   return [&](double step) { return plane.cost(step); };
@@ -72,8 +82,6 @@ uint8_t chosenOf(std::span<const Tried> tried, const BridgeTarget& target, const
 
 BridgedPlane chooseBridges(const PlaneView<const int32_t>& plane, int bits,
                            const BridgeTarget& target) {
-  constexpr double kBridgeBits = 8;        // in the header
-  constexpr size_t kFewestBridged = 1024;  // one in so many valid samples
   const Extent extent = plane.extent();
   const size_t valid = markedIn(extent, plane.valid);
   if (valid == extent.samples() || valid == 0) return {};

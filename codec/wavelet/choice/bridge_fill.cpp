@@ -17,6 +17,10 @@ namespace tetrakis::inline choice {
 
 namespace {
 
+/// Sweeps that smooth the values at voids on each level. More of them make coefficients beside
+/// voids smaller, and take time.
+constexpr int kSweeps = 12;
+
 /// A plane of which some values are known.
 struct Known {
   Extent extent;
@@ -128,7 +132,6 @@ void forEachMarked(const std::vector<uint8_t>& marks, const Call& call) {
 }  // namespace
 
 std::vector<int32_t> bridged(const PlaneView<const int32_t>& plane, Mask lifted) {
-  constexpr int kSweeps = 12;
   assert(!plane.valid.all());
   std::vector<int32_t> filled(plane.values().begin(), plane.values().end());
   std::vector<uint8_t> bridges(filled.size());

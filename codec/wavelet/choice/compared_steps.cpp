@@ -8,12 +8,24 @@
 
 namespace tetrakis::inline choice {
 
+namespace {
+
+/// Each step over the one before, 12 dB apart, and the first one behind a target to the last bit.
+/// Closer steps judge prefixes more exactly, and take the time of an estimate each.
+constexpr double kStepsApart = 4, kFirstLossy = 2;
+/// Bits a sample of the shortest prefixes that are compared. A smaller number counts earlier
+/// prefixes, whose estimates err more.
+constexpr double kLeastPrefixBits = 0.05;
+/// Ratios of bits below this one count as this. With a smaller number one step, at which a way
+/// costs nothing, may decide alone.
+constexpr double kLeastRatio = 0.05;
+
+}  // namespace
+
 ComparedSteps::ComparedSteps(const CostAtStep& plain, double target, double samples) {
-  constexpr double kApart = 4, kFirstLossy = 2;
-  constexpr double kLeastBits = 0.05;  // a sample, of prefixes
-  for (double step = target;; step = step == 0 ? kFirstLossy : kApart * step) {
+  for (double step = target;; step = step == 0 ? kFirstLossy : kStepsApart * step) {
     const PlaneCost cost = plain(step);
-    if (!plain_.empty() && cost.bits < kLeastBits * samples) return;
+    if (!plain_.empty() && cost.bits < kLeastPrefixBits * samples) return;
     plain_.push_back({step, cost.bits, cost.joint(step)});
   }
 }
@@ -31,7 +43,6 @@ double ComparedSteps::ratioAtTarget(const CostAtStep& way, double more_bits) con
 }
 
 double ComparedSteps::logRatio(const Plain& plain, const CostAtStep& way, double more_bits) {
-  constexpr double kLeastRatio = 0.05;
   const double change = way(plain.step).joint(plain.step) + more_bits - plain.joint;
   return portable::log(std::max(1 + change / plain.bits, kLeastRatio));
 }

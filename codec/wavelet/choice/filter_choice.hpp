@@ -18,6 +18,10 @@ enum class Purpose : uint8_t {
   kLossy      ///< something short of it: as many fraction bits as rounding noise asks for
 };
 
+/// Bits of samples with fraction bits, at most; wider samples have none. With a larger number the
+/// low bands of kQuiet pass 2^30; with a smaller one wide samples lose by roundings.
+inline constexpr int kBitsWithFractions = 20;
+
 /// What the filters of lossy streams are chosen for.
 struct RateTarget {
   double bits = 0;         ///< a sample that there are for the plane; 0: any

@@ -15,7 +15,8 @@ namespace tetrakis::inline choice {
 
 namespace {
 
-/// In large bands the first kStrip of every kPeriod rows tell what all rows cost.
+/// In bands of more rows than kLargeRows the first kStrip of every kPeriod rows tell what all rows
+/// cost. More rows tell it more exactly, and take time.
 constexpr uint32_t kLargeRows = 256, kPeriod = 64, kStrip = 16;
 
 /// Calls take(row, marks) for the coefficients of a subband's rows; marks: 1 for those that are

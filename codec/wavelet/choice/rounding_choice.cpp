@@ -19,12 +19,15 @@ namespace tetrakis::inline choice {
 
 namespace {
 
+/// Samples along a side of the parts that are decoded with roundings and without. Larger parts find
+/// the place better, and take time.
 constexpr uint32_t kPartSide = 64;
 /// The least and the greatest squared error of coefficients, for each coded sample, from which on
-/// rounding may be found to help.
+/// rounding may be found to help. A wider range takes the time of decoding the parts twice for each
+/// halving.
 constexpr double kMostError = 1, kLeastError = 1.0 / 2048;
 /// Parts of fewer bits a sample, such as still water, say nothing: their codewords are hardly
-/// longer than the bytes that a range coder ends with.
+/// longer than the bytes that a range coder ends with. A larger number leaves out parts that tell.
 constexpr double kLeastBits = 0.125;
 
 size_t codedIn(std::span<const uint8_t> valid, std::span<const uint16_t> held, size_t samples) {

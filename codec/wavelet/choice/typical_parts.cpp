@@ -8,9 +8,20 @@ namespace tetrakis::inline choice {
 
 namespace {
 
+/// Planes of no longer side are judged whole. A larger number chooses better, and takes time.
 constexpr uint32_t kWholeSide = 256;
-constexpr uint32_t kFields = 3;  // along each side
+/// Fields along each side, of which each has a part. More of them stand better for planes of many
+/// kinds of ground, and take time.
+constexpr uint32_t kFields = 3;
+/// Parts begin at multiples of this number of samples, on which copies and interpolated rows lie. A
+/// larger number leaves fewer places for a part.
 constexpr uint32_t kAligned = 16;
+/// One of this number of samples along rows, and of rows, tells how much of a part is coded. A
+/// smaller number tells it more exactly, and takes time.
+constexpr uint32_t kCodedApart = 8;
+/// A part lies elsewhere than in the middle of its field if this many times as many samples are
+/// coded there. A smaller factor moves parts by chance.
+constexpr uint32_t kMuchMore = 2;
 
 struct Interval {
   uint32_t first, length;
@@ -38,13 +49,12 @@ std::vector<uint32_t> placesIn(uint32_t field, uint32_t side, uint32_t length) {
   return places;
 }
 
-/// Samples of a part that are coded, of one in 64.
+/// Samples of a part that are coded, of a grid of them.
 uint32_t codedIn(const Window& part, Extent plane, const IsCoded& is_coded) {
-  constexpr uint32_t kApart = 8;
   uint32_t count = 0;
-  for (uint32_t y = 0; y < part.height; y += kApart) {
+  for (uint32_t y = 0; y < part.height; y += kCodedApart) {
     const size_t row = size_t{part.y + y} * plane.width + part.x;
-    for (uint32_t x = 0; x < part.width; x += kApart) count += is_coded(row + x);
+    for (uint32_t x = 0; x < part.width; x += kCodedApart) count += is_coded(row + x);
   }
   return count;
 }
@@ -61,7 +71,7 @@ FieldPart partOf(uint32_t column, uint32_t row, Extent plane, uint32_t side,
   const Window middle = {x.first, y.first, x.length, y.length};
   if (!is_coded) return {middle, 1};
   FieldPart best = {middle, codedIn(middle, plane, is_coded)};
-  uint32_t least = 2 * best.coded;
+  uint32_t least = kMuchMore * best.coded;
   for (const uint32_t top : placesIn(row, plane.height, y.length)) {
     for (const uint32_t left : placesIn(column, plane.width, x.length)) {
       const Window part = {left, top, x.length, y.length};

@@ -15,7 +15,7 @@
 
 namespace tetrakis::inline choice {
 
-/// Samples along a side of a part.
+/// Samples along a side of a part. Larger parts judge choices better, and take time.
 inline constexpr uint32_t kUsualSide = 96;
 
 /// Whether a sample, by its place in the plane, has to be coded; empty: all have to.

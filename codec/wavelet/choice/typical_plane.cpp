@@ -11,6 +11,13 @@
 
 namespace tetrakis::inline choice {
 
+namespace {
+
+/// log2 of the coarsest step that is looked for; every plane fits it.
+constexpr int kMostStepLog2 = 60;
+
+}  // namespace
+
 TypicalPlane::Part::Part(PlanePart part, const WaveletHeader& header, size_t shown)
     : samples(std::move(part)),
       layout(specOf(header), Pyramid(samples.extent, samples.valid)),
@@ -49,9 +56,8 @@ PlaneCost TypicalPlane::cost(double step) const {
 }
 
 double TypicalPlane::step(double bits) const {
-  constexpr int kMost = 60;
   int log2 = 0;
-  while (log2 < kMost && cost(portable::exp2(log2)).bits > bits) ++log2;
+  while (log2 < kMostStepLog2 && cost(portable::exp2(log2)).bits > bits) ++log2;
   return portable::exp2(log2);
 }
 

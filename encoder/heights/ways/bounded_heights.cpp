@@ -18,6 +18,7 @@
 #include "codec/geometry/steps/sample_order.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/height_options.hpp"
+#include "encoder/heights/heights_notes.hpp"
 #include "encoder/heights/ways/corrected_heights.hpp"
 #include "encoder/heights/ways/lossless_heights.hpp"
 #include "ratecontrol/needs/candidate.hpp"
@@ -25,6 +26,15 @@
 namespace tetrakis::inline ways {
 
 namespace {
+
+/// Multiples of the exact step are preferred to the widest step if they are this many times as
+/// wide. A larger factor tries floats of the widest step more often, which takes time.
+constexpr double kClearlyWider = 1.02;
+/// Errors below this many steps ask for coefficients to the last bit. A larger number takes bytes
+/// that the bound does not ask for; with a smaller one fraction bits are lost that it asks for.
+constexpr double kFewSteps = 2;
+constexpr double kMostRounded = 1 << 24;  // twice as many steps, and one, fit the range of 2^26
+constexpr double kSlack = 1e-9;           // a bound of whole steps is rounded by less
 
 using Quantised = std::shared_ptr<const QuantisedHeights>;
 
@@ -66,11 +76,10 @@ Candidate<CodedHeights> codeRounded(const Bound& bound, HeightSteps steps) {
 /// Floats whose step is not given, rounded to the widest step that the bound allows. Nothing if no
 /// step is wider than the exact one, or if multiples of the exact step are clearly wider.
 std::optional<Candidate<CodedHeights>> widen(const Bound& bound, int32_t largest) {
-  constexpr double kClearly = 1.02;
   const tks_heights& samples = *bound.quantised->samples;
   const double widest = 2 * bound.error, exact = bound.quantised->steps.step;
   if (samples.sample != TKS_F32 || samples.step > 0 || widest <= exact) return {};
-  if ((2.0 * largest + 1) * exact > kClearly * widest) return {};
+  if ((2.0 * largest + 1) * exact > kClearlyWider * widest) return {};
   Result<HeightSteps> wide = toSteps(samples, {.given = widest});
   if (!wide.ok()) return {};
   return codeRounded(bound, std::move(*wide));
@@ -106,27 +115,70 @@ uint64_t fewestOf(const std::vector<Candidate<CodedHeights>>& made) {
   return fewest;
 }
 
+/// Notes the way that typical parts have ruled out.
+void noteRuledOut(const Bound& bound, const BoundWays& ways, int32_t largest) {
+  Plan plan = planOf(*bound.quantised, Coding::kWavelet);
+  if (!ways.round && ways.rounded_bytes) {
+    plan.step *= 2 * largest + 1;
+    noteExpected(bound.inputs, std::move(plan), *ways.rounded_bytes);
+  } else if (!ways.correct && ways.corrected_bytes) {
+    plan.cut = std::sqrt(ways.mean_square.value_or(0));
+    plan.residual = {Residual::Kind::kWithin, static_cast<double>(largest), Predictor::kDecoded};
+    noteExpected(bound.inputs, std::move(plan), *ways.corrected_bytes);
+  }
+}
+
+/// The candidate, of which so many bytes were expected.
+Candidate<CodedHeights> expecting(std::optional<double> bytes,
+                                  const Candidate<CodedHeights>& candidate) {
+  if (!bytes) return candidate;
+  CodedHeights coded = *candidate.coded;
+  coded.expected = bytes;
+  return candidateOf(std::move(coded));
+}
+
 /// Makes all attempts at a largest error in steps, whether or not they keep it.
 std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t largest) {
   const tks_heights& samples = *bound.quantised->samples;
   const BoundWays ways =
       boundWays(bound.quantised->steps, extentOf(samples), bound.wavelet, largest);
+  noteRuledOut(bound, ways, largest);
   std::vector<Candidate<CodedHeights>> made;
   if (ways.round) {
     std::optional<Candidate<CodedHeights>> wide = widen(bound, largest);
-    made.push_back(wide ? *std::move(wide) : round(bound, largest));
+    made.push_back(expecting(ways.rounded_bytes, wide ? *wide : round(bound, largest)));
   }
-  if (ways.correct)
-    made.push_back(
-        candidateOf(codeCorrected({bound.quantised, bound.purpose, bound.options, largest},
-                                  {ways.mean_square, fewestOf(made)})));
+  if (ways.correct) {
+    CodedHeights corrected = codeCorrected({bound.quantised, bound.purpose, bound.options, largest},
+                                           {ways.mean_square, fewestOf(made)});
+    corrected.expected = ways.corrected_bytes;
+    made.push_back(candidateOf(std::move(corrected)));
+  }
   return made;
 }
 
+/// Whether the heights keep the bound. Those that do not are noted.
 bool keepsBound(const EncodeInputs& inputs, const CodedHeights& coded) {
   const SampleErrors errors =
       sampleErrorsOf(coded, codewordsOf(coded.tracks), inputs.options.threads);
-  return errors.largest * std::abs(inputs.heights->scale) <= inputs.options.max_error;
+  const bool keeps = errors.largest * std::abs(inputs.heights->scale) <= inputs.options.max_error;
+  if (!keeps) note(inputs, coded, Verdict::kMissesTarget);
+  return keeps;
+}
+
+/// Appends the shortest attempt that keeps the bound, if there is one, to those kept. Returns
+/// whether no attempt is shorter: longer ones need not be looked at.
+bool keepShortest(const EncodeInputs& inputs, std::vector<Candidate<CodedHeights>> made,
+                  std::vector<Candidate<CodedHeights>>& kept) {
+  std::stable_sort(made.begin(), made.end(),
+                   [](const auto& a, const auto& b) { return a.bytes() < b.bytes(); });
+  const auto keeps = [&](const auto& one) { return keepsBound(inputs, *one.coded); };
+  const auto shortest = std::find_if(made.begin(), made.end(), keeps);
+  if (shortest == made.end()) return made.empty();
+  kept.push_back(*shortest);
+  for (auto one = shortest + 1; one != made.end(); ++one)
+    note(inputs, *one->coded, Verdict::kLonger);
+  return shortest == made.begin();
 }
 
 }  // namespace
@@ -144,30 +196,24 @@ std::shared_ptr<const CodedHeights> codeBoundedHeights(const EncodeInputs& input
   };
   if (quantised->restored()) return codeLosslessHeights(inputs, quantised);
   const double finest = quantised->steps.step * std::abs(inputs.heights->scale);
-  const bool fine = inputs.options.max_error < 2 * finest;
+  const bool fine = inputs.options.max_error < kFewSteps * finest;
   const Purpose purpose = fine ? Purpose::kLossless : Purpose::kLossy;
   const Bound bound{inputs,  quantised,
                     purpose, chooseHeightFilters(*quantised, purpose),
                     options, wanted - floatSpacing(*quantised) / 2};
   const double room =
       (wanted - errorsOf(*inputs.heights, quantised->steps).largest) / quantised->steps.step;
-  constexpr double kMost = 1 << 24;
-  const auto largest = static_cast<int32_t>(std::clamp(room + 1e-9, 0.0, kMost));
+  const auto largest = static_cast<int32_t>(std::clamp(room + kSlack, 0.0, kMostRounded));
   std::vector<Candidate<CodedHeights>> kept;
   const std::optional<Candidate<CodedHeights>> near = onNearGrid(bound);
   if (near && keepsBound(inputs, *near->coded)) kept.push_back(*near);
   for (const int32_t tried : {largest, std::max(largest - 1, 0), 0}) {
     if (tried == 0 && !kept.empty()) break;
-    std::vector<Candidate<CodedHeights>> made = attempts(bound, tried);
-    std::stable_sort(made.begin(), made.end(),
-                     [](const auto& a, const auto& b) { return a.bytes() < b.bytes(); });
-    const auto keeps = [&](const auto& one) { return keepsBound(inputs, *one.coded); };
-    const auto shortest = std::find_if(made.begin(), made.end(), keeps);
-    if (shortest != made.end()) kept.push_back(*shortest);
-    if (shortest == made.begin()) break;  // longer ones need not be looked at
+    if (keepShortest(inputs, attempts(bound, tried), kept)) break;
   }
   if (kept.empty()) return exactly();
-  const std::shared_ptr<const CodedHeights> best = fewestBytes(std::move(kept)).coded;
+  const std::shared_ptr<const CodedHeights> best =
+      fewestBytes(std::move(kept), notingLonger(inputs)).coded;
   return std::make_shared<const CodedHeights>(withRounding(*best));
 }
 

@@ -20,6 +20,19 @@ namespace tetrakis::inline ways {
 
 namespace {
 
+/// A cut lies near the end of the coefficients if this many times its bytes reach beyond it: then
+/// coding goes on. A larger factor has more heights coded twice; a smaller one misses later cuts.
+constexpr double kNearEnd = 1.5;
+/// Coding ends at this part of the squared error that cuts usually leave. Coding to a 32nd takes
+/// two thirds of the time of coding to the end, with the same bytes; a smaller part takes longer.
+constexpr double kEndOfCut = 1. / 32;
+/// Samples of a window of regions that are corrected together, at least. A larger window takes more
+/// memory; smaller ones decode the coefficients around them more often.
+constexpr uint64_t kWindowSamples = 1 << 20;
+/// A coarser cut is taken beside a budget if it is estimated at this share of the bytes or less. A
+/// larger share saves bytes at the end of more streams, and their prefixes lose quality.
+constexpr double kFarShorter = 0.8;
+
 /// The first bytes of a track of coefficients.
 EncodedTrack cutAt(const EncodedTrack& whole, uint64_t bytes) {
   assert(bytes <= whole.codeword.size());
@@ -76,14 +89,14 @@ CodedHeights followedBy(CodedHeights cut, const Corrected& corrected, int32_t la
 /// while coding could go on.
 std::optional<CodedHeights> codeCut(const Correctable& heights, const UncutHeights& uncut,
                                     const CutTarget& target) {
-  constexpr double kNear = 1.5;
   const auto& [layers, track, may_go_on] = uncut;
   const QuantisedHeights& quantised = *heights.quantised;
   const GeometryHeader header = headerOf(quantised, layers, track.planes);
   CorrectedCut cut(quantised.steps, layers.flat.areas, header, track, heights.largest);
   const uint64_t bytes =
       target.mean_square ? cut.bytesFor(*target.mean_square) : cut.best(target.rival);
-  const bool near = kNear * static_cast<double>(bytes) > static_cast<double>(track.codeword.size());
+  const bool near =
+      kNearEnd * static_cast<double>(bytes) > static_cast<double>(track.codeword.size());
   if (near && may_go_on) return {};
   CodedHeights coded =
       joinLayers(heights.quantised, layers, {cutAt(track, bytes)}, heights.options.region_log2);
@@ -94,24 +107,22 @@ std::optional<CodedHeights> codeCut(const Correctable& heights, const UncutHeigh
 /// leave, unless the best cut lies near that end.
 CodedHeights codeBeside(const FlatChoice& choice, const Correctable& heights,
                         const CutTarget& target) {
-  constexpr double kPart = 1. / 32;
   assert(heights.quantised->corrections.empty());
   const double left = target.mean_square.value_or(usualCut(heights.largest));
   if (std::optional<CodedHeights> coded =
-          codeCut(heights, codeUncut(heights, choice, left * kPart), target))
+          codeCut(heights, codeUncut(heights, choice, left * kEndOfCut), target))
     return *std::move(coded);
   return *codeCut(heights, codeUncut(heights, choice, 0), target);
 }
 
-/// The parts grouped into windows of whole rows of regions, with a million samples or more each:
+/// The parts grouped into windows of whole rows of regions, with kWindowSamples or more each:
 /// the memory of decoding follows the window.
 std::vector<std::vector<Window>> windowsOf(const std::vector<Window>& parts) {
-  constexpr uint64_t kEnough = 1 << 20;
   std::vector<std::vector<Window>> windows;
-  uint64_t samples = kEnough;
+  uint64_t samples = kWindowSamples;
   for (const Window& part : parts) {
     const bool new_row = windows.empty() || part.y != windows.back().back().y;
-    if (new_row && samples >= kEnough) {
+    if (new_row && samples >= kWindowSamples) {
       windows.emplace_back();
       samples = 0;
     }
@@ -178,12 +189,11 @@ std::optional<CodedHeights> codeCorrected(const EncodeInputs& inputs, const Code
 }
 
 std::optional<double> farShorterCut(const CodedHeights& lossy, uint64_t bytes) {
-  constexpr double kFar = 0.8;
   const HeightSteps& steps = lossy.quantised->steps;
   const PlaneView<const int32_t> plane = steps.lifting(extentOf(*lossy.quantised->samples));
   const auto whole = static_cast<uint64_t>(typicalCost(plane, steps.range_bits, 0).bits / 8);
   const std::optional<ExactCut> cut = chooseExactCut(plane, steps.range_bits, whole);
-  if (!cut || cut->bytes > kFar * static_cast<double>(bytes)) return {};
+  if (!cut || cut->bytes > kFarShorter * static_cast<double>(bytes)) return {};
   return std::sqrt(cut->mean_square);
 }
 

@@ -6,27 +6,43 @@
 #include "codec/geometry/coding_choice/exact_cut.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_estimate.hpp"
 #include "codec/wavelet/choice/typical_plane.hpp"
+#include "encoder/heights/heights_notes.hpp"
 #include "encoder/heights/quantised_heights.hpp"
 #include "encoder/heights/ways/facet_heights.hpp"
 #include "encoder/heights/ways/lossless_heights.hpp"
 
 namespace tetrakis::inline ways {
 
-bool mayTakeNoMore(const HeightSteps& steps, Extent extent, uint64_t bytes) {
-  constexpr double kClearly = 1.4;  // 14 DEMs take 0.88 to 1.15 of the estimate
-  constexpr double kMostByCut = 4;  // squares of distances take a quarter by a cut
-  const PlaneView<const int32_t> plane = steps.lifting(extent);
+namespace {
+
+/// Exact heights are tried up to this many times the bytes, by an estimate. 14 DEMs take 0.88 to
+/// 1.15 of the estimate: a larger factor takes time, a smaller one misses shorter heights.
+constexpr double kClearlyMore = 1.4;
+/// Estimates up to this many times as large again are tried by a cut: squares of distances take a
+/// quarter by a cut. A larger factor takes the time of choosing more cuts.
+constexpr double kMostByCut = 4;
+/// Errors, in steps, up to which exact heights are tried for a largest error. A larger number takes
+/// time for coarse bounds, within which rounded heights mostly are shorter.
+constexpr double kMostSteps = 2;
+
+}  // namespace
+
+bool mayTakeNoMore(const EncodeInputs& inputs, const QuantisedHeights& heights, uint64_t bytes) {
+  const HeightSteps& steps = heights.steps;
+  const PlaneView<const int32_t> plane = steps.lifting(extentOf(*heights.samples));
   const double whole = typicalCost(plane, steps.range_bits, 0).bits / 8;
-  const double most = kClearly * static_cast<double>(bytes);
+  const double most = kClearlyMore * static_cast<double>(bytes);
   if (whole <= most) return true;
-  if (whole > kMostByCut * most || !steps.table.empty()) return false;
-  const auto cut = chooseExactCut(plane, steps.range_bits, static_cast<uint64_t>(whole));
-  return cut && cut->bytes <= most;
+  if (whole <= kMostByCut * most && steps.table.empty()) {
+    const auto cut = chooseExactCut(plane, steps.range_bits, static_cast<uint64_t>(whole));
+    if (cut && cut->bytes <= most) return true;
+  }
+  noteExpected(inputs, planOf(heights, Coding::kWavelet), whole);
+  return false;
 }
 
 std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, double error,
                                                     uint64_t lossy_bytes) {
-  constexpr double kMostSteps = 2;  // of error, if heights are multiples of a step
   assert(inputs.heights != nullptr && inputs.options.lossless == 0);
   tks_encode_options options = inputs.options;
   options.bytes = 0;
@@ -43,7 +59,7 @@ std::shared_ptr<const CodedHeights> exactHeightsFor(const EncodeInputs& inputs, 
   if (const auto facets = facetsOf(**heights); facets && mayFit(*facets, **heights, lossy_bytes))
     return codeLosslessHeights(lossless, *heights);
   if (error > kMostSteps * steps.step) return nullptr;
-  if (!mayTakeNoMore(steps, plane.extent(), lossy_bytes)) return nullptr;
+  if (!mayTakeNoMore(inputs, **heights, lossy_bytes)) return nullptr;
   return codeLosslessHeights(lossless, *heights);
 }
 

@@ -13,8 +13,9 @@
 
 namespace tetrakis::inline ways {
 
-/// Whether exact steps may take at most `bytes` bytes to the last bit, by typical parts.
-bool mayTakeNoMore(const HeightSteps& steps, Extent extent, uint64_t bytes);
+/// Whether exact heights may take at most `bytes` bytes to the last bit, by typical parts; if not,
+/// what these foretell is noted.
+bool mayTakeNoMore(const EncodeInputs& inputs, const QuantisedHeights& heights, uint64_t bytes);
 
 /// The heights that the target `lossless` would give. error: the largest or mean error, in sample
 /// units, that the target of the inputs allows; lossy_bytes: bytes of lossy heights of this error.

@@ -15,6 +15,27 @@ namespace tetrakis::inline ways {
 
 namespace {
 
+/// The share of samples beyond facets up to which facets are tried, and the same beside a table of
+/// values. Larger shares take the time of this way where steps or tables mostly predict better.
+constexpr double kMostBeyond = 0.75, kMostBesideTable = 0.25;
+/// Exact steps that are coarser than this many distances of floats leave no facets to be tried. A
+/// larger number takes time where steps predict better.
+constexpr double kCoarse = 8;
+/// Bytes that a sample beyond facets takes at least. A larger number gives facets up more often
+/// within small budgets.
+constexpr double kBeyond = 1;
+/// The squared error of the next finer cut over that of a cut, the growth of bytes up to which it
+/// is taken, and the squared steps at which trials end. More growth and a finer end give prefixes
+/// more coefficients, and take bytes and time; steps of a smaller part may pass over the shortest
+/// cut.
+constexpr double kFiner = 1. / 16, kLittle = 1.05, kFinest = 1. / 16;
+/// Fields of more samples than these are cut once. A larger number takes time, and saves bytes of
+/// smooth surfaces, for which estimates are too high.
+constexpr uint64_t kMostTried = 1 << 20;
+/// The share of the room that an estimated cut may take before the shortest cut is tried instead. A
+/// larger share leaves finer prefixes, and more trials fail: the estimate is rarely off by more.
+constexpr double kSurely = 0.9;
+
 CodedHeights followedByFacets(CodedHeights cut, int unit, uint32_t threads) {
   const HeightSteps shown = shownSteps(cut, threads);
   const PlaneView<const int32_t> steps(shown.steps, cut.header.extent(), shown.valid);
@@ -32,8 +53,6 @@ CodedHeights followedByFacets(CodedHeights cut, int unit, uint32_t threads) {
 /// Facets are not sought where steps are far coarser than floats are, or where few values have a
 /// table: steps and tables then predict most samples better.
 std::optional<FacetShare> facetsOf(const QuantisedHeights& heights) {
-  constexpr double kMostBeyond = 0.75, kMostBesideTable = 0.25;
-  constexpr double kCoarse = 8;
   const HeightSteps& steps = heights.steps;
   if (heights.samples->sample != TKS_F32 || heights.samples->step > 0) return {};
   const FacetShare facets = findFacets(*heights.samples, steps.valid);
@@ -44,15 +63,12 @@ std::optional<FacetShare> facetsOf(const QuantisedHeights& heights) {
 }
 
 bool mayFit(const FacetShare& facets, const QuantisedHeights& heights, uint64_t bytes) {
-  constexpr double kBeyond = 1;  // bytes of a sample that no prediction comes near, at least
   return facets.beyond * heights.counted() * kBeyond <= static_cast<double>(bytes);
 }
 
 /// The estimate takes smooth surfaces for dearer than they are. So finer cuts are tried while they
 /// cost little.
 std::optional<CodedHeights> codeFacets(const EncodeInputs& inputs, const FacetShare& facets) {
-  constexpr double kFiner = 1. / 16, kLittle = 1.05, kFinest = 1. / 16;
-  constexpr uint64_t kMostTried = 1 << 20;  // samples
   const std::shared_ptr<const QuantisedHeights> fine = quantiseForFacets(inputs);
   if (!fine) return {};
   const Extent extent = extentOf(*fine->samples);
@@ -82,7 +98,6 @@ std::optional<FacetShare> facetsOf(const CodedHeights& lossy, uint64_t room) {
 
 std::optional<CodedHeights> codeFacets(const CodedHeights& lossy, const FacetShare& facets,
                                        uint64_t room, uint32_t threads) {
-  constexpr double kSurely = 0.9;  // the estimate is rarely off by more
   const HeightSteps& steps = lossy.quantised->steps;
   const Extent extent = extentOf(*lossy.quantised->samples);
   for (const double most : {kSurely * static_cast<double>(room), 0.}) {

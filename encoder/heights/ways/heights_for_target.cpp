@@ -8,6 +8,7 @@
 #include "codec/geometry/quantiser/voids.hpp"
 #include "encoder/heights/height_errors.hpp"
 #include "encoder/heights/height_options.hpp"
+#include "encoder/heights/heights_notes.hpp"
 #include "encoder/heights/ways/bounded_heights.hpp"
 #include "encoder/heights/ways/exact_heights.hpp"
 #include "encoder/heights/ways/lossless_heights.hpp"
@@ -15,6 +16,19 @@
 namespace tetrakis::inline ways {
 
 namespace {
+
+/// The part of a budget that heights get beside a texture whose size is not known yet, for filters
+/// and flat areas; most of the budget is the texture's. A smaller number chooses for more bytes.
+constexpr uint64_t kShareBesideTexture = 4;
+/// The same part for the room of a late mask and the coefficients before it. A smaller number
+/// delays the mask, so that small budgets hold heights without their voids.
+constexpr uint64_t kMaskShareBesideTexture = 8;
+/// Coding for a PSNR ends at the target's squared error over this number. A larger number takes
+/// time; with a smaller one more heights miss the target and are coded once more.
+constexpr double kPartOfTarget = 2;
+/// Coding ends early only for targets above this squared error, in steps: below it the rounding of
+/// samples counts as much. A smaller number has more heights coded twice.
+constexpr double kLeastSquares = 1;
 
 using Quantised = std::shared_ptr<const QuantisedHeights>;
 using Heights = std::shared_ptr<const CodedHeights>;
@@ -30,9 +44,8 @@ bool leavesExactSteps(const QuantisedHeights& heights, double error) {
 /// The room for coefficients before a late mask, so that the budget holds all of the mask. Where
 /// the budget has no room for all of it, the mask may lie behind the budget.
 MaskRoom maskRoomOf(const EncodeInputs& inputs, const QuantisedHeights& heights) {
-  constexpr uint64_t kShareBesideTexture = 8;
   const uint64_t budget = inputs.options.bytes,
-                 share = inputs.image == nullptr ? 1 : kShareBesideTexture;
+                 share = inputs.image == nullptr ? 1 : kMaskShareBesideTexture;
   const std::optional<uint64_t> room = roomBesideMask(heights.late.bytes(), budget);
   return {room ? *room / share : 0, budget / share};
 }
@@ -46,12 +59,15 @@ Heights codeWithinBound(const EncodeInputs& inputs, Quantised quantised) {
   Heights bounded = codeBoundedHeights(inputs, std::move(quantised));
   const uint64_t bytes = bytesOf(bounded->tracks);
   Heights exact = exactHeightsFor(inputs, error, bytes);
-  return exact && bytesOf(exact->tracks) < bytes ? exact : bounded;
+  if (!exact) return bounded;
+  const bool shorter = bytesOf(exact->tracks) < bytes;
+  note(inputs, shorter ? *bounded : *exact, Verdict::kLonger);
+  return shorter ? exact : bounded;
 }
 
-/// Coding ends at half of the target error: the account is not precise enough to end at the target,
-/// and samples are rounded, which counts where few steps are left. If the samples then miss the
-/// target, coding goes on.
+/// Coding ends at a part of the target error: the account is not precise enough to end at the
+/// target, and samples are rounded, which counts where few steps are left. If the samples then miss
+/// the target, coding goes on.
 CodedHeights codeUntilReached(const EncodeInputs& inputs, const Quantised& quantised,
                               HeightTarget target) {
   const SampleRange range = rangeOf(*inputs.heights, quantised->steps.valid);
@@ -59,8 +75,8 @@ CodedHeights codeUntilReached(const EncodeInputs& inputs, const Quantised& quant
       worstMeanSquare(range.high - range.low, inputs.options.psnr) / inputs.heaviest();
   target.mean_square = wanted / (quantised->steps.step * quantised->steps.step);
   CoefficientOptions options = heightOptions(inputs);
-  if (target.mean_square > 1 && !quantised->restored())
-    options.enough = target.mean_square / 2 * quantised->counted();
+  if (target.mean_square > kLeastSquares && !quantised->restored())
+    options.enough = target.mean_square / kPartOfTarget * quantised->counted();
   CodedHeights coded = codeHeights(quantised, target, options);
   if (coded.tracks.front().complete) return coded;
   const Codewords whole = codewordsOf(coded.tracks);
@@ -74,9 +90,6 @@ Heights codeHeightsForTarget(const EncodeInputs& inputs, Quantised quantised) {
   if (inputs.options.max_error > 0) return codeWithinBound(inputs, std::move(quantised));
   if (inputs.options.lossless != 0) return codeLosslessHeights(inputs, quantised);
   HeightTarget target(quantised->restored() ? Purpose::kLossless : purposeOf(inputs));
-  // The share of a budget that heights get beside a texture whose size is not known yet; most of
-  // the budget is the texture's.
-  constexpr uint64_t kShareBesideTexture = 4;
   if (inputs.budgeted()) {
     target.bytes = inputs.options.bytes / (inputs.image == nullptr ? 1 : kShareBesideTexture);
     target.mask_room = maskRoomOf(inputs, *quantised);

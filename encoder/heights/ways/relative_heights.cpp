@@ -13,6 +13,11 @@ namespace tetrakis::inline ways {
 
 namespace {
 
+/// How far predicted multiples are pulled to the sample, in quarters, in the two trials. The
+/// quarter saves 3 to 15 % of the corrections, and takes 5 % more where offsets are floats; a third
+/// trial would take the time of one more coding of the corrections.
+constexpr uint8_t kWholePull = 4, kQuarterPull = 1;
+
 /// The mean squared error of the cut, in steps.
 double squaresOfCut(const HeightSteps& steps, double relative_step) {
   const double rmse = kRelativeCut * relative_step / steps.step;
@@ -36,7 +41,7 @@ RelativeCorrections relativeCorrections(const CodedHeights& cut, double relative
                                                        cut.header, relative);
                                })};
   };
-  RelativeCorrections all = pulled(4), quarter = pulled(1);
+  RelativeCorrections all = pulled(kWholePull), quarter = pulled(kQuarterPull);
   const bool less = bytesOf(quarter.codewords) < bytesOf(all.codewords);
   return less ? std::move(quarter) : std::move(all);
 }

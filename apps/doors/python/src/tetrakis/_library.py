@@ -29,6 +29,7 @@ LOCATOR = CFUNCTYPE(
 PICTURE_ERROR = CFUNCTYPE(
     c_int, c_void_p, c_void_p, c_void_p, POINTER(c_double), POINTER(c_double)
 )
+EXPLAIN = CFUNCTYPE(None, c_void_p, c_void_p)
 GEOTRANSFORM = c_double * 6
 
 REGISTRATIONS = (None, "area", "point")
@@ -106,6 +107,32 @@ class Camera(ctypes.Structure):
     ]
 
 
+class WeighedPlan(ctypes.Structure):
+    """tks_weighed_plan."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("is_texture", c_int),
+        ("verdict", c_int),
+        ("base", c_int),
+        ("residual", c_int),
+        ("step", c_double),
+        ("table_values", c_uint32),
+        ("fractions", c_int),
+        ("filters", c_char_p),
+        ("predictor", c_char_p),
+        ("layers", c_char_p),
+        ("cut", c_double),
+        ("within", c_double),
+        ("expected_bytes", c_double),
+        ("coded", c_int),
+        ("coded_bytes", c_uint64),
+        ("needed_bytes", c_uint64),
+        ("header_bytes", c_uint64),
+        ("rmse", c_double),
+    ]
+
+
 class EncodeOptions(ctypes.Structure):
     """tks_encode_options."""
 
@@ -126,6 +153,8 @@ class EncodeOptions(ctypes.Structure):
         ("camera_count", c_uint32),
         ("picture_error", PICTURE_ERROR),
         ("picture_user", c_void_p),
+        ("explain", EXPLAIN),
+        ("explain_user", c_void_p),
     ]
 
 
@@ -314,6 +343,7 @@ STRUCTS = {
     "tks_heights": Heights,
     "tks_image": Image,
     "tks_camera": Camera,
+    "tks_weighed_plan": WeighedPlan,
     "tks_encode_options": EncodeOptions,
     "tks_buffer": Buffer,
     "tks_ground": Ground,
