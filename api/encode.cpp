@@ -51,6 +51,8 @@ Status checkPlace(const std::string& whose, const T& raster) {
   if (raster.registration < TKS_REGISTRATION_UNKNOWN ||
       raster.registration > TKS_REGISTRATION_POINT)
     return misuse("The registration of the " + whose + " is unknown.");
+  if (raster.domain < TKS_DOMAIN_PLANE || raster.domain > TKS_DOMAIN_CYLINDER)
+    return misuse("The domain of the " + whose + " is unknown.");
   if (raster.positions != nullptr) {
     const auto* const first = reinterpret_cast<const char*>(raster.positions);
     if (!groundPositionsIn({first, raster.positions_size}))
@@ -127,16 +129,6 @@ Status checkWindows(const tks_encode_options& o, bool has_texture) {
       "a shorter stream would lack whole regions.");
 }
 
-/// What is not done yet of heights whose columns go round.
-Status checkRing(const tks_heights& heights, const tks_encode_options& o, bool has_texture) {
-  if (heights.columns_go_round == 0) return {};
-  if (has_texture)
-    return {TKS_UNSUPPORTED, "Heights whose columns go round are encoded without a texture."};
-  if (o.index == TKS_INDEX_WINDOWS)
-    return {TKS_UNSUPPORTED, "Heights whose columns go round are not laid out for windows."};
-  return {};
-}
-
 /// The caller's structs as this library knows them, checked.
 struct Arguments {
   tks_heights heights;
@@ -165,8 +157,6 @@ Status takeArguments(const tks_heights* heights, const tks_image* image,
   if (status.ok()) status = checkWindows(out.options, image != nullptr);
   if (status.ok() && heights != nullptr) status = takeHeights(*heights, out.heights);
   if (status.ok() && image != nullptr) status = takeImage(*image, out.image);
-  if (status.ok() && heights != nullptr)
-    status = checkRing(out.heights, out.options, image != nullptr);
   if (status.ok() && image != nullptr && out.image.white_level == 0)
     out.image.white_level = findWhiteLevel(out.image);
   return status;

@@ -49,11 +49,9 @@ inline std::vector<ListedComponent> listOf(const StreamHeader& header) {
 
 /// The component that a decoder takes one of the list for, given those before it.
 inline Component roleOf(const ListedComponent& one, const StreamHeader& before) {
-  const bool grid = one.domain.kind == Domain::kGrid;
-  const bool heights = one.kind == ListedComponent::kHeights && one.domain.isKnown();
-  const bool colours = one.kind == ListedComponent::kColours && grid;
-  if (heights && !before.geometry) return Component::kGeometry;
-  if (colours && !before.texture) return Component::kTexture;
+  if (!one.domain.isKnown()) return Component::kOther;
+  if (one.kind == ListedComponent::kHeights && !before.geometry) return Component::kGeometry;
+  if (one.kind == ListedComponent::kColours && !before.texture) return Component::kTexture;
   return Component::kOther;
 }
 
@@ -67,10 +65,11 @@ void visitDomain(V& v, Domain& domain) {
 
 template <class V>
 void visitKnown(V& v, StreamHeader& header, const ListedComponent& one) {
+  const bool ring = one.domain.kind == Domain::kCylinder;
   if (one.component == Component::kGeometry) {
     if (!header.geometry) header.geometry.emplace();
     header.geometry->regions.side_log2 = one.region_log2;
-    header.geometry->wavelet.ring = one.domain.kind == Domain::kCylinder;
+    header.geometry->wavelet.ring = ring;
     header.geometry->visit(v, one.domain.grid);
     header.layers.visit(v);
     header.geometry->visitBound(v);
@@ -78,6 +77,7 @@ void visitKnown(V& v, StreamHeader& header, const ListedComponent& one) {
   } else {
     if (!header.texture) header.texture.emplace();
     header.texture->regions.side_log2 = one.region_log2;
+    header.texture->wavelet.ring = ring;
     header.texture->visit(v, one.domain.grid);
   }
 }

@@ -87,9 +87,9 @@ void readComponent(Reader& in, const std::vector<Domain>& domains, Stream& strea
   RegionHeader regions{in.u8(0, 20)};
   if (in.outcome() != Outcome::kDone) return;
   Component component{-1, regions.log2 > 0, domains[number]};
-  const bool grid = component.domain.kind == 0;
-  if (component.domain.known() && kind == 0 && !stream.geometry) component.role = 0;
-  if (grid && kind == 1 && !stream.texture) component.role = 1;
+  const bool known = component.domain.known();
+  if (known && kind == 0 && !stream.geometry) component.role = 0;
+  if (known && kind == 1 && !stream.texture) component.role = 1;
   if (component.role >= 0 && regions.log2 > 0 && regions.log2 < 4) in.fail(Outcome::kCorrupt);
   if (component.role == 0) readHeights(in, component.domain, regions, stream);
   if (component.role == 1) readTexture(in, component.domain, regions, stream);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library against the reference decoder (agreement.hpp): heights whose columns go round.
+// The library against the reference decoder (agreement.hpp): heights and textures whose columns go
+// round.
 #include <utility>
 
 #include "conformance/samples/few_values.hpp"
@@ -9,7 +10,7 @@ namespace tetrakis::test {
 namespace {
 
 tks_heights goingRound(tks_heights heights) {
-  heights.columns_go_round = 1;
+  heights.domain = TKS_DOMAIN_CYLINDER;
   return heights;
 }
 
@@ -49,6 +50,19 @@ TEST(ReferenceRing, AgreesOnOtherGroundAndInRegions) {
     for (const tks_encode_options& options :
          {lossless(), budget(700), inRegions(lossless()), inRegions(within(5))}) {
       expectAgreementOnLayers(heights, options);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+TEST(ReferenceRing, AgreesOnTextures) {
+  for (const Pattern pattern : kPatterns) {
+    for (uint32_t channels = 1; channels <= 4; ++channels) {
+      const Raster raster = make({pattern, 35, 22, channels, TKS_U8, 8});
+      tks_image image = raster.image();
+      image.domain = TKS_DOMAIN_CYLINDER;
+      for (const tks_encode_options& options : {lossless(), budget(700), inRegions(lossless())})
+        expectAgreementOnPrefixes(encodeGiven(nullptr, &image, options));
       if (HasFatalFailure()) return;
     }
   }

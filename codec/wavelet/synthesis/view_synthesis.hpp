@@ -2,12 +2,10 @@
 // ViewSynthesis is the inverse wavelet of what a view shows of a plane: coefficients go in, and the
 // samples of the view come out. A view of a whole plane, or of one of its levels, is worked out in
 // place (plane_synthesis.hpp). A window is worked out from the coefficients that reach it
-// (window_synthesis.hpp), and has the same samples that the whole plane has there. A window of a
-// plane whose columns go round is cut out of the whole plane.
+// (window_synthesis.hpp), and has the same samples that the whole plane has there.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -22,9 +20,7 @@ class ViewSynthesis {
  public:
   /// The pyramid outlives this object. Its mask says which samples exist.
   ViewSynthesis(const WaveletSpec& spec, const Pyramid& pyramid, const View& view)
-      : kernel_(kernelOf(spec, pyramid, view)), plane_(pyramid.plane()) {
-    if (spec.ring) cut_ = view.window;
-  }
+      : kernel_(kernelOf(spec, pyramid, view)) {}
 
   /// Makes room for the coefficients, which are 0 until they are put. Comes before put() and row().
   void allocate() {
@@ -38,8 +34,7 @@ class ViewSynthesis {
   /// the pyramid will have bytes.
   uint64_t workBytes(uint32_t threads, bool masked) const {
     return std::visit([&](const auto& kernel) { return kernel.workBytes(threads, masked); },
-                      kernel_) +
-           (cut_ ? sizeof(int32_t) * cut_->extent().samples() : 0);
+                      kernel_);
   }
 
   /// True if samples of the view depend on coefficients of the part.
@@ -65,9 +60,7 @@ class ViewSynthesis {
   /// Returns the samples of the view, row by row. Those that do not exist may be anything. Called
   /// once, at the end.
   std::vector<int32_t> run(uint32_t threads) {
-    std::vector<int32_t> all =
-        std::visit([&](auto& kernel) { return kernel.run(threads); }, kernel_);
-    return cut_ ? slice(std::span<const int32_t>(all), plane_, {0, *cut_}) : all;
+    return std::visit([&](auto& kernel) { return kernel.run(threads); }, kernel_);
   }
   /// memory: of this plane; no view is a window.
   std::vector<int32_t> run(uint32_t threads, SynthesisMemory& memory) {
@@ -78,13 +71,10 @@ class ViewSynthesis {
   using Kernel = std::variant<PlaneSynthesis, WindowSynthesis>;
 
   static Kernel kernelOf(const WaveletSpec& spec, const Pyramid& pyramid, const View& view) {
-    if (view.window && !spec.ring) return WindowSynthesis(spec, pyramid, *view.window);
+    if (view.window) return WindowSynthesis(spec, pyramid, *view.window);
     return PlaneSynthesis(spec, pyramid, view.level);
   }
-
   Kernel kernel_;
-  Extent plane_;
-  std::optional<Window> cut_;  ///< of the plane
 };
 
 /// The bands of a track with whether the view needs each; none if it needs none. bands: one or more

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "codec/wavelet/lifting/lifting.hpp"
-#include "codec/wavelet/synthesis/view_synthesis.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
@@ -163,28 +162,6 @@ TEST(RingWavelet, TurnsOneRowByAnyEvenNumberOfColumns) {
         lifting.analyse(other.data(), width, id, true);
         ASSERT_EQ(other, turned(coded, half, by / 2)) << width << " columns, by " << by;
       }
-    }
-  }
-}
-
-TEST(RingWavelet, GivesWindowsTheSamplesOfThePlane) {
-  Random random(7);
-  const Size size{45, 38};
-  const Plane samples = randomPlane(random, size.count(), -1000, 1000);
-  for (const WaveletSpec& spec : ringSpecs()) {
-    const Pyramid pyramid(size.extent());
-    const Plane coded = forward(spec, samples, size);
-    for (const Window& window : {Window{0, 0, 3, 38}, Window{40, 7, 5, 9}, Window{20, 30, 1, 1}}) {
-      ViewSynthesis synthesis(spec, pyramid, {0, window});
-      synthesis.allocate();
-      for (const Subband& band : pyramid.subbands()) {
-        for (uint32_t row = 0; row < synthesis.rows(band); ++row) {
-          const auto from = coded.begin() + static_cast<ptrdiff_t>(pyramid.indexOf(band, row));
-          const std::span<int32_t> to = synthesis.row(band, row);
-          std::copy_n(from, to.size(), to.begin());
-        }
-      }
-      ASSERT_EQ(synthesis.run(1), slice(std::span(samples), size.extent(), {0, window})) << spec;
     }
   }
 }
