@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_globe FILE...: global grids of heights, whose columns go round the Earth from pole to pole,
-// as planes and as cylinders: bytes at equal RMSE over the area of the Earth, bytes to the last bit,
-// and what is left of the seam between the last column and the first one.
+// as planes and as cylinders: bytes at equal RMSE over the area of the Earth, bytes to the last
+// bit, and what is left of the seam between the last column and the first one.
 #include <cmath>
 #include <cstdio>
 #include <cstring>

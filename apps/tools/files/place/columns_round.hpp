@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// columnsRound() tells whether the columns of a raster go round the Earth, so that the last one lies
-// beside the first one.
+// columnsRound() tells whether the columns of a raster go round the Earth, so that the last one
+// lies beside the first one.
 #pragma once
 
 #include <cstdint>
