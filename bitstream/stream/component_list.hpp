@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// listOf() and the functions beside it visit the list of domains and components that a header
-// begins with (docs/FORMAT.md, section 2). Streams of later versions may have domains and
-// components that this decoder does not know: it keeps their descriptions as bytes.
+// listOf() and the functions beside it visit the list of components that a header begins with, each
+// over a domain of its own or that of a component before it (docs/FORMAT.md, section 2). Streams of
+// later versions may have domains and components that this decoder does not know: it keeps their
+// descriptions as bytes.
 #pragma once
 
 #include <algorithm>
@@ -14,15 +15,15 @@
 
 namespace tetrakis::inline stream {
 
-inline constexpr uint64_t kDomainPart = 0, kComponentPart = 1;  ///< kinds of parts of the body
-inline constexpr size_t kMostListed = 16;                       ///< domains, and components
+inline constexpr uint64_t kComponentPart = 0;  ///< the kind of a part of the body
+inline constexpr size_t kMostListed = 16;      ///< components
 
 /// Of a component that is known, as its header says it.
 inline ListedComponent listed(const StreamHeader& header, Component component) {
   const bool heights = component == Component::kGeometry;
   const auto fill = [&](const auto& of, uint8_t kind) {
     const uint8_t domain = of.wavelet.ring ? Domain::kCylinder : Domain::kGrid;
-    return ListedComponent{component, kind, {domain, of.shown(), ""}, of.regions.side_log2, ""};
+    return ListedComponent{component, kind, {domain, of.shown()}, of.regions.side_log2, ""};
   };
   return heights ? fill(*header.geometry, ListedComponent::kHeights)
                  : fill(*header.texture, ListedComponent::kColours);
@@ -55,12 +56,25 @@ inline Component roleOf(const ListedComponent& one, const StreamHeader& before) 
   return Component::kOther;
 }
 
+/// known: the domains of the components before, which a new one joins.
 template <class V>
-void visitDomain(V& v, Domain& domain) {
+void visitDomain(V& v, std::vector<Domain>& known, Domain& domain) {
+  uint64_t number =
+      static_cast<uint64_t>(std::find(known.begin(), known.end(), domain) - known.begin());
+  v.varint("domain", number, 0, known.size());
+  if (!v.ok()) return;
+  if (number < known.size()) {
+    domain = known[number];
+    return;
+  }
   v.u8("domain_kind", domain.kind, 0, UINT8_MAX);
-  if (!domain.isKnown()) return v.rest(domain.rest);
-  v.varint("width", domain.grid.width, 1, kMaxSide);
-  v.varint("height", domain.grid.height, 1, kMaxSide);
+  if (domain.isKnown()) {
+    v.varint("width", domain.grid.width, 1, kMaxSide);
+    v.varint("height", domain.grid.height, 1, kMaxSide);
+  } else if constexpr (V::kReads) {
+    domain.number = number;
+  }
+  known.push_back(domain);
 }
 
 template <class V>
@@ -83,50 +97,34 @@ void visitKnown(V& v, StreamHeader& header, const ListedComponent& one) {
 }
 
 template <class V>
-void visitComponent(V& v, StreamHeader& header, const std::vector<Domain>& domains,
+void visitComponent(V& v, StreamHeader& header, std::vector<Domain>& domains,
                     ListedComponent& one) {
   v.u8("component_kind", one.kind, 0, UINT8_MAX);
-  auto domain = static_cast<uint64_t>(std::find(domains.begin(), domains.end(), one.domain) -
-                                      domains.begin());
-  v.varint("domain", domain, 0, kMostListed - 1);
-  v.require("the domain of a component", domain < domains.size());
   v.u8("region_log2", one.region_log2, 0, kMostRegionLog2);
+  visitDomain(v, domains, one.domain);
   if (!v.ok()) return;
-  if constexpr (V::kReads) {
-    one.domain = domains[domain];
-    one.component = roleOf(one, header);
-  }
+  if constexpr (V::kReads) one.component = roleOf(one, header);
   if (one.component == Component::kOther) return v.rest(one.rest);
   v.require("region_log2", one.region_log2 == 0 || one.region_log2 >= kLeastRegionLog2);
   visitKnown(v, header, one);
 }
 
-/// Parts of one kind, as many as there are. visitOne(part, item).
-template <class V, class Item, class VisitOne>
-void visitList(V& v, uint64_t kind, std::vector<Item>& list, VisitOne visitOne) {
-  for (size_t i = 0; i < kMostListed; ++i) {
-    const bool is_there = i < list.size();
-    Item item = is_there ? list[i] : Item();
-    if (!v.part(kind, is_there, [&](auto& part) { visitOne(part, item); })) return;
-    if constexpr (V::kReads) list.push_back(std::move(item));
-  }
-}
-
+/// As many as there are.
 template <class V>
 void visitComponents(V& v, StreamHeader& header) {
-  std::vector<ListedComponent> components;
+  const std::vector<ListedComponent> written =
+      V::kReads ? std::vector<ListedComponent>() : listOf(header);
+  std::vector<ListedComponent> read;
   std::vector<Domain> domains;
-  if constexpr (!V::kReads) {
-    components = listOf(header);
-    for (const ListedComponent& one : components) {
-      if (std::find(domains.begin(), domains.end(), one.domain) == domains.end())
-        domains.push_back(one.domain);
-    }
+  for (size_t i = 0; i < kMostListed; ++i) {
+    const bool is_there = i < written.size();
+    ListedComponent one = is_there ? written[i] : ListedComponent();
+    if (!v.part(kComponentPart, is_there,
+                [&](auto& part) { visitComponent(part, header, domains, one); }))
+      break;
+    if constexpr (V::kReads) read.push_back(std::move(one));
   }
-  visitList(v, kDomainPart, domains, [](auto& part, Domain& one) { visitDomain(part, one); });
-  visitList(v, kComponentPart, components,
-            [&](auto& part, ListedComponent& one) { visitComponent(part, header, domains, one); });
-  if constexpr (V::kReads) header.components = std::move(components);
+  if constexpr (V::kReads) header.components = std::move(read);
 }
 
 }  // namespace tetrakis::inline stream

@@ -52,6 +52,14 @@ class FieldWriter {
     put(value.size());
     bytes.insert(bytes.end(), value.begin(), value.end());
   }
+  /// A field at the end of a part, which goes without the last fields that have their usual values.
+  /// visitValue: visits the field.
+  template <class T, class Visit>
+  void unless(const T& usual, T& value, Visit&& visitValue) {
+    const size_t begin = bytes.size();
+    visitValue();
+    usual_bytes_ = value == usual ? usual_bytes_ + bytes.size() - begin : 0;
+  }
   /// All bytes that are left in a part.
   void rest(std::string& value) { bytes.insert(bytes.end(), value.begin(), value.end()); }
   /// A part, if there is one. visitBody: visits its fields. Returns whether there is one.
@@ -60,6 +68,7 @@ class FieldWriter {
     if (!is_there) return false;
     FieldWriter body;
     visitBody(body);
+    body.bytes.resize(body.bytes.size() - body.usual_bytes_);
     put(kind);
     put(body.bytes.size());
     bytes.insert(bytes.end(), body.bytes.begin(), body.bytes.end());
@@ -76,6 +85,9 @@ class FieldWriter {
   }
 
   std::vector<uint8_t> bytes;
+
+ private:
+  size_t usual_bytes_ = 0;  ///< of the last fields: those that have their usual values
 };
 
 /// Takes fields off a byte string; the first failure sticks. Every field is checked against the
@@ -128,6 +140,13 @@ class FieldReader {
     value.assign(bytes_.begin() + static_cast<ptrdiff_t>(at_),
                  bytes_.begin() + static_cast<ptrdiff_t>(at_ + size));
     at_ += size;
+  }
+  template <class T, class Visit>
+  void unless(const T& usual, T& value, Visit&& visitValue) {
+    if (ok() && at_ == bytes_.size())
+      value = usual;
+    else
+      visitValue();
   }
   void rest(std::string& value) {
     if (ok()) value.assign(bytes_.begin() + static_cast<ptrdiff_t>(at_), bytes_.end());

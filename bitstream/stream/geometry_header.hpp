@@ -35,7 +35,8 @@ struct GeometryHeader {
   bool drawn = false;  ///< with kDirectPlanes alone
   uint8_t exact = 0;   ///< the steps restore every input sample
   double base = 0, step = 1;
-  double max_error = -1;  ///< guaranteed for the complete stream, in the unit; < 0: not stated
+  static constexpr double kNotStated = -1;
+  double max_error = kNotStated;  ///< guaranteed for the complete stream, in the unit; < 0: not stated
   WaveletHeader wavelet;
   PriorityHeader priorities;
   RegionHeader regions;
@@ -52,9 +53,7 @@ struct GeometryHeader {
     v.require("step", step > 0);
     if (coding != Coding::kWavelet) planes = kDirectPlanes;
     drawn = coding == Coding::kDrawn;
-    const bool lifted =
-        v.part(PartKind::kWavelet, !direct(), [&](auto& part) { wavelet.visit(part, planes); });
-    v.require("wavelet", lifted == (coding == Coding::kWavelet));
+    if (coding == Coding::kWavelet) wavelet.visit(v, planes);
     const Extent coded = visitLines(v, PartKind::kRepeatedLines, domain, repeats);
     width = coded.width;
     height = coded.height;
@@ -65,7 +64,7 @@ struct GeometryHeader {
   void visitBound(V& v) {
     v.part(PartKind::kBound, exact > 0 || max_error >= 0, [&](auto& part) {
       part.u8("exact", exact, 0, 1);
-      part.f64("max_error", max_error);
+      part.unless(kNotStated, max_error, [&] { part.f64("max_error", max_error); });
     });
   }
   Extent extent() const { return {width, height}; }

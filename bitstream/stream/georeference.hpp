@@ -62,8 +62,8 @@ struct Placement {
     has_transform = form != TransformForm::kNone;
     if (has_transform) visitTransform(v, form, basis);
     v.require("transform", isSound(transform));
-    v.u8("registration", registration, 0, 2);
-    v.text("geo_keys", geo_keys);
+    v.unless(uint8_t{0}, registration, [&] { v.u8("registration", registration, 0, 2); });
+    v.unless(std::string(), geo_keys, [&] { v.text("geo_keys", geo_keys); });
   }
 
  private:
@@ -112,13 +112,13 @@ struct Georeference {
   template <class V>
   void visitHeights(V& v, const TransformBasis& basis) {
     heights.visit(v, basis);
-    v.text("description", description);
-    v.u8("nan_nodata", nan_nodata, 0, 1);
+    v.unless(std::string(), description, [&] { v.text("description", description); });
+    v.unless(uint8_t{0}, nan_nodata, [&] { v.u8("nan_nodata", nan_nodata, 0, 1); });
   }
   template <class V>
   void visitTexture(V& v, const TransformBasis& basis) {
     texture.visit(v, basis);
-    v.text("texture_crs", texture_crs);
+    v.unless(std::string(), texture_crs, [&] { v.text("texture_crs", texture_crs); });
   }
 };
 

@@ -31,17 +31,24 @@ struct Metadata {
 
   bool isDefault() const;
 
+  /// What most streams leave out comes last.
   template <class V>
   void visit(V& v) {
-    v.f64("scale", scale);
-    v.require("scale", scale != 0);
-    v.f64("offset", offset);
-    v.f64("spacing_x", spacing_x);
-    v.f64("spacing_y", spacing_y);
+    const auto text = [&](const char* name, std::string& value) {
+      v.unless(std::string(), value, [&] { v.text(name, value); });
+    };
+    const auto number = [&](const char* name, double usual, double& value) {
+      v.unless(usual, value, [&] { v.f64(name, value); });
+    };
+    text("unit", unit);
+    text("crs", crs);
+    number("spacing_x", 0, spacing_x);
+    number("spacing_y", spacing_x, spacing_y);
     v.require("spacing", spacing_x >= 0 && spacing_y >= 0);
-    v.text("unit", unit);
-    v.text("vertical_datum", vertical_datum);
-    v.text("crs", crs);
+    text("vertical_datum", vertical_datum);
+    number("scale", 1, scale);
+    v.require("scale", scale != 0);
+    number("offset", 0, offset);
   }
 };
 
@@ -52,7 +59,7 @@ struct Domain {
 
   uint8_t kind = kGrid;  ///< others are not known: components on them are passed over
   Extent grid = {0, 0};  ///< of a grid or a cylinder: columns and rows
-  std::string rest;      ///< of others: all that the header says
+  uint64_t number = 0;   ///< of others, which are told apart by it: as it was read
 
   bool isKnown() const { return kind <= kCylinder; }
   bool operator==(const Domain&) const = default;
@@ -64,7 +71,7 @@ struct ListedComponent {
   uint8_t kind = 0;  ///< as the stream has it: kHeights, kColours, or not known
   Domain domain;
   uint8_t region_log2 = 0;  ///< RegionHeader::side_log2
-  std::string rest;         ///< of kOther: all behind
+  std::string rest;         ///< of kOther: all behind the domain, or behind its unknown kind
 
   static constexpr uint8_t kHeights = 0, kColours = 1;
 };

@@ -118,9 +118,7 @@ struct TextureHeader {
     v.u8("coding", coding, 0, static_cast<uint64_t>(Coding::kWavelet));
     if (coding != Coding::kWavelet) planes = kDrawnPlanes;
     stored = coding == Coding::kStored;
-    const bool lifted =
-        v.part(PartKind::kWavelet, !direct(), [&](auto& part) { wavelet.visit(part, planes); });
-    v.require("wavelet", lifted == (coding == Coding::kWavelet));
+    if (coding == Coding::kWavelet) wavelet.visit(v, planes);
     const Extent coded = visitLines(v, PartKind::kRepeatedLines, domain, repeats);
     width = coded.width;
     height = coded.height;

@@ -27,7 +27,7 @@ ListedComponent known(Component component) {
 }
 
 const Domain& sphere() {
-  static const Domain domain{7, {0, 0}, "sphere"};
+  static const Domain domain{7, {0, 0}};
   return domain;
 }
 
@@ -58,7 +58,7 @@ StreamHeader manyComponents() {
   header.texture = textureHeader(11, 7, 1, TKS_U8, 8).texture;
   header.geometry->regions.side_log2 = 4;
   header.components = {later(9, sphere(), 2, "later"), known(Component::kTexture),
-                       later(9, {Domain::kGrid, {400, 300}, ""}, 0, ""),
+                       later(9, {Domain::kGrid, {400, 300}}, 0, ""),
                        later(ListedComponent::kHeights, sphere(), 5, "heights of a sphere"),
                        known(Component::kGeometry)};
   return header;
@@ -69,7 +69,7 @@ std::vector<VectorCase> passedOver() {
   other.components = {later(200, sphere(), 0, "later"), known(Component::kGeometry)};
   StreamHeader second = other;
   second.components = {known(Component::kGeometry),
-                       later(ListedComponent::kHeights, {Domain::kGrid, {9, 9}, ""}, 1, "second")};
+                       later(ListedComponent::kHeights, {Domain::kGrid, {9, 9}}, 1, "second")};
   StreamHeader index = manyComponents();
   const std::vector<Run> runs = {{0, 4000000000u, noise(17, 201)},
                                  {4, 0, noise(20, 202)},
@@ -142,7 +142,7 @@ std::vector<VectorCase> unknownParts() {
                      }),
       changed("refused_nothing_known", "heights over a domain of an unknown kind, and nothing else",
               [](HeaderParts& body) {
-                body.find(test::kDomainKind)->bytes = {7, 1, 2, 3};
+                body.find(test::kComponentKind)->bytes[test::kDomainByte + 1] = 7;
               })};
 }
 
@@ -156,15 +156,11 @@ std::vector<VectorCase> refusedLists() {
           changed("refused_skipped_twice", "a part twice that nobody knows yet",
                   [&](HeaderParts& body) { twice(body, kLaterNote, {5}); }),
           changedHeights("refused_layer_twice", "a part of heights twice",
-                         [](HeaderParts& heights) { heights.add(0, heights.find(0)->bytes); }),
+                         [&](HeaderParts& heights) { twice(heights, 64, {1}); }),
           changed("refused_part_order", "a part behind one of a higher kind",
                   [](HeaderParts& body) {
                     body.add(kLaterNote, {});
                     body.parts.push_back({66, {5}});
-                  }),
-          changed("refused_domain_behind", "a domain behind the component",
-                  [](HeaderParts& body) {
-                    body.parts.push_back({test::kDomainKind, {0, 9, 9}});
                   }),
           changed("refused_part_longer", "a part of more bytes than its fields",
                   [](HeaderParts& body) {
@@ -177,17 +173,22 @@ std::vector<VectorCase> refusedLists() {
                     body.fields.insert(body.fields.end(), {0, 127});
                   }),
           changed("refused_no_component", "no component",
-                  [](HeaderParts& body) { body.parts.resize(1); }),
+                  [](HeaderParts& body) { body.parts.clear(); }),
           changed("refused_no_domain", "a component on a domain that there is not",
-                  [](HeaderParts& body) { body.find(test::kComponentKind)->bytes[1] = 1; }),
-          changed("refused_domains", "seventeen domains",
                   [](HeaderParts& body) {
-                    for (int i = 0; i < 16; ++i) body.add(test::kDomainKind, {7});
+                    body.find(test::kComponentKind)->bytes[test::kDomainByte] = 1;
+                  }),
+          changed("refused_components", "seventeen components, of which one is known",
+                  [](HeaderParts& body) {
+                    for (int i = 0; i < 16; ++i) body.add(test::kComponentKind, {7, 0, 0});
                   }),
           changedHeights("refused_no_wavelet", "heights by a wavelet without one",
-                         [](HeaderParts& heights) { heights.parts.clear(); }),
+                         [](HeaderParts& heights) {
+                           heights.wavelet.clear();
+                           heights.parts.clear();
+                         }),
           changedHeights("refused_stored_wavelet", "stored heights with a wavelet",
-                         [](HeaderParts& heights) { heights.fields[4] = 0; })};
+                         [](HeaderParts& heights) { heights.fields[test::kDomainByte + 5] = 0; })};
 }
 
 }  // namespace

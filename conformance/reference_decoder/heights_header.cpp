@@ -102,12 +102,13 @@ void readHeights(Reader& in, const Domain& domain, RegionHeader regions, Stream&
   g.step = in.f64();
   if (g.step <= 0) in.fail(Outcome::kCorrupt);
   g.drawn = coding == 1;
+  readWavelet(in, coding, g);
   Parts parts(in);
-  readCoding(in, parts, coding, g);
+  readCoding(parts, g);
   stream.layers = readLayers(parts);
   parts.take(64, [](Reader& p) {
     p.u8(0, 1);  // exact
-    p.f64();     // max_error
+    if (!p.ends()) p.f64();  // max_error
   });
   parts.end();
   g.wavelet.ring = domain.kind == 1;

@@ -15,8 +15,16 @@ Transform stretched(Transform t, const Stream& stream) {
   return t;
 }
 
-void skipTexts(Reader& in, int count) {
-  for (int i = 0; i < count; ++i) in.take(in.varint(0, UINT64_MAX));
+void skipText(Reader& in) {
+  if (!in.ends()) in.take(in.varint(0, UINT64_MAX));
+}
+
+double f64Or(double otherwise, Reader& in) {
+  return in.ends() ? otherwise : in.f64();
+}
+
+void skipByte(Reader& in, int largest) {
+  if (!in.ends()) in.u8(0, largest);
 }
 
 }  // namespace
@@ -39,11 +47,13 @@ Transform Places::readTransform(Reader& in, int form) const {
 }
 
 void Places::skipMetadata(Reader& in) {
-  const double scale = in.f64();
-  in.f64();  // offset
-  const double spacingX = in.f64(), spacingY = in.f64();
+  skipText(in);  // unit
+  skipText(in);  // crs
+  const double spacingX = f64Or(0, in), spacingY = f64Or(spacingX, in);
+  skipText(in);  // vertical_datum
+  const double scale = f64Or(1, in);
+  f64Or(0, in);  // offset
   if (scale == 0 || spacingX < 0 || spacingY < 0) in.fail(Outcome::kCorrupt);
-  skipTexts(in, 3);
   spacing_ = {0, spacingX, 0, 0, 0, -spacingY};
 }
 
@@ -52,15 +62,17 @@ void Places::skipHeights(Reader& in) {
   heights_ = readTransform(in, form);
   has_heights_ = form > 0 && stream_.geometry && stream_.texture;
   if (has_heights_) heights_ = stretched(heights_, stream_);
-  in.u8(0, 2);  // registration
-  skipTexts(in, 2);
-  in.u8(0, 1);  // nan_nodata
+  skipByte(in, 2);  // registration
+  skipText(in);     // geo_keys
+  skipText(in);     // description
+  skipByte(in, 1);  // nan_nodata
 }
 
 void Places::skipTexture(Reader& in) {
   readTransform(in, in.u8(0, has_heights_ ? 5 : 4));
-  in.u8(0, 2);
-  skipTexts(in, 2);
+  skipByte(in, 2);  // registration
+  skipText(in);     // geo_keys
+  skipText(in);     // texture_crs
 }
 
 }  // namespace tetrakis::reference

@@ -70,17 +70,18 @@ inline std::vector<uint8_t> restOf(Reader& in) {
   return {rest.begin(), rest.end()};
 }
 
-/// FORMAT 2, table Wavelet.
-inline WaveletHeader readWavelet(Reader& in, int& planes) {
-  WaveletHeader w;
-  planes = in.u8(0, 30);
+/// FORMAT 2, Wavelet: behind `coding` 2.
+template <class Header>
+void readWavelet(Reader& in, int coding, Header& c) {
+  c.planes = coding == 2 ? in.u8(0, 30) : kDrawnPlanes;
+  if (coding != 2) return;
+  WaveletHeader& w = c.wavelet;
   for (int& filter : w.filters) filter = in.u8(0, 4);
   w.fractionBits = in.u8(0, 8);
   w.sampleBits = in.u8(0, 32);
-  if (w.fractionBits > 0) return w;
+  if (w.fractionBits > 0) return;
   w.firstDoubled = in.u8(0, 4);
   w.roundedBytes = in.varint(0, INT64_MAX);
-  return w;
 }
 
 /// FORMAT 2, table Priorities.
@@ -108,12 +109,9 @@ void readLines(Reader& in, Header& g) {
   g.height = g.lines.rows.back() + 1;
 }
 
-/// FORMAT 2: what heights and textures have in common, behind `coding`.
+/// FORMAT 2: the first parts of heights and of textures.
 template <class Header>
-void readCoding(Reader& in, Parts& parts, int coding, Header& c) {
-  const bool lifted = parts.take(0, [&](Reader& p) { c.wavelet = readWavelet(p, c.planes); });
-  if (lifted != (coding == 2)) in.fail(Outcome::kCorrupt);
-  if (coding != 2) c.planes = kDrawnPlanes;
+void readCoding(Parts& parts, Header& c) {
   parts.take(1, [&](Reader& p) { readLines(p, c); });
   parts.take(2, [&](Reader& p) { c.priorities = readPriorities(p); });
 }

@@ -30,6 +30,8 @@ class Reader {
     bytes_ = bytes_.subspan(size);
     return taken;
   }
+  /// FORMAT 2, Parts: whether the fields that are left have the values that they have "else".
+  bool ends() const { return bytes_.empty() || outcome_ != Outcome::kDone; }
   uint8_t byte() {
     const auto taken = take(1);
     return taken.empty() ? uint8_t{0} : taken[0];

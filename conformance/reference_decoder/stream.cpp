@@ -66,30 +66,29 @@ int levelOf(const Stream& stream) {
   return level;
 }
 
-/// FORMAT 2, Domain.
-Domain readDomain(Reader& in) {
+/// FORMAT 2, Domain: one of the known ones, or the next.
+Domain readDomain(Reader& in, std::vector<Domain>& known) {
+  const uint64_t number = in.varint(0, known.size());
+  if (number < known.size()) return known[number];
   Domain domain;
   domain.kind = in.byte();
-  if (!domain.known()) {
-    restOf(in);
-    return domain;
+  if (domain.known()) {
+    domain.width = static_cast<int>(in.varint(1, 1 << 20));
+    domain.height = static_cast<int>(in.varint(1, 1 << 20));
   }
-  domain.width = static_cast<int>(in.varint(1, 1 << 20));
-  domain.height = static_cast<int>(in.varint(1, 1 << 20));
+  known.push_back(domain);
   return domain;
 }
 
 /// FORMAT 2, Component.
-void readComponent(Reader& in, const std::vector<Domain>& domains, Stream& stream) {
+void readComponent(Reader& in, std::vector<Domain>& domains, Stream& stream) {
   const int kind = in.byte();
-  const uint64_t number = in.varint(0, 15);
-  if (number >= domains.size()) in.fail(Outcome::kCorrupt);
   RegionHeader regions{in.u8(0, 20)};
+  const Domain domain = readDomain(in, domains);
   if (in.outcome() != Outcome::kDone) return;
-  Component component{-1, regions.log2 > 0, domains[number]};
-  const bool known = component.domain.known();
-  if (known && kind == 0 && !stream.geometry) component.role = 0;
-  if (known && kind == 1 && !stream.texture) component.role = 1;
+  Component component{-1, regions.log2 > 0, domain};
+  if (domain.known() && kind == 0 && !stream.geometry) component.role = 0;
+  if (domain.known() && kind == 1 && !stream.texture) component.role = 1;
   if (component.role >= 0 && regions.log2 > 0 && regions.log2 < 4) in.fail(Outcome::kCorrupt);
   if (component.role == 0) readHeights(in, component.domain, regions, stream);
   if (component.role == 1) readTexture(in, component.domain, regions, stream);
@@ -117,11 +116,8 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   const uint64_t payloadBytes = in.varint(0, INT64_MAX);
   Parts parts(in);
   std::vector<Domain> domains;
-  while (domains.size() < 16 &&
-         parts.take(0, [&](Reader& p) { domains.push_back(readDomain(p)); })) {
-  }
   while (stream.components.size() < 16 &&
-         parts.take(1, [&](Reader& p) { readComponent(p, domains, stream); })) {
+         parts.take(0, [&](Reader& p) { readComponent(p, domains, stream); })) {
   }
   skipInformation(parts, stream);
   parts.end();

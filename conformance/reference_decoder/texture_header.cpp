@@ -67,8 +67,9 @@ void readTexture(Reader& in, const Domain& domain, RegionHeader regions, Stream&
   const bool lifted = coding == 2;
   t.stored = coding == 0;
   t.white = t.sample == kU8 ? 255 : 65535;
+  readWavelet(in, coding, t);
   Parts parts(in);
-  readCoding(in, parts, coding, t);
+  readCoding(parts, t);
   parts.take(4, [&](Reader& p) { t.bridge = p.u8(1, 255); });
   const bool cutout = parts.take(16, [&](Reader& p) {
     t.alphaBytes = p.varint(1, INT64_MAX);

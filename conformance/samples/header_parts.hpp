@@ -5,8 +5,11 @@
 //
 //   body       payload_bytes, varint; parts
 //   part       kind, length, both varint; as many bytes
-//   component  (part 1 of the body) kind, domain, region_log2, of a byte each here; of heights
-//              sample, coding, base, step; of a texture channels, sample, coding; parts
+//   component  (part 0 of the body) kind, region_log2, domain, of a byte each here; if the domain
+//              is new, its kind, width, height; of heights sample, coding, base, step; of a texture
+//              channels, sample, coding; if coding is 2, a wavelet; parts
+//   wavelet    planes, 3 filters, fraction_bits, sample_bits; if fraction_bits is 0, first_doubled
+//              and rounded_bytes, a varint
 //   f64        how many bytes follow; those
 #pragma once
 
@@ -41,6 +44,7 @@ struct HeaderPart {
 /// A body, or a component: fields, and parts behind them.
 struct HeaderParts {
   std::vector<uint8_t> fields;
+  std::vector<uint8_t> wavelet;  ///< of a component by a wavelet
   std::vector<HeaderPart> parts;
 
   /// The first part of a kind.
@@ -57,6 +61,7 @@ struct HeaderParts {
   }
   std::vector<uint8_t> bytes() const {
     std::vector<uint8_t> out = fields;
+    out.insert(out.end(), wavelet.begin(), wavelet.end());
     for (const HeaderPart& part : parts) {
       putVarint(part.kind, out);
       putVarint(part.bytes.size(), out);
@@ -104,15 +109,37 @@ inline std::vector<uint8_t> withBody(std::span<const uint8_t> stream, const Head
   return out;
 }
 
-/// Heights, or a texture.
-inline HeaderParts componentOf(std::span<const uint8_t> bytes) {
-  const bool heights = bytes[0] == 0;
-  size_t fields = heights ? 5 : 6;
-  for (int i = 0; heights && i < 2; ++i) fields += size_t{1} + bytes[fields];
-  return partsOf(bytes, fields);
+inline constexpr size_t kDomainByte = 2;   ///< where the number of its domain stands in a component
+inline constexpr size_t kFractionByte = 4;  ///< where fraction_bits stands in a wavelet
+
+/// Bytes of a component before `coding`.
+inline size_t codingByte(std::span<const uint8_t> bytes, bool is_new_domain) {
+  size_t at = kDomainByte + 1;
+  if (is_new_domain) {
+    ++at;
+    takeVarint(bytes, at);
+    takeVarint(bytes, at);
+  }
+  return at + (bytes[0] == 0 ? 1 : 2);
 }
 
-inline constexpr uint64_t kDomainKind = 0, kComponentKind = 1;  ///< of parts of a body
+/// Heights, or a texture. is_new_domain: its domain is not that of a component before it.
+inline HeaderParts componentOf(std::span<const uint8_t> bytes, bool is_new_domain = true) {
+  size_t at = codingByte(bytes, is_new_domain);
+  const bool lifted = bytes[at++] == 2;
+  for (int i = 0; bytes[0] == 0 && i < 2; ++i) at += size_t{1} + bytes[at];
+  const size_t wavelet = at;
+  if (lifted) {
+    at += kFractionByte + 2;
+    if (bytes[wavelet + kFractionByte] == 0) takeVarint(bytes, ++at);
+  }
+  HeaderParts out = partsOf(bytes, at);
+  out.wavelet.assign(out.fields.begin() + static_cast<ptrdiff_t>(wavelet), out.fields.end());
+  out.fields.resize(wavelet);
+  return out;
+}
+
+inline constexpr uint64_t kComponentKind = 0;  ///< of parts of a body
 
 /// The only component of a stream.
 inline HeaderParts componentOfStream(std::span<const uint8_t> stream) {

@@ -51,7 +51,7 @@ std::vector<PacketHead> unknownHeads(const Bytes& bytes) {
 /// What nobody knows yet stays what it is: domains, components, parts.
 TEST(Reorder, KeepsWhatNobodyKnows) {
   const IndexedTerrain terrain;
-  const Domain sphere{9, {0, 0}, "sphere"};
+  const Domain sphere{9, {0, 0}};
   Bytes bytes =
       LaterStream(terrain.bytes, {unknown(5, sphere, 3, "what"), known(Component::kTexture),
                                   unknown(6, sphere, 0, "later")})

@@ -90,9 +90,7 @@ TEST(Reference, AgreesOnDamagedPayloads) {
   }
 }
 
-constexpr uint64_t kWavelet = 0;     // kind of the part of a component
-constexpr size_t kFilters = 1;       // in that part, behind the number of bit-planes
-constexpr size_t kFractionBits = 4;  // likewise
+constexpr size_t kFilters = 1;  // in a wavelet, behind the number of bit-planes
 
 // A narrow range and a budget make the encoder work between the integers.
 TEST(Reference, AgreesOnFractionsOfSteps) {
@@ -101,7 +99,7 @@ TEST(Reference, AgreesOnFractionsOfSteps) {
     const Raster heights = make({Pattern::kRidges, 40, 31, 1, sample, 7});
     SCOPED_TRACE(bytes);
     const Bytes stream = encode(&heights, nullptr, budget(bytes));
-    ASSERT_GT(componentOfStream(stream).find(kWavelet)->bytes[kFractionBits], 0);
+    ASSERT_GT(componentOfStream(stream).wavelet[kFractionByte], 0);
     expectAgreementOnPrefixes(stream);
   }
 }
@@ -114,12 +112,12 @@ Bytes withAnyWavelet(const Bytes& stream, uint32_t trial) {
   constexpr uint64_t kRoundedBytes[] = {0, 50, 250, 1 << 20};
   const uint32_t h = samples::hash(trial, 0, 21);
   HeaderParts component = componentOfStream(stream);
-  Bytes& fields = component.find(kWavelet)->bytes;
+  Bytes& fields = component.wavelet;
   fields.resize(kFilters);
   for (uint32_t i = 0; i < 3; ++i) fields.push_back(static_cast<uint8_t>((h >> (2 * i) & 7) % 5));
   fields.push_back(kFractions[(h >> 8) % 5]);
   fields.push_back(kSampleBits[(h >> 16) % 6]);
-  if (fields[kFractionBits] == 0) {
+  if (fields[kFractionByte] == 0) {
     fields.push_back(static_cast<uint8_t>((h >> 20) % 5));
     putVarint(kRoundedBytes[h >> 30], fields);
   }
@@ -154,7 +152,7 @@ TEST(Reference, AgreesOnManyLevels) {
 /// `codeword`.
 Bytes withCodeword(const Bytes& stream, uint8_t planes, const Bytes& codeword) {
   HeaderParts component = componentOfStream(stream);
-  component.find(kWavelet)->bytes[0] = planes;
+  component.wavelet[0] = planes;
   Bytes out = withComponent(stream, component);
   const size_t size = out.size();
   out.resize(Stream(out).info().header_bytes);
