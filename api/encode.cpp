@@ -51,6 +51,8 @@ Status checkPlace(const std::string& whose, const T& raster) {
   if (raster.registration < TKS_REGISTRATION_UNKNOWN ||
       raster.registration > TKS_REGISTRATION_POINT)
     return misuse("The registration of the " + whose + " is unknown.");
+  if (raster.domain < TKS_DOMAIN_PLANE || raster.domain > TKS_DOMAIN_CYLINDER)
+    return misuse("The domain of the " + whose + " is unknown.");
   if (raster.positions != nullptr) {
     const auto* const first = reinterpret_cast<const char*>(raster.positions);
     if (!groundPositionsIn({first, raster.positions_size}))

@@ -139,6 +139,12 @@ bool voidsAreKnown(const tks_decoder& decoder) {
   return known + ahead >= decoder.parsed.header.layers.maskEnd();
 }
 
+/// Of either component.
+template <class Header>
+tks_domain domainOf(const Header& header) {
+  return header.wavelet.ring ? TKS_DOMAIN_CYLINDER : TKS_DOMAIN_PLANE;
+}
+
 void fillHeights(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
   info.max_error = -1;
@@ -159,6 +165,7 @@ void fillHeights(const tks_decoder& decoder, tks_info& info) {
   info.voids_known = voidsAreKnown(decoder);
   info.has_nodata = header.layers.has_nodata;
   info.nodata = header.layers.nodata;
+  info.domain = domainOf(geometry);
 }
 
 void fillTexture(const tks_decoder& decoder, tks_info& info) {
@@ -176,6 +183,7 @@ void fillTexture(const tks_decoder& decoder, tks_info& info) {
   info.texture_cutout = texture.alpha_bytes > 0 ? 1 + texture.hidden : 0;
   info.texture_drawn = codingOf(texture);
   info.texture_sample = static_cast<tks_sample>(texture.sample);
+  info.texture_domain = domainOf(texture);
 }
 
 void fillMetadata(const tks_decoder& decoder, tks_info& info) {

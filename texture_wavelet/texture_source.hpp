@@ -18,8 +18,11 @@ namespace tetrakis::inline texture {
 
 struct TextureSource {
   /// Any image is a source.
-  TextureSource(Texels image)
-      : texels(std::move(image)), cutout(cutoutOf(texels)), softly_seen(softlySeen(texels)) {}
+  TextureSource(Texels image, bool goes_round = false)
+      : texels(std::move(image)),
+        cutout(cutoutOf(texels)),
+        softly_seen(softlySeen(texels)),
+        ring(goes_round) {}
 
   /// Marks the texels that have colours. hidden: those that a cut-out does not show have none.
   Mask coloured(bool hidden) const { return hidden ? Mask(cutout) : Mask(); }
@@ -36,6 +39,7 @@ struct TextureSource {
   Texels texels;
   std::vector<uint8_t> cutout;       ///< cutoutOf(texels)
   std::vector<uint8_t> softly_seen;  ///< softlySeen(texels)
+  bool ring;                         ///< WaveletHeader::ring
 };
 
 struct TextureOptions {

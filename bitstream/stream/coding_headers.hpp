@@ -39,6 +39,7 @@ struct WaveletHeader {
   /// Where there are no fraction bits, the inverse rounds from the moment on when all tracks
   /// together have so many bytes of coefficients.
   uint64_t rounded_bytes = 0;
+  bool ring = false;  ///< what the domain says: the last column lies beside the first one
 
   /// planes: bit-planes of the coefficients.
   template <class V>

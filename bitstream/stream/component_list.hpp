@@ -22,8 +22,8 @@ inline constexpr size_t kMostListed = 16;      ///< components
 inline ListedComponent listed(const StreamHeader& header, Component component) {
   const bool heights = component == Component::kGeometry;
   const auto fill = [&](const auto& of, uint8_t kind) {
-    return ListedComponent{
-        component, kind, {Domain::kGrid, of.shown()}, of.regions.side_log2, ""};
+    const uint8_t domain = of.wavelet.ring ? Domain::kCylinder : Domain::kGrid;
+    return ListedComponent{component, kind, {domain, of.shown()}, of.regions.side_log2, ""};
   };
   return heights ? fill(*header.geometry, ListedComponent::kHeights)
                  : fill(*header.texture, ListedComponent::kColours);
@@ -50,7 +50,7 @@ inline std::vector<ListedComponent> listOf(const StreamHeader& header) {
 
 /// The component that a decoder takes one of the list for, given those before it.
 inline Component roleOf(const ListedComponent& one, const StreamHeader& before) {
-  if (one.domain.kind != Domain::kGrid) return Component::kOther;
+  if (!one.domain.isKnown()) return Component::kOther;
   if (one.kind == ListedComponent::kHeights && !before.geometry) return Component::kGeometry;
   if (one.kind == ListedComponent::kColours && !before.texture) return Component::kTexture;
   return Component::kOther;
@@ -59,8 +59,8 @@ inline Component roleOf(const ListedComponent& one, const StreamHeader& before) 
 /// known: the domains of the components before, which a new one joins.
 template <class V>
 void visitDomain(V& v, std::vector<Domain>& known, Domain& domain) {
-  uint64_t number = static_cast<uint64_t>(std::find(known.begin(), known.end(), domain) -
-                                          known.begin());
+  uint64_t number =
+      static_cast<uint64_t>(std::find(known.begin(), known.end(), domain) - known.begin());
   v.varint("domain", number, 0, known.size());
   if (!v.ok()) return;
   if (number < known.size()) {
@@ -68,7 +68,7 @@ void visitDomain(V& v, std::vector<Domain>& known, Domain& domain) {
     return;
   }
   v.u8("domain_kind", domain.kind, 0, UINT8_MAX);
-  if (domain.kind == Domain::kGrid) {
+  if (domain.isKnown()) {
     v.varint("width", domain.grid.width, 1, kMaxSide);
     v.varint("height", domain.grid.height, 1, kMaxSide);
   } else if constexpr (V::kReads) {
@@ -79,9 +79,11 @@ void visitDomain(V& v, std::vector<Domain>& known, Domain& domain) {
 
 template <class V>
 void visitKnown(V& v, StreamHeader& header, const ListedComponent& one) {
+  const bool ring = one.domain.kind == Domain::kCylinder;
   if (one.component == Component::kGeometry) {
     if (!header.geometry) header.geometry.emplace();
     header.geometry->regions.side_log2 = one.region_log2;
+    header.geometry->wavelet.ring = ring;
     header.geometry->visit(v, one.domain.grid);
     header.layers.visit(v);
     header.geometry->visitBound(v);
@@ -89,6 +91,7 @@ void visitKnown(V& v, StreamHeader& header, const ListedComponent& one) {
   } else {
     if (!header.texture) header.texture.emplace();
     header.texture->regions.side_log2 = one.region_log2;
+    header.texture->wavelet.ring = ring;
     header.texture->visit(v, one.domain.grid);
   }
 }

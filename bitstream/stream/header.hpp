@@ -55,10 +55,13 @@ struct Metadata {
 /// Ground that components are sampled on. Streams share one between components of the same samples.
 struct Domain {
   static constexpr uint8_t kGrid = 0;
+  static constexpr uint8_t kCylinder = 1;  ///< a grid whose last column lies beside its first one
 
   uint8_t kind = kGrid;  ///< others are not known: components on them are passed over
-  Extent grid = {0, 0};  ///< of a grid: columns and rows
+  Extent grid = {0, 0};  ///< of a grid or a cylinder: columns and rows
   uint64_t number = 0;   ///< of others, which are told apart by it: as it was read
+
+  bool isKnown() const { return kind <= kCylinder; }
   bool operator==(const Domain&) const = default;
 };
 

@@ -104,7 +104,7 @@ void liftHeldColumns(const Rows<int32_t>& rows, const Rows<const uint8_t>* valid
 /// Does what RowLifting and MaskedRowLifting do, beside held samples.
 class HeldRowLifting {
  public:
-  explicit HeldRowLifting(uint32_t longest) : values_(longest), valid_(longest) {}
+  HeldRowLifting(uint32_t longest, Ends ends) : values_(longest, ends), valid_(longest, ends) {}
 
   /// valid: of the row, the low half before the high half; null: all samples exist.
   void lift(std::span<int32_t> row, const uint8_t* valid, const HeldBlock& block, ptrdiff_t number,

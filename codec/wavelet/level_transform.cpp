@@ -41,6 +41,7 @@ LevelTransform::LevelTransform(const WaveletSpec& spec, int level, Direction dir
                                uint32_t threads)
     : id_(spec.filter(level)),
       direction_(direction),
+      ends_(spec.ring ? Ends::kJoined : Ends::kMirrored),
       doubles_(spec.doubles(level)),
       wide_(spec.wide(level)),
       joint_(spec.joint(level)),
@@ -67,7 +68,7 @@ void LevelTransform::run(const SplitBlock& block) const {
 }
 
 void LevelTransform::liftJointly(const SplitBlock& block) const {
-  const JointBlock joint{block.first, block.pitch, block.extent, doubles_};
+  const JointBlock joint{block.first, block.pitch, block.extent, ends_, doubles_};
   for (const JointStep step : JointLifting::steps(direction_)) {
     inChunks(block.extent.height, [&](uint32_t begin, uint32_t end) {
       JointLifting(joint, id_, direction_, jointly_wide_).run(step, begin, end);
@@ -79,7 +80,7 @@ void LevelTransform::liftRows(const SplitBlock& block) const {
   const uint32_t width = block.extent.width;
   inChunks(block.extent.height, [&](uint32_t begin, uint32_t end) {
     if (!block.existing.empty()) {
-      MaskedRowLifting masked(width);
+      MaskedRowLifting masked(width, ends_);
       for (uint32_t y = begin; y < end; ++y) {
         int32_t* row = block.row(y).data();
         analyses() ? masked.analyse(row, existingOf(block, y), width, id_)
@@ -87,7 +88,7 @@ void LevelTransform::liftRows(const SplitBlock& block) const {
       }
       return;
     }
-    RowLifting plain(width);
+    RowLifting plain(width, ends_);
     for (uint32_t y = begin; y < end; ++y) {
       int32_t* row = block.row(y).data();
       analyses() ? plain.analyse(row, width, id_, wide_) : plain.synthesise(row, width, id_, wide_);
@@ -108,7 +109,7 @@ void LevelTransform::liftColumns(const SplitBlock& block) const {
 
 void LevelTransform::liftHeldRows(const SplitBlock& block) const {
   inChunks(block.extent.height, [&](uint32_t begin, uint32_t end) {
-    HeldRowLifting lifting(block.extent.width);
+    HeldRowLifting lifting(block.extent.width, ends_);
     for (uint32_t y = begin; y < end; ++y)
       lifting.lift(block.row(y), existingOf(block, y), *block.held, y, {id_, direction_, wide_});
   });

@@ -62,6 +62,7 @@ class LevelTransform {
 
   FilterId id_;
   Direction direction_;
+  Ends ends_;  ///< of rows
   bool doubles_, wide_, joint_, jointly_wide_;
   uint32_t threads_;
 };

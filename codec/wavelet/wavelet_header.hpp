@@ -20,6 +20,7 @@ inline WaveletSpec specOf(const WaveletHeader& header) {
   spec.whole = header.fraction_bits == 0;
   spec.bits = header.bits;
   spec.first_doubled = header.first_doubled;
+  spec.ring = header.ring;
   return spec;
 }
 

@@ -18,6 +18,7 @@ struct WaveletSpec {
   bool whole = false;                        ///< samples have no fraction bits
   int bits = 0;                              ///< of a sample, fraction included
   int first_doubled = 3;  ///< the low band is doubled after this level and the next two; 0: never
+  bool ring = false;      ///< the last column of the plane lies beside its first one
 
   static constexpr int kDoubled = 3;  ///< levels that double their low bands
   static constexpr int kNarrowLevels = 3;

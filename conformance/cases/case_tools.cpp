@@ -160,6 +160,18 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
      "corrections of samples, doubled low bands, heights by wavelet, regions of heights, voids"},
     {"regions_coast_bounded_64x50",
      "corrections of steps, fraction bits, heights by wavelet, nodata, regions of heights, voids"},
+    {"cylinder_80x45", "cylinder of heights, doubled low bands, heights by wavelet"},
+    {"cylinder_odd_75x38", "cylinder of heights, fraction bits, heights by wavelet"},
+    {"cylinder_smooth_61x40", "cylinder of heights, doubled low bands, heights by wavelet"},
+    {"cylinder_coast_53x40",
+     "cylinder of heights, doubled low bands, heights by wavelet, nodata, voids"},
+    {"cylinder_water_117x80",
+     "cylinder of heights, doubled low bands, flat areas, heights by wavelet"},
+    {"cylinder_texture_77x50", "cylinder of texels, fraction bits, texture by wavelet"},
+    {"cylinder_joint_70x33_61x40",
+     "cylinder of heights, cylinder of texels, doubled low bands, heights by wavelet, index, "
+     "levels of several filters, regions of heights, regions of texels, shears of coefficients, "
+     "texture by wavelet"},
     {"nodata_unused_u8_64x48", "fraction bits, heights by wavelet, nodata"},
     {"nodata_beyond_u8_20x20", "exact corrections, fraction bits, heights by wavelet, nodata"},
     {"nodata_most_u8_40x30", "fraction bits, heights by wavelet, nodata, voids"},

@@ -139,6 +139,7 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
     image.white_level = vector_case.white_level;
   }
   if (vector_case.placed) placeBoth(vector_case.heights.has_value(), heights, image);
+  if (vector_case.ring) heights.domain = image.domain = TKS_DOMAIN_CYLINDER;
   tks_encode_options options = vector_case.options;
   const tks_camera above = cameraAbove(heights);
   if (vector_case.told) {

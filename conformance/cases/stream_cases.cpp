@@ -69,6 +69,33 @@ std::vector<VectorCase> regionCases() {
                 samples::VoidShape::kCoast, -32768)};
 }
 
+/// Columns that go round: an even number of them at several levels, and odd ones.
+std::vector<VectorCase> cylinderCases() {
+  const auto round = [](VectorCase vector_case) {
+    vector_case.ring = true;
+    return vector_case;
+  };
+  VectorCase joint =
+      heightsCase("cylinder_joint_70x33_61x40", "cylinders of heights and texture, in regions",
+                  {Pattern::kRidges, 70, 33, 1, TKS_I16}, indexed(inRegions(lossless(), 16)));
+  joint.texture = Recipe{Pattern::kRidges, 61, 40, 3, TKS_U8, 7};
+  return {round(heightsCase("cylinder_80x45", "a cylinder: 80, 40, 20, 10, 5 and 3 columns",
+                            {Pattern::kRidges, 80, 45, 1, TKS_I16}, lossless())),
+          round(heightsCase("cylinder_odd_75x38", "a cylinder: 75, 38, 19 and 10 columns",
+                            {Pattern::kRidges, 75, 38, 1, TKS_I16, 5}, budget(1500))),
+          round(heightsCase("cylinder_smooth_61x40", "a cylinder of smooth ground",
+                            {Pattern::kHills, 61, 40, 1, TKS_U16}, lossless())),
+          round(withVoids(heightsCase("cylinder_coast_53x40", "a cylinder with voids at its seam",
+                                      {Pattern::kRidges, 53, 40, 1, TKS_I16}, lossless()),
+                          samples::VoidShape::kCoast, -32768)),
+          round(withWater(heightsCase("cylinder_water_117x80", "a cylinder with flat areas",
+                                      {Pattern::kRidges, 117, 80, 1, TKS_I16}, lossless()),
+                          samples::VoidShape::kCoast)),
+          round(textureCase("cylinder_texture_77x50", "a cylinder of a texture alone",
+                            {Pattern::kRidges, 77, 50, 3, TKS_U8, 7}, budget(2500))),
+          round(joint)};
+}
+
 /// Coefficients have priorities, by what a camera sees.
 std::vector<VectorCase> toldCases() {
   const auto told = [](const std::string& name, const std::string& purpose,

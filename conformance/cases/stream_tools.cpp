@@ -79,6 +79,8 @@ Tools toolsOf(std::span<const uint8_t> stream) {
   Tools tools;
   if (header.geometry) addHeights(*header.geometry, header.layers, tools);
   if (header.texture) addTexture(*header.texture, tools);
+  if (header.geometry && header.geometry->wavelet.ring) tools.insert("cylinder of heights");
+  if (header.texture && header.texture->wavelet.ring) tools.insert("cylinder of texels");
   if (!header.index.empty()) tools.insert("index");
   if (header.georeference.heights.has_transform || header.georeference.texture.has_transform)
     tools.insert("georeference");
@@ -93,6 +95,8 @@ Tools allTools() {
           "corrections of samples",
           "corrections of steps",
           "cut-out",
+          "cylinder of heights",
+          "cylinder of texels",
           "doubled low bands",
           "drawn heights",
           "drawn texture",

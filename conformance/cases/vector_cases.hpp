@@ -45,6 +45,7 @@ struct VectorCase {
   int exponent = 0;                   ///< float heights are multiplied by 2^exponent
   uint32_t spikes = 0;                ///< one in so many heights stands out of a plain
   bool placed = false;                ///< heights and texture have a georeference
+  bool ring = false;                  ///< the columns of heights and texture go round
   bool told = false;                  ///< a camera looks down on the north-west
   std::vector<uint8_t> stream;        ///< not empty: nothing is encoded, these are the bytes
   bool dense = false;                 ///< cuts lie close to each other in the middle

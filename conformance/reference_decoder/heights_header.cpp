@@ -111,6 +111,7 @@ void readHeights(Reader& in, const Domain& domain, RegionHeader regions, Stream&
     if (!p.ends()) p.f64();  // max_error
   });
   parts.end();
+  g.wavelet.ring = domain.kind == 1;
   if (!suits(g, stream.layers)) stream.suits = false;
 }
 

@@ -24,6 +24,7 @@ class Joint {
       : filter_(filterOf(header, of.level)),
         exact_(of.level > 3 || header.sampleBits + 4 >= filter_.widest),
         doubled_(doublesLow(header, of.level)),
+        ring_(header.ring),
         of_(of),
         plane_(plane),
         width_((plane.width - 1) / of.stepX + 1),
@@ -69,10 +70,20 @@ class Joint {
     return wrap((exact_ ? sum : wrap(sum)) >> shift);
   }
   int32_t alongX(size_t step, int shift, int64_t x, int64_t y, const ValueAt& value) const {
-    return product(step, shift, [&](int64_t d) { return value(mirrored(x + d, width_), y); });
+    return product(step, shift, [&](int64_t d) {
+      return ring_ ? round(x + d, y, value) : value(mirrored(x + d, width_), y);
+    });
   }
   int32_t alongY(size_t step, int shift, int64_t x, int64_t y, const ValueAt& value) const {
     return product(step, shift, [&](int64_t d) { return value(x, mirrored(y + d, height_)); });
+  }
+
+  /// "Rings"
+  int64_t round(int64_t x, int64_t y, const ValueAt& value) const {
+    const int64_t places = width_ + width_ % 2;
+    x = (x % places + places) % places;
+    if (x < width_) return value(x, y);
+    return (int64_t{value(width_ - 2, y)} + value(1, y)) >> 1;
   }
 
   /// Ux (b - Uy d) + Uy c
@@ -93,7 +104,7 @@ class Joint {
   }
 
   const Filter& filter_;
-  bool exact_, doubled_;
+  bool exact_, doubled_, ring_;
   JointLevel of_;
   Plane& plane_;
   int64_t width_, height_;

@@ -60,7 +60,7 @@ uint64_t samplesOf(const Stream& stream) {
 int levelOf(const Stream& stream) {
   uint64_t most = 0;
   for (const Component& c : stream.components)
-    if (c.domain.kind == 0) most = std::max(most, uint64_t(c.domain.width) * c.domain.height);
+    if (c.domain.known()) most = std::max(most, uint64_t(c.domain.width) * c.domain.height);
   int level = 0;
   while (most > uint64_t{1} << (2 * (level + 8))) ++level;
   return level;
@@ -72,7 +72,7 @@ Domain readDomain(Reader& in, std::vector<Domain>& known) {
   if (number < known.size()) return known[number];
   Domain domain;
   domain.kind = in.byte();
-  if (domain.kind == 0) {
+  if (domain.known()) {
     domain.width = static_cast<int>(in.varint(1, 1 << 20));
     domain.height = static_cast<int>(in.varint(1, 1 << 20));
   }
@@ -87,9 +87,8 @@ void readComponent(Reader& in, std::vector<Domain>& domains, Stream& stream) {
   const Domain domain = readDomain(in, domains);
   if (in.outcome() != Outcome::kDone) return;
   Component component{-1, regions.log2 > 0, domain};
-  const bool grid = component.domain.kind == 0;
-  if (grid && kind == 0 && !stream.geometry) component.role = 0;
-  if (grid && kind == 1 && !stream.texture) component.role = 1;
+  if (domain.known() && kind == 0 && !stream.geometry) component.role = 0;
+  if (domain.known() && kind == 1 && !stream.texture) component.role = 1;
   if (component.role >= 0 && regions.log2 > 0 && regions.log2 < 4) in.fail(Outcome::kCorrupt);
   if (component.role == 0) readHeights(in, component.domain, regions, stream);
   if (component.role == 1) readTexture(in, component.domain, regions, stream);

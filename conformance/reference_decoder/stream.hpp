@@ -20,6 +20,7 @@ struct WaveletHeader {
   std::array<int, 3> filters = {};
   int fractionBits = 0, sampleBits = 0, firstDoubled = 0;
   uint64_t roundedBytes = 0;
+  bool ring = false;  ///< the domain is a cylinder
 };
 
 /// FORMAT 2, table Regions.
@@ -109,6 +110,8 @@ using Codewords = std::vector<std::vector<uint8_t>>;
 /// FORMAT 2, Domain.
 struct Domain {
   int kind = 0, width = 0, height = 0;
+
+  bool known() const { return kind == 0 || kind == 1; }
 };
 
 /// FORMAT 2, what every component begins with.

@@ -85,6 +85,7 @@ void readTexture(Reader& in, const Domain& domain, RegionHeader regions, Stream&
   const bool white = parts.take(21, [&](Reader& p) { t.white = int(p.varint(1, 65534)); });
   const bool weights = parts.take(22, [&](Reader& p) { readWeights(p, t); });
   parts.end();
+  t.wavelet.ring = domain.kind == 1;
   const bool opening = cutout || t.overlayBytes > 0;
   if (!lifted && (opening || tables || weights)) stream.suits = false;
   if (white && t.sample == kU8) stream.suits = false;

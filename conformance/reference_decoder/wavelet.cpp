@@ -18,7 +18,11 @@ struct Line {
   std::vector<int32_t> values;
   std::vector<bool> valid;
   std::vector<States> held;  ///< empty: the sample is not held
+  bool ring = false;
 };
+
+/// What a step reads; nothing: a void.
+using Read = std::optional<int32_t>;
 
 States statesOf(const Filter& filter, bool exact, int32_t value) {
   States states = {value, value};
@@ -38,15 +42,32 @@ size_t mirrored(int64_t t, size_t size) {
   return static_cast<size_t>(t < n ? t : period - t);
 }
 
+Read readAt(const Line& line, size_t place) {
+  return line.valid[place] ? Read(line.values[place]) : std::nullopt;
+}
+
+/// FORMAT 7, "Rings": of any place.
+Read readRing(const Line& line, int64_t place) {
+  const auto n = static_cast<int64_t>(line.values.size()), places = n + n % 2;
+  place = (place % places + places) % places;
+  if (place < n) return readAt(line, static_cast<size_t>(place));
+  const Read before = readAt(line, static_cast<size_t>(n - 2)), after = readAt(line, 1);
+  if (!before || !after) return std::nullopt;
+  return static_cast<int32_t>((int64_t{*before} + *after) >> 1);
+}
+
+Read readBeside(const Line& line, int64_t place) {
+  return line.ring ? readRing(line, place) : readAt(line, mirrored(place, line.values.size()));
+}
+
 /// The sum of a pair; a void counts as the other one. Nothing: both are void.
 std::optional<int64_t> pairSum(const Line& line, size_t t, int64_t distance) {
-  const size_t n = line.values.size();
-  size_t before = mirrored(static_cast<int64_t>(t) - distance, n);
-  size_t after = mirrored(static_cast<int64_t>(t) + distance, n);
-  if (!line.valid[before] && !line.valid[after]) return std::nullopt;
-  if (!line.valid[before]) before = after;
-  if (!line.valid[after]) after = before;
-  return int64_t{line.values[before]} + line.values[after];
+  Read before = readBeside(line, static_cast<int64_t>(t) - distance);
+  Read after = readBeside(line, static_cast<int64_t>(t) + distance);
+  if (!before && !after) return std::nullopt;
+  if (!before) before = after;
+  if (!after) after = before;
+  return int64_t{*before} + *after;
 }
 
 /// The sums of all pairs of a step; pairs of two voids have that of another. Empty: all are.
@@ -85,9 +106,11 @@ void synthesiseLine(const Filter& filter, bool exact, Line& line) {
   }
 }
 
-/// The samples of one signal.
+/// The samples of one signal, in a row or in a column.
 struct Places {
   int x, y, stepX, stepY, count;
+
+  bool row() const { return stepX > 0; }
 };
 
 bool isExact(const WaveletHeader& header, int level, const Plane& plane) {
@@ -99,6 +122,7 @@ void synthesisePlaces(const WaveletHeader& header, int level, const Places& plac
   const Filter& filter = filterOf(header, level);
   const bool exact = isExact(header, level, plane);
   Line line;
+  line.ring = header.ring && places.row();
   for (int i = 0; i < places.count; ++i) {
     const int x = places.x + i * places.stepX, y = places.y + i * places.stepY;
     line.values.push_back(plane.at(x, y));

@@ -136,6 +136,7 @@ HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,
       .wavelet = choice.wavelet,
       .priorities = priorities != nullptr ? headerOf(*priorities) : PriorityHeader(),
       .flat = std::move(choice.flat)};
+  layers.wavelet.ring = headerOf(heights).wavelet.ring;
   layers.stated.flat_bytes = layers.flat.codeword.size();
   layers.stated.flat_areas = static_cast<uint32_t>(layers.flat.areas.heights.size());
   if (heights.late.none()) return layers;

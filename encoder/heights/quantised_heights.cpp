@@ -241,6 +241,7 @@ GeometryHeader headerOf(const QuantisedHeights& heights) {
   header.exact = heights.steps.exact;
   header.base = heights.steps.base;
   header.step = heights.steps.step;
+  header.wavelet.ring = heights.samples->domain == TKS_DOMAIN_CYLINDER;
   return header;
 }
 

@@ -21,6 +21,7 @@ namespace {
 
 CodedTexture codedBy(std::shared_ptr<const TextureSource> source, EncodedTexture encoded) {
   assert(!encoded.tracks.empty() && encoded.header.width == source->texels.width);
+  encoded.header.wavelet.ring = source->ring;
   return {std::move(source), std::move(encoded.header), std::move(encoded.tracks)};
 }
 
@@ -48,7 +49,8 @@ std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image) {
     std::transform(from, from + count, texels.samples.begin(),
                    [](auto v) { return static_cast<uint16_t>(v); });
   });
-  return std::make_shared<const TextureSource>(std::move(texels));
+  const bool ring = image.domain == TKS_DOMAIN_CYLINDER;
+  return std::make_shared<const TextureSource>(std::move(texels), ring);
 }
 
 Mask CodedTexture::seen() const {

@@ -91,6 +91,13 @@ typedef enum tks_registration TKS_INT {
   TKS_REGISTRATION_POINT = 2 /* a sample is the value at the middle of its cell */
 } tks_registration;
 
+/* What lies beside the columns at the ends of a raster. */
+typedef enum tks_domain TKS_INT {
+  TKS_DOMAIN_PLANE = 0,   /* nothing */
+  TKS_DOMAIN_CYLINDER = 1 /* the last column lies beside the first one, as on a globe: no seam is
+                             left between the two. Meshes are those of the plane */
+} tks_domain;
+
 /* A height field to encode: width x height samples, row by row, tightly packed, caller's memory.
  * The least size is 1 x 1. One column or row has no area: no mesh can be made of it, and no camera
  * sees it. A sample v stands for the height v * scale + offset in `unit`.
@@ -133,6 +140,7 @@ typedef struct tks_heights {
   const uint8_t* positions;       /* of tks_fit_positions: longitudes and latitudes for receivers
                                      that do not know the CRS; NULL: none */
   size_t positions_size;          /* in bytes */
+  tks_domain domain;              /* 0: a plane */
 } tks_heights;
 
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed.
@@ -161,6 +169,7 @@ typedef struct tks_image {
   uint32_t white_level;          /* 0: that of tks_find_white_level */
   const uint8_t* positions;      /* of tks_fit_positions; NULL: none but those of the heights */
   size_t positions_size;
+  tks_domain domain;             /* 0: a plane, whatever the heights are */
 } tks_image;
 
 /* The white level of a texture is the value that pictures show as white; what lies above it is as
@@ -498,6 +507,8 @@ typedef struct tks_info {
   size_t positions_size;
   const uint8_t* texture_positions; /* of the texture alone */
   size_t texture_positions_size;
+  tks_domain domain;            /* of the heights */
+  tks_domain texture_domain;
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);

@@ -337,6 +337,7 @@ tks_heights AwkwardCase::input() const {
   tks_heights h = heights.heights();
   h.has_nodata = nodata.has_value();
   h.nodata = nodata.value_or(0);
+  h.domain = domain;
   return h;
 }
 
@@ -357,6 +358,7 @@ AwkwardCase awkwardCase(uint64_t seed, uint32_t most_samples) {
   c.options.index = dice.once(4);
   c.options.triangles = dice.once(8) ? 1 + dice.below(500) : 0;
   if (dice.once(4)) addTexture(dice, c, most_samples);
+  if (dice.once(4)) c.domain = TKS_DOMAIN_CYLINDER;
   c.description = std::string(kKindNames[static_cast<size_t>(kind)]) + ", type " +
                   std::to_string(c.heights.sample) + ", " + std::to_string(c.heights.width) +
                   " x " + std::to_string(c.heights.height) + ", " + target + ", regions " +
@@ -364,7 +366,8 @@ AwkwardCase awkwardCase(uint64_t seed, uint32_t most_samples) {
                   (c.nodata ? ", nodata " + std::to_string(*c.nodata) : "") +
                   (c.texture ? ", texture " + std::to_string(c.texture->width) + " x " +
                                    std::to_string(c.texture->height)
-                             : "");
+                             : "") +
+                  (c.domain == TKS_DOMAIN_CYLINDER ? ", cylinder" : "");
   return c;
 }
 

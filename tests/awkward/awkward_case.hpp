@@ -15,7 +15,8 @@ namespace tetrakis::test {
 struct AwkwardCase {
   samples::Raster heights;
   std::optional<samples::Raster> texture;
-  std::optional<double> nodata;  ///< declared
+  std::optional<double> nodata;          ///< declared
+  tks_domain domain = TKS_DOMAIN_PLANE;  ///< of both
   tks_encode_options options = {};
   std::string description;  ///< type, size, kind and target, to find a failure again
 

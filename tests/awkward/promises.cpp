@@ -145,7 +145,8 @@ std::string checkCut(std::span<const uint8_t> prefix) {
 
 std::string brokenPromise(const AwkwardCase& c) {
   const tks_heights heights = c.input();
-  const tks_image image = c.texture ? c.texture->image() : tks_image{};
+  tks_image image = c.texture ? c.texture->image() : tks_image{};
+  image.domain = c.domain;
   tks_buffer buffer = {};
   char message[256] = "";
   const tks_status status = tks_encode(&heights, c.texture ? &image : nullptr, &c.options, &buffer,

@@ -146,6 +146,7 @@ AwkwardCase caseOf(FuzzedDataProvider& bytes) {
     c.texture->opaque = bytes.ConsumeBool();
     paint(bytes, *c.texture);
   }
+  if (bytes.ConsumeBool()) c.domain = TKS_DOMAIN_CYLINDER;
   paint(bytes, c.heights);
   return c;
 }

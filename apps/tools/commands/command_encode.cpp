@@ -14,6 +14,7 @@
 #include "apps/tools/commands/explained_plans.hpp"
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/place/columns_round.hpp"
 #include "apps/tools/files/place/given_crs.hpp"
 #include "apps/tools/files/place/ground_positions.hpp"
 #include "apps/tools/files/units.hpp"
@@ -52,6 +53,22 @@ void tellNotes(const Notes& notes, const EncodeArguments& arguments, bool quiet)
   }
 }
 
+tks_domain domainOf(const EncodeArguments& arguments, const Georeference& place, uint32_t width) {
+  const bool goes_round = arguments.domain == "auto"
+                              ? columnsRound(place, width) == ColumnsRound::kOnce
+                              : arguments.domain == "cylinder";
+  return goes_round ? TKS_DOMAIN_CYLINDER : TKS_DOMAIN_PLANE;
+}
+
+/// That of a texture, which lies where the heights do unless it says otherwise.
+tks_domain domainOf(const EncodeArguments& arguments, const ImageFile& image,
+                    const HeightFile* heights) {
+  if (heights != nullptr && !image.place.geotransform) return heights->domain;
+  Georeference place = image.place;
+  if (heights != nullptr && place.crs.empty()) place.crs = heights->crs;
+  return domainOf(arguments, place, image.width);
+}
+
 Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
   Reference inputs;
   if (!arguments.height.empty()) {
@@ -67,6 +84,8 @@ Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
     if (Status status = describe(arguments, *heights); !status.ok()) return status;
     tellNotes(guesses(arguments, *heights, notes), arguments, quiet);
     tellNote(voidNote(*heights), quiet);
+    heights->domain = domainOf(arguments, *heights, heights->width);
+    if (arguments.domain == "auto") tellNote(repeatNote(arguments.height, *heights), quiet);
     inputs.heights = std::move(*heights);
   }
   if (!arguments.texture.empty()) {
@@ -80,6 +99,7 @@ Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
       tellNote(whiteNote(arguments.texture, *image), quiet);
     }
     if (inputs.heights) tellNote(placeNote(arguments.texture, *inputs.heights, *image), quiet);
+    image->place.domain = domainOf(arguments, *image, inputs.heights ? &*inputs.heights : nullptr);
     inputs.image = std::move(*image);
   }
   return inputs;

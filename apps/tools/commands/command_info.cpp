@@ -54,10 +54,14 @@ Json registrationJson(tks_registration registration) {
 /// What heights_drawn and texture_drawn stand for.
 constexpr std::array<const char*, 4> kCodings = {"wavelet", "drawn", "overlay", "stored"};
 
+/// What tks_domain stands for.
+constexpr std::array<const char*, 2> kDomains = {"plane", "cylinder"};
+
 Json heightsJson(const tks_info& info) {
   if (!info.has_heights) return {};
   return {{"width", info.width},
           {"height", info.height},
+          {"domain", kDomains.at(static_cast<size_t>(info.domain))},
           {"sample", sampleName(info.sample)},
           {"scale", info.scale},
           {"offset", info.offset},
@@ -87,6 +91,7 @@ Json textureJson(const tks_info& info) {
   if (!info.has_texture) return {};
   return {{"width", info.texture_width},
           {"height", info.texture_height},
+          {"domain", kDomains.at(static_cast<size_t>(info.texture_domain))},
           {"channels", info.texture_channels},
           {"alpha", info.texture_opaque == 0},
           {"sample", sampleName(info.texture_sample)},

@@ -54,6 +54,11 @@ void addTuning(CLI::App& verb, EncodeArguments& arguments) {
                   "What comes first in a texture: psnr, or visual (what is seen from afar)")
       ->check(silent(CLI::IsMember({"psnr", "visual"})))
       ->type_name("WEIGHTS");
+  verb.add_option("--domain", arguments.domain,
+                  "Whether the last column lies beside the first one: cylinder, plane, or auto (as "
+                  "the CRS and the place tell)")
+      ->check(silent(CLI::IsMember({"auto", "plane", "cylinder"})))
+      ->type_name("DOMAIN");
   addThreads(verb, arguments.threads);
   verb.add_flag("--index", arguments.index, "Write the front index of all packets");
   verb.add_flag(

@@ -18,7 +18,7 @@ struct EncodeArguments {
   std::string max_error;
   bool lossless = false;
   uint32_t triangles = 0, threads = hardwareThreads();
-  std::string regions = "auto", weights = "psnr", engine = "modelled";
+  std::string regions = "auto", weights = "psnr", engine = "modelled", domain = "auto";
   double step = 0;
   std::optional<double> scale, offset, nodata;
   uint32_t white_level = 0;  ///< 0: found

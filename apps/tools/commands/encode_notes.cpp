@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/place/columns_round.hpp"
 #include "apps/tools/files/place/crs_units.hpp"
 #include "apps/tools/files/place/texture_place.hpp"
 #include "apps/tools/files/text.hpp"
@@ -55,6 +56,15 @@ Notes guesses(const EncodeArguments& arguments, const HeightFile& heights, const
                          shortest(kUnknownSpacing) + " m: give --spacing",
                      ""});
   return notes;
+}
+
+std::string repeatNote(const std::string& name, const HeightFile& heights) {
+  if (columnsRound(heights, heights.width) != ColumnsRound::kRepeating) return "";
+  return quoted(name) +
+         " goes round the Earth to its first column, which is there again as the last one, so it "
+         "is coded as a plane, with a seam; without that column (gdal_translate -srcwin 0 0 " +
+         std::to_string(heights.width - 1) + " " + std::to_string(heights.height) +
+         ") it is a cylinder";
 }
 
 std::string whiteNote(const std::string& texture, const ImageFile& image) {

@@ -17,6 +17,9 @@ std::string voidNote(const HeightFile& heights);
 /// told has asked for it.
 Notes guesses(const EncodeArguments& arguments, const HeightFile& heights, const Notes& told);
 
+/// That columns go round the Earth, and one of them is there twice.
+std::string repeatNote(const std::string& name, const HeightFile& heights);
+
 /// What counts as white of a texture, if it is not the largest value.
 std::string whiteNote(const std::string& texture, const ImageFile& image);
 

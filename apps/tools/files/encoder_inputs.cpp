@@ -24,6 +24,7 @@ void setPlace(const Georeference& place, T& raster) {
   raster.geo_keys = textOrUnknown(place.geo_keys);
   raster.positions = place.positions.empty() ? nullptr : place.positions.data();
   raster.positions_size = place.positions.size();
+  raster.domain = place.domain;
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ struct Georeference {
   std::string crs;       ///< "EPSG:code", WKT or a name; "" when unknown
   std::string geo_keys;  ///< what a GeoTIFF says beyond `crs` (geo_keys.hpp); "" if nothing
   std::vector<uint8_t> positions;  ///< of tks_fit_positions; empty: none
+  tks_domain domain = TKS_DOMAIN_PLANE;
 };
 
 /// Heights as a file holds them. data: width * height samples of type `sample`, row by row, host

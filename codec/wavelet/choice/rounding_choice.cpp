@@ -114,9 +114,11 @@ class CodedPart {
 
 double roundedSquares(const PlaneView<const int32_t>& plane, const HeldSamples& held,
                       const WaveletHeader& wavelet) {
+  WaveletHeader of_part = wavelet;
+  of_part.ring = false;
   std::vector<std::unique_ptr<CodedPart>> parts;
   for (PlanePart& cut : typicalPartsOf(std::span(&plane, 1), held, kPartSide)) {
-    auto part = std::make_unique<CodedPart>(std::move(cut), wavelet);
+    auto part = std::make_unique<CodedPart>(std::move(cut), of_part);
     if (part->tells()) parts.push_back(std::move(part));
   }
   double first = 0;

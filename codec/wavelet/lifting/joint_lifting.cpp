@@ -31,7 +31,7 @@ JointLifting::JointLifting(const JointBlock& block, FilterId id, Direction direc
       filter_(liftingFilter(id)),
       direction_(direction),
       wide_(wide),
-      halves_(block.extent.width) {
+      halves_(block.extent.width, block.ends) {
   assert(liftsJointly(id) && block.extent.width >= 2 && block.extent.height >= 2);
 }
 

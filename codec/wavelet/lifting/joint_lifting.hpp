@@ -36,6 +36,7 @@ struct JointBlock {
   int32_t* first;
   size_t pitch;   ///< from one row to the next, in values
   Extent extent;  ///< two samples or more in each direction
+  Ends ends;      ///< of the rows
   bool doubled;   ///< a becomes 2 a + [2 (...)]: coarser levels then round half as much
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 /// Columns one by one: the kernel takes about as long for a few values as for a vector of them.
 void liftSingleColumns(const Rows<int32_t>& rows, FilterId id, Direction direction, bool wide) {
-  RowLifting lifting(rows.count);
+  RowLifting lifting(rows.count, Ends::kMirrored);
   std::vector<int32_t> column(rows.count);
   for (uint32_t x = 0; x < rows.width; ++x) {
     int32_t* const first = rows.first + x;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lifting works on one-dimensional signals: the columns and the rows of a plane. A signal has two
-// samples or more and is mirrored about its first and its last sample. With 64-bit (wide) sums the
-// results are exact; without them sums wrap modulo 2^32.
+// samples or more. Columns are mirrored about their first and their last sample; rows as well, or
+// their ends are joined (lifting_steps.hpp). With 64-bit (wide) sums the results are exact; without
+// them sums wrap modulo 2^32.
 //
 // The neighbours of the other parity change element t of a signal:
 //
@@ -22,7 +23,7 @@ void liftColumns(const Rows<int32_t>& rows, FilterId id, Direction direction, bo
 /// Lifts single rows. The low half lies before the high half.
 class RowLifting {
  public:
-  explicit RowLifting(uint32_t longest) : halves_(longest) {}
+  RowLifting(uint32_t longest, Ends ends) : halves_(longest, ends) {}
 
   void analyse(int32_t* row, uint32_t length, FilterId id, bool wide);
   void synthesise(int32_t* row, uint32_t length, FilterId id, bool wide);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions here name the samples that each lifting step reads and changes, whether these are
-// values or marks of existence. A signal has two samples or more and is mirrored about its first
-// and its last sample.
+// values or marks of existence. A signal has two samples or more. It is mirrored about its first
+// and its last sample, or it is a ring, whose last sample lies beside its first one.
+//
+// On a ring of n samples both halves have ceil(n / 2) places, and the neighbours of a place are
+// counted round it. Where n is odd the last high place holds no sample: steps change nothing there,
+// and read the mean of the high places on either side. So constants stay constants in all filters.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +18,9 @@
 #include "codec/wavelet/lifting/lifting_kernel.hpp"
 
 namespace tetrakis::inline lifting {
+
+/// What lies beyond the ends of a signal.
+enum class Ends : uint8_t { kMirrored, kJoined };
 
 /// Where the mirror image of place p lies in a signal of n >= 2 samples.
 inline ptrdiff_t mirror(ptrdiff_t p, ptrdiff_t n) {
@@ -87,11 +94,13 @@ void forEachStep(FilterId id, Direction direction, Lift&& lift) {
   }
 }
 
-/// The even and the odd elements of a signal, apart, with room for mirrored ones on either side.
+/// The even and the odd elements of a signal, apart, with room on either side for those that steps
+/// read beyond its ends.
 template <class T>
 class Halves {
  public:
-  explicit Halves(uint32_t longest) : even_(longest / 2 + 1 + 2 * kMargin), odd_(even_.size()) {}
+  Halves(uint32_t longest, Ends ends)
+      : even_(longest / 2 + 1 + 2 * kMargin), odd_(even_.size()), ends_(ends) {}
 
   void takeApart(const T* row, uint32_t length) {
     setLength(length);
@@ -132,13 +141,12 @@ class Halves {
   T* targets(bool predicts) { return predicts ? high() : low(); }
   size_t count(bool predicts) const { return static_cast<size_t>(predicts ? highs_ : lows_); }
   StepSources<T> sources(bool predicts, size_t pairs) {
-    // Mirroring keeps even positions even, so each half has its margins from itself.
-    T* source = predicts ? low() : high();
-    const ptrdiff_t count = predicts ? lows_ : highs_, parity = predicts ? 0 : 1;
-    for (ptrdiff_t m = 1; m <= static_cast<ptrdiff_t>(pairs); ++m) {
-      source[-m] = source[mirror(parity - 2 * m, lows_ + highs_) / 2];
-      source[count - 1 + m] = source[mirror(parity + 2 * (count - 1 + m), lows_ + highs_) / 2];
-    }
+    // Neither mirrors nor rings turn even positions into odd ones, so each half has its margins
+    // from itself.
+    const auto margin = static_cast<ptrdiff_t>(pairs);
+    ends_ == Ends::kMirrored ? mirrorEnds(predicts, margin) : joinEnds(predicts, margin);
+    const ptrdiff_t parity = predicts ? 0 : 1;
+    const T* source = predicts ? low() : high();
     StepSources<T> sources{};
     for (size_t k = 0; k < pairs; ++k) {
       const auto distance = static_cast<ptrdiff_t>(k);
@@ -149,7 +157,7 @@ class Halves {
   }
 
  private:
-  static constexpr ptrdiff_t kMargin = kMaxPairs;  // mirrored elements on either side
+  static constexpr ptrdiff_t kMargin = kMaxPairs;  // elements beyond either end
 
   T* low() { return even_.data() + kMargin; }
   T* high() { return odd_.data() + kMargin; }
@@ -157,8 +165,27 @@ class Halves {
     highs_ = length / 2;
     lows_ = length - highs_;
   }
+  void mirrorEnds(bool predicts, ptrdiff_t margin) {
+    T* source = predicts ? low() : high();
+    const ptrdiff_t count = predicts ? lows_ : highs_, parity = predicts ? 0 : 1;
+    for (ptrdiff_t m = 1; m <= margin; ++m) {
+      source[-m] = source[mirror(parity - 2 * m, lows_ + highs_) / 2];
+      source[count - 1 + m] = source[mirror(parity + 2 * (count - 1 + m), lows_ + highs_) / 2];
+    }
+  }
+  void joinEnds(bool predicts, ptrdiff_t margin) {
+    T* source = predicts ? low() : high();
+    // A mark between two marks is set if both are.
+    if (!predicts && highs_ < lows_)
+      source[highs_] = static_cast<T>((int64_t{source[highs_ - 1]} + source[0]) >> 1);
+    for (ptrdiff_t m = 0; m < margin; ++m) {
+      source[-1 - m] = source[lows_ - 1 - m % lows_];
+      source[lows_ + m] = source[m % lows_];
+    }
+  }
 
   std::vector<T> even_, odd_;
+  Ends ends_;
   ptrdiff_t lows_ = 0, highs_ = 0;
 };
 

@@ -51,7 +51,7 @@ void liftMaskedColumns(const Rows<int32_t>& rows, const Rows<const uint8_t>& val
 /// half before the high half.
 class MaskedRowLifting {
  public:
-  explicit MaskedRowLifting(uint32_t longest) : values_(longest), valid_(longest) {}
+  MaskedRowLifting(uint32_t longest, Ends ends) : values_(longest, ends), valid_(longest, ends) {}
 
   void analyse(int32_t* row, const uint8_t* valid, uint32_t length, FilterId id);
   void synthesise(int32_t* row, const uint8_t* valid, uint32_t length, FilterId id);

@@ -14,12 +14,22 @@ namespace tetrakis::inline synthesis {
 /// A sample needs the places within the filter's reach; what the block's own ends do to the filter
 /// stays outside of `needed`. Where the block ends with the plane both are mirrored alike.
 WindowSynthesis::Axis WindowSynthesis::axisOf(Range needed, bool splits, uint32_t size,
-                                              uint32_t reach) const {
+                                              uint32_t reach) {
   assert(needed.begin < needed.end && needed.end <= size);
   if (!splits) return {needed, needed, {0, 0}};
   const uint32_t begin = (needed.begin - std::min(needed.begin, reach)) & ~uint32_t{1};
   const uint32_t end = needed.end + std::min(size - needed.end, reach);
   return {{begin, end}, {begin / 2, (end + 1) / 2}, {begin / 2, end / 2}};
+}
+
+/// Across the seam of a ring lies its other end, and in between a place without a sample if their
+/// number is odd: rows that reach there are taken whole.
+WindowSynthesis::Axis WindowSynthesis::rowAxisOf(Range needed, int level) const {
+  const uint32_t size = pyramid_->low(level - 1).extent.width;
+  const uint32_t reach = synthesisReach(spec_.filter(level));
+  const bool at_seam = needed.begin < reach || size - needed.end < reach;
+  if (spec_.ring && at_seam) needed = {0, size};
+  return axisOf(needed, pyramid_->splitsX(level), size, reach);
 }
 
 WindowSynthesis::WindowSynthesis(const WaveletSpec& spec, const Pyramid& pyramid,
@@ -31,11 +41,9 @@ WindowSynthesis::WindowSynthesis(const WaveletSpec& spec, const Pyramid& pyramid
       ll_y_{window.y, window.y + window.height} {
   assert(window.isInside(pyramid.plane()));
   for (int level = 1; level <= pyramid.levels(); ++level) {
-    const Extent whole = pyramid.low(level - 1).extent;
+    const uint32_t height = pyramid.low(level - 1).extent.height;
     const uint32_t reach = synthesisReach(spec_.filter(level));
-    Level block{axisOf(ll_x_, pyramid.splitsX(level), whole.width, reach),
-                axisOf(ll_y_, pyramid.splitsY(level), whole.height, reach),
-                {}};
+    Level block{rowAxisOf(ll_x_, level), axisOf(ll_y_, pyramid.splitsY(level), height, reach), {}};
     ll_x_ = block.x.low;
     ll_y_ = block.y.low;
     levels_.push_back(std::move(block));
@@ -57,12 +65,13 @@ uint64_t WindowSynthesis::coefficients() const {
 /// of the largest block; of each row or column that is lifted, its halves and their masks.
 uint64_t WindowSynthesis::workBytes(uint32_t, bool masked) const {
   constexpr uint64_t kAround = 1024;  // what a filter reaches beyond a row, and more
-  uint64_t largest_block = 0, largest_part = window_.extent().samples();
+  uint64_t largest_block = 0, largest_part = window_.extent().samples(), widest = window_.width;
   for (const Level& level : levels_) {
     largest_block = std::max<uint64_t>(largest_block, level.samples());
     largest_part = std::max<uint64_t>(largest_part, level.low().extent().samples());
+    widest = std::max<uint64_t>(widest, level.x.block.size());
   }
-  return sizeof(int32_t) * largest_part + kLiftingBytes * (window_.width + kAround) +
+  return sizeof(int32_t) * largest_part + kLiftingBytes * (widest + kAround) +
          (masked ? largest_block : 0);
 }
 
@@ -128,6 +137,13 @@ std::vector<uint8_t> WindowSynthesis::maskOf(int level) const {
   return pyramid_->splitMask(level - 1, at(level).block());
 }
 
+/// A part of a ring ends as a part of any row does.
+LevelTransform WindowSynthesis::transformOf(int level) const {
+  WaveletSpec spec = spec_;
+  spec.ring = spec_.ring && at(level).x.isWhole(pyramid_->low(level - 1).extent.width);
+  return {spec, level, Direction::kSynthesis};
+}
+
 std::vector<int32_t> WindowSynthesis::run(uint32_t) {
   std::vector<int32_t> low = std::move(ll_);
   std::optional<HeldLadder> ladder;
@@ -143,7 +159,7 @@ std::vector<int32_t> WindowSynthesis::run(uint32_t) {
     SplitBlock whole = level.split();
     whole.existing = mask;
     whole.held = held ? &*held : nullptr;
-    LevelTransform(spec_, number, Direction::kSynthesis).run(whole);
+    transformOf(number).run(whole);
     // What the next finer level wants of it, or the window.
     Window wanted = number > 1 ? at(number - 1).low() : window_;
     wanted.x -= block.x;

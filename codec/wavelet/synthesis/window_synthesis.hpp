@@ -2,7 +2,8 @@
 // WindowSynthesis is the inverse wavelet of a window. It gives the samples that the inverse wavelet
 // of the whole plane would give there, from the coefficients that reach the window. At every level
 // the window grows by the reach of the filter and then halves, so the work follows the size of the
-// window and not that of the plane.
+// window and not that of the plane. Of a plane whose columns go round, a level whose block would
+// reach across the seam takes whole rows: those are rings.
 //
 // Coefficients that lie outside must not change a window. So the stream header says how many bytes
 // a complete track has, because a window cannot see whether all tracks are complete; and sums
@@ -49,6 +50,7 @@ class WindowSynthesis {
     Range high;   ///< the part of the high half; empty where this direction is not split
 
     bool split() const { return high.size() > 0; }
+    bool isWhole(uint32_t size) const { return block.size() == size; }
     /// The part of one of the halves.
     Range wanted(bool is_high) const { return is_high ? high : low; }
   };
@@ -70,12 +72,15 @@ class WindowSynthesis {
     size_t index(uint32_t row) const { return first + (row - rows.begin) * row_pitch; }
   };
 
-  Axis axisOf(Range needed, bool splits, uint32_t size, uint32_t reach) const;
+  static Axis axisOf(Range needed, bool splits, uint32_t size, uint32_t reach);
+  /// Of rows, which may be rings.
+  Axis rowAxisOf(Range needed, int level) const;
   const Level& at(int level) const { return levels_[static_cast<size_t>(level - 1)]; }
   Target targetOf(const Subband& subband) const;
   int32_t* valuesOf(const Subband& subband);
   void copyLow(const std::vector<int32_t>& low, int level);
   std::vector<uint8_t> maskOf(int level) const;
+  LevelTransform transformOf(int level) const;
 
   WaveletSpec spec_;
   const Pyramid* pyramid_;

@@ -292,3 +292,16 @@ def test_progress_reports_and_raises(heights):
 
     with pytest.raises(KeyboardInterrupt):
         tetrakis.encode(heights, bytes=2000, progress=interrupted)
+
+
+def test_columns_that_go_round(heights, texture):
+    stream = tetrakis.encode(heights, texture, lossless=True, domain="cylinder")
+    with tetrakis.open(stream) as opened:
+        assert (opened.info.domain, opened.info.texture_domain) == ("cylinder", "cylinder")
+        np.testing.assert_array_equal(opened.heights(), heights)
+        np.testing.assert_array_equal(opened.texture(), texture)
+    apart = tetrakis.encode(heights, texture, domain="cylinder", texture_domain="plane")
+    with tetrakis.open(apart) as opened:
+        assert (opened.info.domain, opened.info.texture_domain) == ("cylinder", "plane")
+    with pytest.raises(tetrakis.TksUsageError):
+        tetrakis.encode(heights, domain="sphere")

@@ -46,11 +46,15 @@ GridUnit gridUnitOf(const std::string& crs) {
   return {false, unit ? unit->metres : 0};
 }
 
+GridUnit gridUnitOf(const std::string& geo_keys, const std::string& crs) {
+  const GridUnit stated = gridUnitOf(parseGeoKeys(geo_keys).value_or(GeoKeys{}));
+  return stated.known() ? stated : gridUnitOf(crs);
+}
+
 std::array<double, 2> spacingOf(const tks_info& info) {
   const std::array<double, 2> stated{info.spacing_x, info.spacing_y};
   if (stated[0] > 0 || stated[1] > 0 || !info.has_geotransform) return stated;
-  GridUnit unit = gridUnitOf(parseGeoKeys(info.geo_keys).value_or(GeoKeys{}));
-  if (!unit.known()) unit = gridUnitOf(info.crs);
+  const GridUnit unit = gridUnitOf(info.geo_keys, info.crs);
   return groundSpacing(std::to_array(info.geotransform), info.width, info.height, unit, info.crs)
       .value_or(stated);
 }

@@ -37,6 +37,9 @@ GridUnit gridUnitOf(const GeoKeys& keys);
 /// Unknown for a CRS that PROJ does not know (crs_units.hpp).
 GridUnit gridUnitOf(const std::string& crs);
 
+/// As the keys say, in the form of a text, or else the CRS.
+GridUnit gridUnitOf(const std::string& geo_keys, const std::string& crs);
+
 /// Of heights, as the stream states it, or else from their place, keys and CRS as far as these
 /// tell: not every encoder knows what a CRS means. 0: unknown.
 std::array<double, 2> spacingOf(const tks_info& info);

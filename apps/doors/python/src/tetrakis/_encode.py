@@ -103,6 +103,7 @@ def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
         registration=values.choice(place["registration"], c.REGISTRATIONS, "registration"),
         description=values.text(place["description"], "description"),
         geo_keys=values.text(place["geo_keys"], "geo_keys"),
+        domain=values.choice(place["domain"], c.DOMAINS, "domain"),
     )
     if searched:
         _declare_fill(struct)
@@ -148,6 +149,7 @@ def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
         geo_keys=values.text(place["geo_keys"], "texture_geo_keys"),
         opaque=not values.flag(place["alpha"], "texture_alpha"),
         white_level=values.unsigned(place["white_level"], "texture_white_level"),
+        domain=values.choice(place["domain"], c.DOMAINS, "texture_domain"),
     ), data
 
 
@@ -210,6 +212,8 @@ def encode(
     texture_geo_keys: Optional[str] = None,
     texture_alpha: bool = True,
     texture_white_level: int = 0,
+    domain: str = "plane",
+    texture_domain: Optional[str] = None,
     triangles: Optional[int] = None,
     weights: str = "psnr",
     regions: Optional[int] = None,
@@ -257,6 +261,8 @@ def encode(
             of GDAL and in units of the CRS. registration: "area" or "point". texture_...: likewise
             for a texture whose place is not that of the heights, or that comes without heights.
         description, geo_keys: as tks_heights in tetrakis.h has them.
+        domain: "cylinder" if the last column lies beside the first one, as on a globe: no seam is
+            left between the two. texture_domain: of the texture, if it is another one.
 
     How it is coded
         triangles: meshes will have at most so many. weights: "psnr", or "visual" for the eye.
@@ -302,6 +308,7 @@ def encode(
         vertical_datum=vertical_datum,
         description=description,
         geo_keys=geo_keys,
+        domain=domain,
     )
     texture_place = dict(
         crs=texture_crs,
@@ -310,6 +317,7 @@ def encode(
         geo_keys=texture_geo_keys,
         alpha=texture_alpha,
         white_level=texture_white_level,
+        domain=domain if texture_domain is None else texture_domain,
     )
     height_field, samples = (None, None) if heights is None else _heights_struct(heights, place)
     image, texels = (None, None) if texture is None else _image_struct(texture, texture_place)

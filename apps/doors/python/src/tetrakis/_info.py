@@ -58,6 +58,8 @@ class Info:
     """"area", "point", or None."""
     description: Optional[str]
     geo_keys: Optional[str]
+    domain: str
+    """"plane" or "cylinder": of the heights."""
     has_voids: bool
     """Some samples may be void."""
     voids_known: bool
@@ -90,6 +92,7 @@ class Info:
     texture_geotransform: Optional[GeoTransform]
     texture_registration: Optional[str]
     texture_geo_keys: Optional[str]
+    texture_domain: str
 
 
 _PLAIN = (
@@ -132,6 +135,8 @@ def from_struct(raw: c.StreamInfo) -> Info:
         spacing=(raw.spacing_x, raw.spacing_y) if spaced else None,
         geotransform=tuple(raw.geotransform) if placed else None,
         registration=c.REGISTRATIONS[raw.registration],
+        domain=c.DOMAINS[raw.domain],
+        texture_domain=c.DOMAINS[raw.texture_domain],
         index=c.INDEXES[raw.index],
         nodata=raw.nodata if raw.has_nodata else None,
         texture_shape=_texture_shape(raw) if texture else None,

@@ -35,6 +35,7 @@ GEOTRANSFORM = c_double * 6
 REGISTRATIONS = (None, "area", "point")
 WEIGHTS = ("psnr", "visual")
 INDEXES = (False, True, "windows")
+DOMAINS = ("plane", "cylinder")
 
 PART_HEIGHTS, PART_VALIDITY, PART_TEXTURE = 0, 1, 2
 MESH_BUDGET = 1
@@ -66,6 +67,7 @@ class Heights(ctypes.Structure):
         ("geo_keys", c_char_p),
         ("positions", c_void_p),
         ("positions_size", c_size_t),
+        ("domain", c_int),
     ]
 
 
@@ -88,6 +90,7 @@ class Image(ctypes.Structure):
         ("white_level", c_uint32),
         ("positions", c_void_p),
         ("positions_size", c_size_t),
+        ("domain", c_int),
     ]
 
 
@@ -270,6 +273,8 @@ class StreamInfo(ctypes.Structure):
         ("positions_size", c_size_t),
         ("texture_positions", c_void_p),
         ("texture_positions_size", c_size_t),
+        ("domain", c_int),
+        ("texture_domain", c_int),
     ]
 
 

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// bench_globe FILE...: global grids of heights, whose columns go round the Earth from pole to pole,
+// as planes and as cylinders: bytes at equal RMSE over the area of the Earth, bytes to the last
+// bit, and what is left of the seam between the last column and the first one.
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/tools/files/files.hpp"
+#include "base/samples.hpp"
+#include "bench/harness/arguments.hpp"
+#include "tetrakis/tetrakis.hpp"
+
+namespace tetrakis::bench {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::vector<double> errors = {110, 80, 55};
+};
+
+std::vector<double> samplesOf(const tools::HeightFile& file, std::span<const std::byte> data) {
+  std::vector<double> values;
+  withSampleType(file.sample, [&](auto type) {
+    using T = decltype(type);
+    for (size_t at = 0; at < data.size(); at += sizeof(T)) {
+      T sample;
+      std::memcpy(&sample, data.data() + at, sizeof sample);
+      values.push_back(static_cast<double>(sample));
+    }
+  });
+  return values;
+}
+
+/// How decoded samples are off: over the area of the Earth, and from one side of the seam to the
+/// other, as root mean squares.
+struct Figures {
+  double rmse = 0, seam = 0;
+};
+
+class Globe {
+ public:
+  explicit Globe(const tools::HeightFile& file)
+      : file_(file), original_(samplesOf(file, file.data)) {}
+
+  /// bytes: 0, to the last bit.
+  Result<Buffer> coded(tks_domain domain, uint64_t bytes) const {
+    tks_heights heights = tools::asHeights(file_);
+    heights.domain = domain;
+    tks_encode_options options = makeEncodeOptions();
+    options.bytes = bytes;
+    options.lossless = bytes == 0;
+    return encode(&heights, nullptr, options);
+  }
+
+  Result<Figures> figures(tks_domain domain, uint64_t bytes) const {
+    const Result<Buffer> stream = coded(domain, bytes);
+    if (!stream.ok()) return stream.status();
+    Result<Decoder> decoder = Decoder::open(stream->bytes());
+    if (!decoder.ok()) return decoder.status();
+    const Result<std::vector<std::byte>> samples = decoder->heights();
+    if (!samples.ok()) return samples.status();
+    const std::vector<double> values = samplesOf(file_, *samples);
+    return Figures{rmse(values), jump(values)};
+  }
+  /// Between the two sides of the seam, as the ground has it.
+  double jump() const { return jump(original_); }
+
+ private:
+  double rmse(const std::vector<double>& values) const {
+    double sum = 0, area = 0;
+    for (size_t y = 0; y < file_.height; ++y) {
+      const double latitude = std::numbers::pi * (static_cast<double>(y) + 0.5) / file_.height;
+      const double weight = std::sin(latitude);
+      for (size_t i = y * file_.width; i < (y + 1) * file_.width; ++i) {
+        sum += weight * (values[i] - original_[i]) * (values[i] - original_[i]);
+        area += weight;
+      }
+    }
+    return std::sqrt(sum / area);
+  }
+  double jump(const std::vector<double>& values) const {
+    double sum = 0;
+    for (size_t row = 0; row < values.size(); row += file_.width) {
+      const double step = values[row] - values[row + file_.width - 1];
+      sum += step * step;
+    }
+    return std::sqrt(sum / file_.height);
+  }
+
+  const tools::HeightFile& file_;
+  std::vector<double> original_;
+};
+
+/// The least bytes at which no more error is left, to a thousandth, and what these leave.
+struct AtError {
+  uint64_t bytes;
+  Figures figures;
+};
+
+Result<AtError> atError(const Globe& globe, tks_domain domain, double error, uint64_t most) {
+  AtError found{most, {}};
+  for (uint64_t low = 0; found.bytes - low > found.bytes / 2000;) {
+    const uint64_t middle = low + (found.bytes - low) / 2;
+    const Result<Figures> figures = globe.figures(domain, middle);
+    if (!figures.ok()) return figures.status();
+    if (figures->rmse <= error)
+      found = {middle, *figures};
+    else
+      low = middle;
+  }
+  return found;
+}
+
+const char* nameOf(tks_domain domain) {
+  return domain == TKS_DOMAIN_CYLINDER ? "cylinder" : "plane";
+}
+
+Status measure(const Options& options, const std::string& path) {
+  const Result<tools::HeightFile> file = tools::readHeights(path);
+  if (!file.ok()) return file.status();
+  const Globe globe(*file);
+  std::printf("%s: %u x %u, step at the seam %.1f\n", path.c_str(), file->width, file->height,
+              globe.jump());
+  for (const tks_domain domain : {TKS_DOMAIN_PLANE, TKS_DOMAIN_CYLINDER}) {
+    const Result<Buffer> lossless = globe.coded(domain, 0);
+    if (!lossless.ok()) return lossless.status();
+    const uint64_t whole = lossless->bytes().size();
+    std::printf("%-9s to the last bit: %llu bytes\n", nameOf(domain),
+                static_cast<unsigned long long>(whole));
+    for (const double error : options.errors) {
+      const Result<AtError> at = atError(globe, domain, error, whole);
+      if (!at.ok()) return at.status();
+      std::printf("  RMSE %5.1f: %7llu bytes, step at the seam %.1f\n", error,
+                  static_cast<unsigned long long>(at->bytes), at->figures.seam);
+      std::fflush(stdout);
+    }
+  }
+  return {};
+}
+
+}  // namespace
+}  // namespace tetrakis::bench
+
+int main(int argc, char** argv) {
+  using namespace tetrakis::bench;
+  Options options;
+  Arguments arguments("Global grids of heights as planes and as cylinders.");
+  arguments.required({"FILE", "global grids"}, options.files);
+  arguments.numbers({"--errors", "RMSEs over the area of the Earth"}, options.errors);
+  if (const auto code = arguments.parse(argc, argv)) return *code;
+  for (const std::string& file : options.files) {
+    const tetrakis::Status status = measure(options, file);
+    if (!status.ok()) return exitCode(status);
+  }
+}

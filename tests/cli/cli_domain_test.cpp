@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which rasters the command line takes for cylinders, by where they lie.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using Json = nlohmann::json;
+
+class CliDomain : public CliTest {
+ protected:
+  tools::HeightFile ground(uint32_t width, double west, double degrees, const char* crs) {
+    tools::HeightFile file;
+    file.width = width;
+    file.height = 3;
+    file.sample = TKS_I16;
+    file.crs = crs;
+    file.geotransform = tools::GeoTransform{west, degrees, 0, 60, 0, -degrees};
+    for (uint32_t i = 0; i < 3 * width; ++i) appendSample(file, static_cast<uint16_t>(i % 17));
+    return file;
+  }
+  Outcome encode(const tools::HeightFile& file, const std::string& options = "") {
+    EXPECT_TRUE(tools::writeHeights(path("g.tif"), file).ok());
+    return cli("encode g.tif --lossless -f -o s.tks" + options);
+  }
+  std::string domainOf(const char* part = "heights") {
+    return Json::parse(cli("info --json s.tks").out)[part]["domain"];
+  }
+};
+
+TEST_F(CliDomain, GeographicGridsOf360DegreesAreCylinders) {
+  for (const auto& [width, west] : {std::pair{36u, -180.}, {36u, 0.}, {37u, -180.}, {1080u, 20.}}) {
+    ASSERT_EQ(encode(ground(width, west, 360. / width, "EPSG:4326")).code, 0);
+    EXPECT_EQ(domainOf(), "cylinder") << width;
+  }
+  // As a file may write a third of a degree.
+  ASSERT_EQ(encode(ground(1080, -180, 0.33333333, "EPSG:4979")).code, 0);
+  EXPECT_EQ(domainOf(), "cylinder");
+  tools::HeightFile south_up = ground(36, -180, 10, "EPSG:4326");
+  (*south_up.geotransform)[5] = 10;
+  ASSERT_EQ(encode(south_up).code, 0);
+  EXPECT_EQ(domainOf(), "cylinder");
+}
+
+TEST_F(CliDomain, OthersArePlanes) {
+  struct Grid {
+    uint32_t width;
+    double west, degrees;
+    const char* crs;
+  };
+  for (const Grid& grid :
+       {Grid{3599, -180, 0.1, "EPSG:4326"}, Grid{90, 0, 1, "EPSG:4326"}, Grid{36, -180, 10, ""},
+        Grid{36, -180, 10, "EPSG:3857"}, Grid{720, -180, 1, "EPSG:4326"}}) {
+    const Outcome run = encode(ground(grid.width, grid.west, grid.degrees, grid.crs));
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.err.find("cylinder"), std::string::npos) << run.err;
+    EXPECT_EQ(domainOf(), "plane") << grid.width;
+  }
+}
+
+TEST_F(CliDomain, AColumnThatIsThereTwiceIsTold) {
+  for (const auto& [width, west, degrees] :
+       {std::tuple{361u, -180.5, 1.}, {18001u, -180.02, 0.02}}) {
+    const Outcome run = encode(ground(width, west, degrees, "EPSG:4326"));
+    EXPECT_NE(run.err.find("-srcwin 0 0 " + std::to_string(width - 1)), std::string::npos)
+        << run.err;
+    EXPECT_EQ(domainOf(), "plane");
+  }
+}
+
+TEST_F(CliDomain, IsWhatTheUserSays) {
+  const tools::HeightFile world = ground(36, -180, 10, "EPSG:4326");
+  ASSERT_EQ(encode(world, " --domain plane").code, 0);
+  EXPECT_EQ(domainOf(), "plane");
+  const Outcome repeating = encode(ground(361, -180.5, 1, "EPSG:4326"), " --domain cylinder");
+  ASSERT_EQ(repeating.code, 0);
+  EXPECT_EQ(repeating.err.find("note"), std::string::npos) << repeating.err;
+  EXPECT_EQ(domainOf(), "cylinder");
+  EXPECT_EQ(encode(world, " --domain sphere").code, 1);
+}
+
+TEST_F(CliDomain, TexturesLieAsTheHeightsDoUnlessTheySayOtherwise) {
+  tools::ImageFile image;
+  image.width = 72;
+  image.height = 6;
+  image.channels = 1;
+  image.data.resize(72 * 6);
+  for (size_t i = 0; i < image.data.size(); ++i) image.data[i] = static_cast<std::byte>(i * i);
+  ASSERT_TRUE(tools::writeImage(path("t.png"), image).ok());
+  const tools::HeightFile world = ground(36, -180, 10, "EPSG:4326");
+  ASSERT_EQ(encode(world, " --texture t.png").code, 0);
+  EXPECT_EQ(domainOf("texture"), "cylinder");
+  image.place.geotransform = tools::GeoTransform{-180, 5, 0, 60, 0, -5};
+  ASSERT_TRUE(tools::writeImage(path("round.tif"), image).ok());
+  ASSERT_EQ(encode(world, " --texture round.tif").code, 0);
+  EXPECT_EQ(domainOf("texture"), "cylinder");
+  (*image.place.geotransform)[1] = 2.5;
+  ASSERT_TRUE(tools::writeImage(path("half.tif"), image).ok());
+  ASSERT_EQ(encode(world, " --texture half.tif").code, 0);
+  EXPECT_EQ(domainOf("heights"), "cylinder");
+  EXPECT_EQ(domainOf("texture"), "plane");
+}
+
+}  // namespace
+}  // namespace tetrakis::test
