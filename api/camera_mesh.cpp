@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes for cameras through the C interface.
-#include "codec/mesh/screen_mesh.hpp"
+#include "codec/mesh/meshes.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -9,13 +9,10 @@
 
 #include "api/guarded.hpp"
 #include "api/memory.hpp"
-#include "api/screen_camera.hpp"
-#include "api/sized.hpp"
-#include "api/surface_mesh.hpp"
+#include "api/outlook.hpp"
+#include "api/written.hpp"
 #include "base/samples.hpp"
-#include "base/white_level.hpp"
-#include "codec/mesh/screen/screen_weights.hpp"
-#include "codec/mesh/void_mesh.hpp"
+#include "codec/mesh/screen/surface_picture.hpp"
 
 namespace tetrakis::inline api {
 namespace {

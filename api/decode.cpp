@@ -5,9 +5,8 @@
 #include <string>
 
 #include "api/decoder.hpp"
-#include "api/gaps.hpp"
 #include "api/memory.hpp"
-#include "api/texture_strips.hpp"
+#include "api/needed.hpp"
 #include "api/written.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 

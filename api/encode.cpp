@@ -8,21 +8,15 @@
 #include <cstring>
 #include <initializer_list>
 
-#include "api/buffer.hpp"
-#include "api/explained.hpp"
+#include "api/encoded_stream.hpp"
 #include "api/guarded.hpp"
-#include "api/proof.hpp"
-#include "api/sized.hpp"
-#include "base/utf8.hpp"
+#include "base/samples.hpp"
+#include "base/shown_text.hpp"
 #include "base/watch.hpp"
-#include "base/white_level.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/georeference.hpp"
-#include "bitstream/stream/ground_positions.hpp"
 #include "bitstream/stream/texture_header.hpp"
 #include "encoder/encode_stream.hpp"
-#include "encoder/outliers.hpp"
-#include "encoder/told_progress.hpp"
 
 namespace tetrakis::inline api {
 

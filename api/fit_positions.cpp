@@ -4,10 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "api/buffer.hpp"
+#include "api/encoded_stream.hpp"
 #include "api/guarded.hpp"
-#include "api/sized.hpp"
-#include "encoder/position_fit.hpp"
+#include "encoder/encode_stream.hpp"
 
 namespace tetrakis::inline api {
 namespace {

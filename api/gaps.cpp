@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "api/gaps.hpp"
+#include "api/needed.hpp"
 
 #include <algorithm>
 #include <vector>
 
-#include "api/needed_tracks.hpp"
-#include "bitstream/stream/correction_tracks.hpp"
-#include "bitstream/stream/indexed_packets.hpp"
+#include "bitstream/stream/geometry_header.hpp"
+#include "bitstream/stream/scattered_packets.hpp"
 
 namespace tetrakis::inline api {
 

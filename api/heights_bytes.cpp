@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "api/heights_bytes.hpp"
+#include "api/memory.hpp"
 
 #include <algorithm>
 
-#include "bitstream/stream/correction_tracks.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/heights_decoder.hpp"
 #include "codec/geometry/values/value_table.hpp"
-#include "codec/lattice/validity_decoder.hpp"
+#include "codec/lattice/validity.hpp"
 #include "codec/lines/shown_lines.hpp"
 #include "codec/wavelet/morphology.hpp"
 

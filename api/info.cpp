@@ -7,9 +7,9 @@
 #include <string>
 
 #include "api/decoder.hpp"
-#include "api/sized.hpp"
-#include "bitstream/stream/checksum.hpp"
-#include "bitstream/stream/ground_positions.hpp"
+#include "api/guarded.hpp"
+#include "bitstream/stream/georeference.hpp"
+#include "bitstream/stream/header.hpp"
 
 namespace tetrakis::inline api {
 

@@ -2,11 +2,8 @@
 #include "api/memory.hpp"
 
 #include <algorithm>
-
-#include "api/heights_bytes.hpp"
-#include "api/mesh_bytes.hpp"
-#include "api/plane_bytes.hpp"
-#include "api/texture_bytes.hpp"
+#include <limits>
+#include <string>
 
 namespace tetrakis::inline api {
 
@@ -18,6 +15,10 @@ uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks) {
   return count.packets * sizeof(PacketHead) + 3 * count.bytes + known * kNode;
 }
 
+namespace {
+
+/// Bytes that the call allocates at its peak, at most; meshes include what they hand over. The
+/// stream holds what is asked for.
 uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   if (request.part == TKS_PART_TEXTURE) {
     if (decoder.packets.payload.nothingOf(Component::kTexture)) return kDrawnOnceBytes;
@@ -32,4 +33,89 @@ uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   return request.part == TKS_PART_VALIDITY ? heights.validity() : heights.decoding();
 }
 
+}  // namespace
+
+// Refuses calls that would take more than limits.max_memory, in a sentence.
+
+namespace {
+
+/// "Decoding 32768 x 32768 texels of 4 channels"
+std::string describe(const tks_decoder& decoder, const MemoryRequest& request) {
+  const StreamHeader& header = decoder.parsed.header;
+  const auto sides = [&](const auto& component) {
+    const Extent shown = request.view.extentIn(component.shown());
+    return std::to_string(shown.width) + " x " + std::to_string(shown.height);
+  };
+  if (request.part == TKS_PART_TEXTURE) {
+    const uint32_t channels = header.texture->channels;
+    return "Decoding " + sides(*header.texture) + " texels of " + std::to_string(channels) +
+           (channels == 1 ? " channel" : " channels");
+  }
+  const bool mesh = request.part == TKS_PART_CODED_MESH || request.part == TKS_PART_BUDGET_MESH;
+  return (mesh ? "A mesh of " : "Decoding ") + sides(*header.geometry) + " heights";
+}
+
+/// What the decoder holds already.
+uint64_t heldBytes(const tks_decoder& decoder) {
+  uint64_t bytes = decoder.packets.bytes + decoder.pieces.bytes() + decoder.heights_memory.bytes() +
+                   decoder.texture_memory.bytes();
+  if (!decoder.heights) return bytes;
+  const DecodedGeometry& geometry = decoder.heights->geometry;
+  bytes +=
+      sizeof(int32_t) * (geometry.heights.capacity() + decoder.heights->corrections.capacity());
+  return bytes + geometry.significant.capacity() + geometry.valid.capacity();
+}
+
+uint64_t saturatingSum(uint64_t a, uint64_t b) {
+  return a > std::numeric_limits<uint64_t>::max() - b ? std::numeric_limits<uint64_t>::max()
+                                                      : a + b;
+}
+
+/// What tks_check_memory is asked about.
+Result<View> requestedView(const tks_decoder& decoder, tks_part part, const tks_window* window) {
+  if (part < TKS_PART_HEIGHTS || part > TKS_PART_BUDGET_MESH)
+    return Status(TKS_USAGE, "Unknown part of a stream.");
+  const Result<View> whole = viewOf(decoder, part, nullptr);
+  if (!whole.ok() || window == nullptr) return whole;
+  if (part != TKS_PART_HEIGHTS && part != TKS_PART_TEXTURE)
+    return Status(TKS_USAGE, "Only heights and textures have windows.");
+  return viewOf(decoder, part, window);
+}
+
+}  // namespace
+
+Status checkBytes(const tks_decoder& decoder, const MemoryRequest& request, uint64_t bytes) {
+  const uint64_t all = saturatingSum(heldBytes(decoder), bytes);
+  if (all <= decoder.max_memory) return {};
+  return {TKS_LIMIT, describe(decoder, request) + " takes " + describeBytes(all) +
+                         " of memory; the limit (max_memory) is " +
+                         describeBytes(decoder.max_memory) + "."};
+}
+
+Status checkMemory(tks_decoder& decoder, const MemoryRequest& request, uint64_t beside) {
+  const auto check = [&] {
+    return checkBytes(decoder, request, saturatingSum(callBytes(decoder, request), beside));
+  };
+  Status status = check();
+  if (!status.ok() && decoder.remembers) {
+    forget(decoder);
+    status = check();
+  }
+  const bool gives_way = request.part == TKS_PART_TEXTURE || request.view.window.has_value();
+  if (status.ok() || !gives_way || !decoder.heights) return status;
+  decoder.heights.reset();
+  return check();
+}
+
 }  // namespace tetrakis::inline api
+
+tks_status tks_check_memory(tks_decoder* decoder, tks_part part, const tks_window* window,
+                            uint32_t max_triangles, uint64_t beside, uint64_t* bytes) {
+  return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
+    const auto view = tetrakis::requestedView(*decoder, part, window);
+    if (!view.ok()) return view.status();
+    const tetrakis::MemoryRequest request{part, *view, max_triangles};
+    if (bytes != nullptr) *bytes = tetrakis::callBytes(*decoder, request);
+    return tetrakis::checkMemory(*decoder, request, beside);
+  });
+}

@@ -1,19 +1,134 @@
 // SPDX-License-Identifier: Apache-2.0
+// How much memory decoding takes, component by component, and whether callers allow it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "api/decoder.hpp"
+#include "base/shown_text.hpp"
+#include "codec/mesh/topology/lattice.hpp"
+#include "codec/wavelet/region_decoder.hpp"
+#include "codec/wavelet/synthesis/view_synthesis.hpp"
+#include "codec/wavelet/wavelet.hpp"
+#include "texture_wavelet/drawn/drawn_decoder.hpp"
+
+namespace tetrakis::inline api {
+
+// The functions here compute how many bytes of memory the planes and tracks of a component, heights
+// or texture, take while it is decoded.
+
+inline constexpr uint64_t kOnceBytes = 256 << 10;         // models, plans, lists of levels
+inline constexpr uint64_t kDrawnOnceBytes = 7 << 19;      // models of drawings and overlays
+inline constexpr uint64_t kTrackBytes = 64;               // its region, and views of its bytes
+inline constexpr uint64_t kValueBytes = sizeof(int32_t);  // of a plane
+
+/// How many samples a rectangle has.
+inline uint64_t area(const auto& extent) {
+  return uint64_t{extent.width} * extent.height;
+}
+
+/// A map of priorities and its sums.
+inline uint64_t mapBytes(const auto& header) {
+  const int log2 = header.priorities.tile_log2;
+  const uint64_t columns = tilesAlong(header.width, log2), rows = tilesAlong(header.height, log2);
+  return columns * rows + (columns + 1) * (rows + 1) * sizeof(uint64_t);
+}
+
+/// The state of the tracks that are decoded at a time, beside what is remembered of them.
+inline uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint32_t planes,
+                           bool masked, Component component) {
+  const bool known = header.planes > 0 && header.planes < kDrawnPlanes &&
+                     !decoder.packets.payload.nothingOf(component);
+  const bool ordered = !header.priorities.none();
+  const TrackNeeds needs{header.extent(), header.regions.side_log2, planes, masked, ordered, known,
+                         decoder.threads, decoder.remembers};
+  const TrackMemory& memory = component == Component::kTexture ? decoder.texture_memory.tracks
+                                                               : decoder.heights_memory.tracks;
+  const uint64_t state = needs.bytes();
+  return state - std::min(state, memory.bytes()) + (ordered ? mapBytes(header) : 0);
+}
+
+/// What there is for each track all the time.
+inline uint64_t trackBytes(const auto& header) {
+  return kTrackBytes * regionCount(header.width, header.height, header.regions.side_log2);
+}
+
+/// What the planes of a view take until its samples are there.
+struct PlanesBytes {
+  uint64_t coefficients = 0;  ///< of one plane
+  uint64_t work = 0;          ///< of the inverse transforms that run at a time
+
+  PlanesBytes(const tks_decoder& decoder, const auto& header, const View& view, uint32_t planes,
+              bool masked) {
+    const Pyramid pyramid(header.extent());
+    const ViewSynthesis synthesis(specOf(header.wavelet), pyramid, view);
+    const uint64_t at_a_time = view.window ? std::clamp<uint64_t>(decoder.threads, 1, planes) : 1;
+    coefficients = kValueBytes * synthesis.coefficients();
+    work = at_a_time * synthesis.workBytes(decoder.threads, masked);
+  }
+};
+
+/// So many samples that are copied from coded lines, and the maps of lines.
+inline uint64_t copyBytes(const auto& header, uint64_t samples, uint64_t sample_bytes) {
+  constexpr uint64_t kLine = 4 * sizeof(uint32_t);
+  if (header.repeats.none()) return 0;
+  const auto [width, height] = header.shown();
+  return samples * sample_bytes + kLine * (uint64_t{width} + height);
+}
+
+// HeightsBytes computes from the header how many bytes of memory it takes to decode a view of the
+// heights.
+
+/// Bytes for a view of the heights of a decoder, which has some.
+class HeightsBytes {
+ public:
+  HeightsBytes(const tks_decoder& decoder, const View& view);
+
+  /// What is left when a level is decoded: heights, marks, masks, corrections.
+  uint64_t kept() const;
+  /// What decoding takes.
+  uint64_t decoding() const;
+  /// What decoding the mask alone takes.
+  uint64_t validity() const;
+
+ private:
+  /// The same heights, of which another view of the coded lines is decoded.
+  HeightsBytes(const HeightsBytes& of, const View& lines);
+
+  uint64_t decodingLines() const;
+  uint64_t decodingTaken() const;
+  uint64_t drawing() const;
+  uint64_t wholeMasks() const;
+  uint64_t openingMaskBytes() const;
+  uint64_t copyBytes() const;
+  uint64_t rows() const;
+  uint64_t parts() const;
+  uint64_t tableBytes() const;
+  uint64_t joinedBytes() const;
+  uint64_t flatBytes() const;
+  uint64_t flatOpeningBytes() const;
+  uint64_t low() const;
+
+  const tks_decoder& decoder_;
+  const GeometryHeader& header_;
+  const GeometryLayers& layers_;
+  View view_;
+  uint64_t shown_;   ///< samples of the view, of coded lines
+  uint64_t copied_;  ///< of the view; 0: no lines are copied
+  bool voids_;
+  bool flat_;
+  bool table_;
+  bool corrected_;  ///< corrections, or all samples directly, are decoded
+};
+
 // The functions here bound the bytes that a call of a decoder allocates, from the header and before
 // the call allocates anything, and hold them against the limit.
 //
 // Bounds follow what the rooms below keep at the same time: planes of 32-bit values, masks, the
 // state of one track a thread (codec/wavelet/region_decoder.hpp), a window's blocks. What meshes
 // take is measured (tests/api/decode_memory_test.cpp).
-#pragma once
-
-#include <cstdint>
-
-#include "api/decoder.hpp"
-#include "base/describe_bytes.hpp"
-#include "codec/mesh/topology/lattice.hpp"
-
-namespace tetrakis::inline api {
 
 /// What a call is asked for.
 struct MemoryRequest {
@@ -21,10 +136,6 @@ struct MemoryRequest {
   View view;                   ///< of viewOf(); meshes ignore it
   uint32_t max_triangles = 0;  ///< of TKS_PART_BUDGET_MESH
 };
-
-/// Bytes that the call allocates at its peak, at most; meshes include what they hand over. The
-/// stream holds what is asked for.
-uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request);
 
 /// What a budget mesh of decoded heights with voids takes. callBytes() knows no more triangles than
 /// the budget; those in voids are beside it, and judged when they are known.
@@ -45,5 +156,24 @@ Status checkBytes(const tks_decoder& decoder, const MemoryRequest& request, uint
 /// TKS_LIMIT with a sentence if the decoder, the call and `beside` bytes of the caller's together
 /// take more than the limit. Heights that the decoder keeps and the call does not need give way.
 Status checkMemory(tks_decoder& decoder, const MemoryRequest& request, uint64_t beside = 0);
+
+// meshBytes() tells how many bytes a mesh takes to decode. Its figures are measured
+// (tests/api/decode_memory_test.cpp).
+
+/// Bytes of a request for a coded mesh or a budget mesh.
+uint64_t meshBytes(const tks_decoder& decoder, const MemoryRequest& request);
+
+// textureStrips() cuts a view of a texture into strips of some rows where each strip can go on from
+// the decoded tracks of the strip before. The planes of coefficients of a strip fit in caches, and
+// a large image takes no plane of its size beside its texels.
+
+/// The strips of a view of the texture, from above; the view itself where it is decoded at once.
+std::vector<View> textureStrips(const tks_decoder& decoder, const View& view);
+
+// textureBytes() computes from the header how many bytes of memory it takes to decode a view of the
+// texture.
+
+/// Bytes for a view of the texture of a decoder, which has one.
+uint64_t textureBytes(const tks_decoder& decoder, const View& view);
 
 }  // namespace tetrakis::inline api

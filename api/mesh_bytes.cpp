@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "api/mesh_bytes.hpp"
+#include "api/memory.hpp"
 
 #include <algorithm>
 
-#include "api/heights_bytes.hpp"
-#include "codec/mesh/budget_mesh.hpp"
-#include "codec/mesh/screen/screen_weights.hpp"
+#include "codec/mesh/meshes.hpp"
+#include "codec/mesh/screen/surface_picture.hpp"
 
 namespace tetrakis::inline api {
 

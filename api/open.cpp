@@ -10,7 +10,6 @@
 #include "api/decoder.hpp"
 #include "api/guarded.hpp"
 #include "api/memory.hpp"
-#include "api/sized.hpp"
 
 namespace tetrakis::inline api {
 

@@ -5,10 +5,9 @@
 #include <span>
 #include <vector>
 
+#include "api/guarded.hpp"
+#include "api/needed.hpp"
 #include "api/outlook.hpp"
-#include "api/ranges.hpp"
-#include "api/screen_camera.hpp"
-#include "api/sized.hpp"
 
 namespace tetrakis::inline api {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "api/decoder.hpp"
-#include "bitstream/stream/ground_positions.hpp"
+#include "bitstream/stream/georeference.hpp"
 
 namespace tetrakis::inline api {
 namespace {

@@ -10,11 +10,10 @@
 #include <span>
 #include <vector>
 
-#include "api/buffer.hpp"
+#include "api/encoded_stream.hpp"
 #include "api/outlook.hpp"
-#include "api/screen_camera.hpp"
-#include "bitstream/stream/checksum.hpp"
-#include "bitstream/stream/indexed_packets.hpp"
+#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/scattered_packets.hpp"
 
 namespace tetrakis::inline api {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/samples.hpp"
-#include "codec/geometry/steps/height_samples.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis::inline api {

@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions here write decoded heights and texels as the samples that the caller wants. A
-// component without any byte is the same everywhere: one sample is decoded and copied, so that its
-// planes take no memory.
+// What was decoded, in the form that callers want: samples, texels, meshes.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
 
 #include "api/decoder.hpp"
-#include "base/texels.hpp"
+#include "base/samples.hpp"
+#include "codec/mesh/topology/lattice.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 
 namespace tetrakis::inline api {
+
+// The functions here write decoded heights and texels as the samples that the caller wants. A
+// component without any byte is the same everywhere: one sample is decoded and copied, so that its
+// planes take no memory.
 
 /// out: as many samples of the stream's type, or floats, as there are decoded heights.
 void writeHeights(const tks_decoder& decoder, const DecodedHeights& decoded, void* out);
@@ -22,5 +30,38 @@ void writeTexels(const Texels& texels, tks_sample sample, void* out);
 void writeUnsentHeights(const tks_decoder& decoder, void* out, size_t count);
 void writeUnsentSurface(const tks_decoder& decoder, float* out, size_t count);
 void writeUnsentTexels(const TextureHeader& header, void* out, size_t count);
+
+// surfaceMesh() makes meshes of the decoded surface, in the form that the C interface and the mesh
+// tree take.
+
+/// inserted: the closed set of lattice vertices that `mesh` is made of. heights: in the unit, one
+/// for each vertex of `mesh`; NaN where it is void (codec/mesh/meshes.hpp).
+struct SurfaceMesh {
+  Lattice lattice;
+  std::vector<VertexId> inserted;
+  LatticeMesh mesh;
+  std::vector<float> heights;
+};
+
+/// What tks_decode_mesh promises. TKS_USAGE for an unknown kind or a stream without heights, and
+/// the errors of Lattice::make.
+Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles);
+
+/// Heights of the vertices in the unit, NaN where they are void. valid: of all samples.
+/// steps_of(vertex): its height in the decoder's steps.
+template <class StepsOf>
+std::vector<float> heightsInUnit(const LatticeMesh& mesh, Mask valid, const SurfaceScale& scale,
+                                 const StepsOf& steps_of) {
+  std::vector<float> heights;
+  heights.reserve(mesh.vertices.size());
+  for (size_t v = 0; v < mesh.vertices.size(); ++v)
+    heights.push_back(valid[mesh.vertices[v]]
+                          ? static_cast<float>(steps_of(v) * scale.scale + scale.offset)
+                          : std::numeric_limits<float>::quiet_NaN());
+  return heights;
+}
+
+/// Copies into arrays that tks_free_mesh releases. Throws std::bad_alloc; `out` can then be freed.
+void copyMesh(const LatticeMesh& mesh, std::span<const float> heights, tks_mesh& out);
 
 }  // namespace tetrakis::inline api

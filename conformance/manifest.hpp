@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::conformance {
 

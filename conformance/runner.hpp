@@ -6,8 +6,8 @@
 #include <ostream>
 #include <string>
 
-#include "base/status.hpp"
 #include "conformance/manifest.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::conformance {
 

@@ -1,26 +1,55 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encoder/encode_stream.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <memory>
 #include <utility>
 
 #include "base/parallel.hpp"
 #include "base/watch.hpp"
-#include "encoder/heights/height_lines.hpp"
 #include "encoder/heights/quantised_heights.hpp"
-#include "encoder/heights/ways/heights_for_target.hpp"
-#include "encoder/selection/selection.hpp"
-#include "encoder/selection/selection_notes.hpp"
+#include "encoder/heights/ways/ways.hpp"
 #include "encoder/selection/write_stream.hpp"
-#include "encoder/targets/meet_target.hpp"
+#include "encoder/targets/targets.hpp"
 #include "encoder/textures/coded_texture.hpp"
-#include "encoder/textures/texel_lines.hpp"
-#include "encoder/views/camera_checks.hpp"
-#include "encoder/views/map_worth.hpp"
-#include "encoder/views/view_priorities.hpp"
+#include "encoder/views/pairs.hpp"
+#include "encoder/views/view_inputs.hpp"
 
 namespace tetrakis::inline encoder {
+
+namespace {
+
+// The part of the rest of a stage that all pieces of one work complete; most stages have several
+// works.
+constexpr double kOfTheRest = 0.25;
+// Callers are told of progress no more often than this.
+constexpr std::chrono::milliseconds kBetweenTellings(50);
+
+}  // namespace
+
+void ToldProgress::stage(double until) {
+  assert(until >= 0 && until <= 1);
+  const std::lock_guard lock(mutex_);
+  done_ = until_;
+  until_ = std::max(until_, until);
+  tell();
+}
+
+void ToldProgress::pass(size_t pieces) {
+  assert(pieces > 0);
+  const std::lock_guard lock(mutex_);
+  if (stopped_) throw Stopped();
+  done_ += (until_ - done_) * kOfTheRest / static_cast<double>(pieces);
+  if (std::chrono::steady_clock::now() - told_ >= kBetweenTellings) tell();
+}
+
+void ToldProgress::tell() {
+  const Watched by_nothing(nullptr);  // who is told may call the library
+  stopped_ = stopped_ || !tell_(done_);
+  if (stopped_) throw Stopped();
+  told_ = std::chrono::steady_clock::now();
+}
 
 namespace {
 

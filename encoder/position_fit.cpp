@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/position_fit.hpp"
+#include "encoder/encode_stream.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions here turn the channels of an image into the colour planes that the wavelet codes.
-// Channels of few values become places in their tables, texels without coefficients take the values
-// that cost least, and shears turn the colours. Encoder only.
+// The colour planes of a texture, with bridges over what its mask leaves out.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +7,48 @@
 
 #include "base/plane.hpp"
 #include "bitstream/stream/texture_header.hpp"
+#include "codec/wavelet/choice/bridge_choice.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
 #include "texture_wavelet/colour/colour.hpp"
-#include "texture_wavelet/tables/few_values.hpp"
-#include "texture_wavelet/texture_bridges.hpp"
+#include "texture_wavelet/tables/channel_tables_encoder.hpp"
 #include "texture_wavelet/texture_source.hpp"
 
 namespace tetrakis::inline texture {
+
+// The functions here choose the texels that are hidden or drawn over and that the wavelet of a
+// texture nevertheless codes (codec/wavelet/morphology.hpp): thin lines and single holes would cut
+// its planes into pieces. Encoder only.
+
+/// Which texels the wavelet goes over.
+struct TextureBridges {
+  uint8_t reach = 0;            ///< 0: none is bridged; the mask is empty then
+  std::vector<uint8_t> lifted;  ///< liftedSamples(); empty: all
+  double share = 1;             ///< of the texels that are lifted, those that are shown
+
+  /// Which texels have coefficients. coded: those that are neither hidden nor drawn over.
+  Mask lifting(Mask coded) const { return reach == 0 ? coded : Mask(lifted); }
+};
+
+/// The channels that are coded, before any transform.
+struct ChannelPlanes {
+  Extent extent;
+  Mask coded;  ///< texels that are neither hidden nor drawn over
+  std::vector<std::vector<int32_t>> planes;
+};
+
+/// Chooses bridges by grey, or green, of so many bits. Frames stay without them: there they cost
+/// more than typical parts tell.
+TextureBridges chooseTextureBridges(const ChannelPlanes& channels, int bits, BridgeTarget target);
+
+/// Bridges of a reach that was chosen before; 0 is none.
+TextureBridges textureBridges(Extent extent, Mask coded, uint8_t reach);
+
+/// Fills the bridged texels of all channels smoothly.
+ChannelPlanes withBridges(ChannelPlanes channels, const TextureBridges& bridges);
+
+// The functions here turn the channels of an image into the colour planes that the wavelet codes.
+// Channels of few values become places in their tables, texels without coefficients take the values
+// that cost least, and shears turn the colours. Encoder only.
 
 /// What is coded by wavelet, and how.
 struct WaveletCoding {

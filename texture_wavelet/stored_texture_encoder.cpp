@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "texture_wavelet/stored_texture_encoder.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
 
 #include <span>
 #include <utility>
 
 #include "bitstream/coder/byte_planes.hpp"
-#include "texture_wavelet/mask/cutout.hpp"
-#include "texture_wavelet/stored_texture_decoder.hpp"
+#include "texture_wavelet/mask/mask.hpp"
+#include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis::inline texture {
 

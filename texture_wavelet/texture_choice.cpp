@@ -3,7 +3,7 @@
 // it has many colours. It also must take no more bytes than the wavelet needs for the last bit; or
 // half of them, if the last bit is not asked for. Where it will be cut, both are compared there.
 // What takes more bytes to code than to store is stored.
-#include "texture_wavelet/texture_choice.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -14,10 +14,8 @@
 #include <vector>
 
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
-#include "texture_wavelet/mask/cutout.hpp"
-#include "texture_wavelet/mask/overlay.hpp"
-#include "texture_wavelet/stored_texture_encoder.hpp"
-#include "texture_wavelet/texture_comparison.hpp"
+#include "texture_wavelet/mask/mask.hpp"
+#include "texture_wavelet/texture_source.hpp"
 
 namespace tetrakis::inline texture {
 

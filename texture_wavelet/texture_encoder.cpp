@@ -12,17 +12,16 @@
 
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
-#include "codec/lattice/validity_encoder.hpp"
-#include "codec/wavelet/choice/rounding_choice.hpp"
-#include "codec/wavelet/priority_map_encoder.hpp"
-#include "codec/wavelet/wavelet_header.hpp"
-#include "texture_wavelet/colour/colour_levels.hpp"
+#include "codec/lattice/validity.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
+#include "codec/wavelet/priority_map.hpp"
+#include "codec/wavelet/wavelet.hpp"
+#include "texture_wavelet/colour/colour.hpp"
 #include "texture_wavelet/colour_planes.hpp"
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
-#include "texture_wavelet/mask/cutout.hpp"
+#include "texture_wavelet/mask/mask.hpp"
 #include "texture_wavelet/tables/channel_tables_encoder.hpp"
-#include "texture_wavelet/texture_plan.hpp"
-#include "texture_wavelet/visual_weights.hpp"
+#include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis::inline texture {
 

@@ -1,16 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// encodeByWavelet() codes an image by wavelet. It fits a colour transform and filters to the image
-// and codes the coefficients that they leave into tracks.
+// Encodes textures: wavelet coefficients, drawings, or texels as they are stored, whichever takes
+// the fewest bytes.
 #pragma once
 
 #include <cstdint>
 
+#include "base/samples.hpp"
 #include "bitstream/stream/encoded_texture.hpp"
+#include "bitstream/stream/texture_header.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
-#include "texture_wavelet/tables/few_values.hpp"
+#include "texture_wavelet/tables/channel_tables_encoder.hpp"
 #include "texture_wavelet/texture_source.hpp"
 
 namespace tetrakis::inline texture {
+
+// encodeStoredTexture() writes the samples of an image without coding them, where no coder takes
+// fewer bytes.
+
+/// Bytes that storing takes.
+uint64_t storedBytes(const Texels& texels);
+
+/// One track, lossless.
+EncodedTexture encodeStoredTexture(const Texels& texels);
+
+// visualWeights() gives each band of each colour plane a weight, so that passes come in the order
+// in which an eye notices them. Encoder only.
+
+/// planes: 1 to 4, the last of an even number being alpha or a further colour, which is weighted
+/// like the first.
+BandWeights visualWeights(uint32_t planes);
+
+// encodeByWavelet() codes an image by wavelet. It fits a colour transform and filters to the image
+// and codes the coefficients that they leave into tracks.
 
 /// An alpha that has nothing but 0 and the largest value becomes a cut-out: a mask ahead of
 /// everything in the first track. Colours that it hides are coded for Purpose::kLossless alone.
@@ -29,5 +50,18 @@ EncodedTexture encodeInTables(const TextureSource& source, const FewValues& few,
 
 /// The tables that may save bytes where all colours of the photograph are coded.
 FewValues fewValuesOf(const TextureSource& source, Mask photograph);
+
+// encodeTexture() codes an image by the coder that suits it: drawings colour by colour, photographs
+// by wavelet, and images that no coder makes smaller sample by sample.
+
+/// Codes the image by wavelet; or it is drawn or stored, in one track, where that is better.
+/// Complete tracks without fraction bits that hide nothing are lossless.
+EncodedTexture encodeTexture(const TextureSource& source, Purpose purpose, TextureOptions options);
+
+/// The image that was coded by wavelet with the header `lossy`, to the last bit, with its colours
+/// and filters: so prefixes are nearly as good. That takes 4 % more bytes than colours and filters
+/// that suit the last bit.
+EncodedTexture encodeReversibly(const TextureSource& source, TextureHeader lossy,
+                                const TextureOptions& options);
 
 }  // namespace tetrakis::inline texture

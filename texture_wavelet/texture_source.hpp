@@ -1,20 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
-// TextureSource holds an image and what follows from it alone, such as the mask of a cut-out.
-// TextureOptions says how to code it. An image is often coded several times before the best way is
-// known, so TextureSource finds its masks only once.
+// A texture to encode with what follows from it alone, how two attempts to code it are compared,
+// and the attempts that others have won over.
 #pragma once
 
 #include <cstdint>
 #include <utility>
 #include <vector>
 
-#include "base/texels.hpp"
+#include "base/samples.hpp"
+#include "bitstream/stream/encoded_texture.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
 #include "codec/wavelet/priority_map.hpp"
-#include "texture_wavelet/mask/cutout.hpp"
-#include "texture_wavelet/passed_texture.hpp"
+#include "texture_wavelet/mask/mask.hpp"
 
 namespace tetrakis::inline texture {
+
+// A PassedTexture is an attempt to code a texture, or the estimate of one, that another attempt has
+// won over. encodeTexture() lists them for callers who want to know what was weighed; the functions
+// here do nothing where the list is null. Encoder only.
+
+enum class PassedFor : uint8_t {
+  kExpectedLonger,  ///< an estimate says that it takes more bytes: it was not coded
+  kLonger,          ///< it takes as many bytes as the whole of another one, or more
+  kShowsWorse       ///< what its prefixes show counts for more than its bytes (showsBetter())
+};
+
+struct PassedTexture {
+  TextureHeader header;  ///< without filters and tables if it was not coded
+  PassedFor reason = PassedFor::kShowsWorse;
+  uint64_t bytes = 0;  ///< of its tracks
+  double squares = 0;  ///< the squared error that these leave; 0 of an estimate
+};
+
+using PassedTextures = std::vector<PassedTexture>;
+
+PassedTexture passedOf(const EncodedTexture& encoded);
+
+/// Lists an attempt over which another one has won, with the reason that their bytes give.
+void passOver(PassedTextures* list, PassedTexture lost, const EncodedTexture& winner);
+
+/// Lists a way to code the texture that would take so many bytes: with its samples stored, or else
+/// by wavelet.
+void passOverExpected(PassedTextures* list, bool stored, uint64_t bytes);
+
+// TextureSource holds an image and what follows from it alone, such as the mask of a cut-out.
+// TextureOptions says how to code it. An image is often coded several times before the best way is
+// known, so TextureSource finds its masks only once.
 
 struct TextureSource {
   /// Any image is a source.
@@ -44,7 +75,7 @@ struct TextureSource {
 
 struct TextureOptions {
   uint64_t limit = UINT64_MAX;  ///< bytes worth coding, of all tracks together
-  int region_log2 = 0;          ///< bitstream/track/regions.hpp; 0: one track
+  int region_log2 = 0;          ///< bitstream/track/track.hpp; 0: one track
   uint32_t threads = 1;         ///< nothing depends on them
   bool windows = false;         ///< withShortReach()
   bool visual = false;          ///< what is seen comes first, not what is off most
@@ -55,5 +86,17 @@ struct TextureOptions {
   /// Takes the attempts that are passed over; null: nobody asked for them.
   PassedTextures* passed = nullptr;
 };
+
+// showsBetter() decides from the accounts of two encodings of an image, without decoding them,
+// which of them is better. Encoder only.
+
+/// Bytes of all tracks, and of the tables in the header.
+uint64_t bytesOf(const EncodedTexture& encoded);
+
+/// Whether a shows the image better than b where they will be cut: in fewer bytes if there is an
+/// error aimed at, or if both are whole, else by less error in as many bytes. What shorter prefixes
+/// show counts as well, least where somebody asks for an error. samples: that count.
+bool showsBetter(const EncodedTexture& a, const EncodedTexture& b, const TextureOptions& options,
+                 uint64_t samples);
 
 }  // namespace tetrakis::inline texture

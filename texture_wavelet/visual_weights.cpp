@@ -8,7 +8,7 @@
 // D. J. Sakrison 1974). Below its peak the weight stays 1, because whoever steps nearer sees coarse
 // errors first. Colour differences: sensitivity falls exponentially from the lowest frequencies on
 // (K. T. Mullen 1985); half of it is lost at 7.7 cycles.
-#include "texture_wavelet/visual_weights.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/tools/report/comparison.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::bench {

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::bench {
 

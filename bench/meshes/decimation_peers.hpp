@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/status.hpp"
 #include "bench/meshes/decimation_mesh.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::bench {
 

@@ -7,7 +7,7 @@
 
 #include "codec/mesh/fitted_heights.hpp"
 #include "codec/mesh/gains/gains.hpp"
-#include "codec/mesh/study/mesh_hull.hpp"
+#include "codec/mesh/study/study.hpp"
 
 namespace tetrakis::bench {
 namespace {

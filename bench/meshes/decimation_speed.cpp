@@ -11,7 +11,7 @@
 #include "bench/peers/child_memory.hpp"
 #include "codec/mesh/fitted_heights.hpp"
 #include "codec/mesh/gains/gains.hpp"
-#include "codec/mesh/study/mesh_hull.hpp"
+#include "codec/mesh/study/study.hpp"
 
 namespace tetrakis::bench {
 namespace {

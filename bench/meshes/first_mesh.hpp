@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "base/status.hpp"
 #include "bench/peers/raster.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::bench {
 

@@ -16,8 +16,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "codec/mesh/quadtree/location_code.hpp"
 #include "codec/mesh/quadtree/semilinear_quadtree.hpp"
-#include "codec/mesh/quadtree/traversal.hpp"
 #include "codec/mesh/topology/lattice.hpp"
 
 namespace tetrakis::bench {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/tools/report/viewed_mesh.hpp"
-#include "codec/ground/preset_cameras.hpp"
+#include "codec/ground/camera.hpp"
 
 namespace tetrakis::bench {
 

@@ -8,9 +8,9 @@
 
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/report/scene.hpp"
-#include "base/status.hpp"
 #include "bench/peers/raster.hpp"
-#include "codec/ground/frame.hpp"
+#include "codec/ground/camera.hpp"
+#include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::bench {

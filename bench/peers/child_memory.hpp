@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::bench {
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "base/status.hpp"
 #include "bench/peers/raster.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::bench {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "apps/tools/files/files.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::bench {
 

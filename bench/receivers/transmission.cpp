@@ -16,7 +16,7 @@
 #include "apps/tools/report/comparison.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/receivers/transmission_receivers.hpp"
-#include "codec/ground/vec3.hpp"
+#include "codec/ground/camera.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::bench {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "apps/tools/report/scene.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::bench {
 

@@ -15,7 +15,7 @@
 #include "apps/tools/synth/synth.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/harness/results.hpp"
-#include "codec/polyline/algorithms.hpp"
+#include "codec/polyline/polylines.hpp"
 
 namespace {
 

@@ -18,8 +18,7 @@
 #include "bench/harness/results.hpp"
 #include "bench/peers/raster.hpp"
 #include "bench/peers/tetrakis_peer.hpp"
-#include "codec/mesh/study/decimation_policies.hpp"
-#include "codec/mesh/study/local_errors.hpp"
+#include "codec/mesh/study/study.hpp"
 
 namespace {
 

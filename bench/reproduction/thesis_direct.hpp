@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "codec/mesh/decimation/vertex_costs.hpp"
+#include "codec/mesh/decimation/worth.hpp"
 
 namespace tetrakis::bench {
 

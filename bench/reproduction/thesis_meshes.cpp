@@ -24,9 +24,9 @@
 #include "bench/harness/results.hpp"
 #include "bench/peers/raster.hpp"
 #include "bench/reproduction/thesis_direct.hpp"
-#include "codec/mesh/decimation/general_decimation.hpp"
+#include "codec/mesh/decimation/decimation.hpp"
 #include "codec/mesh/gains/gains.hpp"
-#include "codec/mesh/study/decimation_policies.hpp"
+#include "codec/mesh/study/study.hpp"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <string>
 
-#include "bitstream/track/regions.hpp"
+#include "bitstream/track/track.hpp"
 
 namespace tetrakis::inline stream {
 
@@ -28,7 +28,7 @@ struct PartKind {
                             kBandWeights = 22, kBound = 64;
 };
 
-/// Which wavelet: codec/wavelet/wavelet_spec.hpp.
+/// Which wavelet: codec/wavelet/wavelet.hpp.
 struct WaveletHeader {
   std::array<uint8_t, 3> filters{};  ///< of level 1, of level 2, of all coarser ones
   uint8_t fraction_bits = 0;         ///< the transform works on samples * 2^fraction_bits
@@ -55,7 +55,7 @@ struct WaveletHeader {
   static constexpr uint8_t kMostDoubled = 4;
 };
 
-/// Spatial regions of a component: bitstream/track/regions.hpp.
+/// Spatial regions of a component: bitstream/track/track.hpp.
 struct RegionHeader {
   uint8_t side_log2 = 0;  ///< of the regions of the finest levels; 0: one region
 };

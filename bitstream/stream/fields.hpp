@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::inline stream {
 

@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "base/plane.hpp"
+#include "base/view.hpp"
 #include "bitstream/stream/coding_headers.hpp"
 #include "bitstream/stream/line_repeats.hpp"
+#include "bitstream/track/track.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::inline stream {
@@ -36,7 +38,8 @@ struct GeometryHeader {
   uint8_t exact = 0;   ///< the steps restore every input sample
   double base = 0, step = 1;
   static constexpr double kNotStated = -1;
-  double max_error = kNotStated;  ///< guaranteed for the complete stream, in the unit; < 0: not stated
+  double max_error =
+      kNotStated;  ///< guaranteed for the complete stream, in the unit; < 0: not stated
   WaveletHeader wavelet;
   PriorityHeader priorities;
   RegionHeader regions;
@@ -112,7 +115,7 @@ struct GeometryLayers {
   uint64_t flat_bytes = 0;                  ///< 0: there are no flat areas
   uint32_t flat_areas = 0;                  ///< with flat areas only: how many there are
   uint8_t bridge =
-      0;  ///< the reach of bridges over voids (codec/wavelet/bridges.hpp); 0: none, or late
+      0;  ///< the reach of bridges over voids (codec/wavelet/morphology.hpp); 0: none, or late
   bool late_mask = false;       ///< validity lies among the coefficients
   uint64_t lifted_bytes = 0;    ///< with a late mask only: which samples are lifted; 0: all
   uint64_t validity_after = 0;  ///< likewise: bytes of coefficients before validity
@@ -210,5 +213,29 @@ struct GeometryLayers {
     }
   }
 };
+
+// The functions here number the tracks that hold the corrections of heights. Corrections of a plane
+// in one track follow its coefficients. Corrections of a plane in regions are tracks of their own
+// behind the tracks of coefficients, one for each region of the finest levels, so that a window is
+// decoded without the corrections of other regions.
+
+/// How many tracks of coefficients there are.
+inline uint64_t coefficientTracks(const GeometryHeader& header) {
+  return regionCount(header.width, header.height, header.regions.side_log2);
+}
+
+/// How many tracks of corrections there are.
+inline uint64_t correctionTracks(const GeometryHeader& header, const GeometryLayers& layers) {
+  if (layers.corrections == CorrectionKind::kNone) return 0;
+  return finestRegionCount(header.width, header.height, header.regions.side_log2);
+}
+
+/// The rectangles of the plane whose corrections are a codeword each, in the order of the tracks;
+/// without such tracks the whole plane.
+inline std::vector<Window> correctionParts(Extent plane, int region_log2) {
+  std::vector<Window> parts = finestRegions(plane.width, plane.height, region_log2);
+  if (parts.empty()) parts.push_back({0, 0, plane.width, plane.height});
+  return parts;
+}
 
 }  // namespace tetrakis::inline stream

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 namespace tetrakis::inline stream {
 
@@ -44,6 +45,74 @@ GeoTransform atLevel(const GeoTransform& t, int level) {
   level_transform[0] += shift * (t[1] + t[2]);
   level_transform[3] += shift * (t[4] + t[5]);
   return level_transform;
+}
+
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180;
+
+}  // namespace
+
+TangentPlane::TangentPlane(LongitudeLatitude centre)
+    : longitude_(centre.longitude),
+      sine_(std::sin(centre.latitude * kRadians)),
+      cosine_(std::cos(centre.latitude * kRadians)) {}
+
+TangentPoint TangentPlane::project(LongitudeLatitude place) const {
+  const double away = (place.longitude - longitude_) * kRadians;
+  const double sine = std::sin(place.latitude * kRadians);
+  const double cosine = std::cos(place.latitude * kRadians);
+  const double east = cosine * std::sin(away);
+  const double north = cosine_ * sine - sine_ * cosine * std::cos(away);
+  const double up = sine_ * sine + cosine_ * cosine * std::cos(away);
+  return {2 * east / (1 + up), 2 * north / (1 + up)};
+}
+
+LongitudeLatitude TangentPlane::unproject(const TangentPoint& point) const {
+  const double quarter = (point[0] * point[0] + point[1] * point[1]) / 4;
+  const double east = point[0], north = point[1], up = 1 - quarter;  // times 1 + quarter
+  const double to_pole = sine_ * up + cosine_ * north, to_axis = cosine_ * up - sine_ * north;
+  return {longitude_ + std::atan2(east, to_axis) / kRadians,
+          std::atan2(to_pole, std::hypot(east, to_axis)) / kRadians};
+}
+
+std::array<double, GroundPositions::kMostDegree + 1> chebyshev(double x, int degree) {
+  std::array<double, GroundPositions::kMostDegree + 1> values{1, x};
+  for (size_t i = 2; i <= static_cast<size_t>(degree); ++i)
+    values[i] = 2 * x * values[i - 1] - values[i - 2];
+  return values;
+}
+
+TangentPoint GroundPositions::at(double u, double v) const {
+  const auto along = chebyshev(u, degree), down = chebyshev(v, degree);
+  TangentPoint point{};
+  size_t next = 0;
+  for (double& coordinate : point) {
+    for (size_t j = 0; j <= degree; ++j) {
+      double row = 0;
+      for (size_t i = 0; i + j <= degree; ++i)
+        row += static_cast<double>(coefficients[next++]) * along[i];
+      coordinate += row * down[j];
+    }
+    coordinate = std::ldexp(coordinate, -exponent);
+  }
+  return point;
+}
+
+std::string written(const GroundPositions& positions) {
+  FieldWriter writer;
+  GroundPositions copy = positions;
+  copy.visit(writer);
+  return {writer.bytes.begin(), writer.bytes.end()};
+}
+
+std::optional<GroundPositions> groundPositionsIn(const std::string& bytes) {
+  const std::vector<uint8_t> copy(bytes.begin(), bytes.end());
+  FieldReader reader(copy);
+  GroundPositions positions;
+  positions.visit(reader);
+  if (!reader.ok() || reader.position() != bytes.size()) return std::nullopt;
+  return positions;
 }
 
 }  // namespace tetrakis::inline stream

@@ -7,11 +7,9 @@
 #include <cassert>
 #include <utility>
 
-#include "bitstream/stream/checksum.hpp"
 #include "bitstream/stream/component_list.hpp"
-#include "bitstream/stream/correction_tracks.hpp"
 #include "bitstream/stream/fields.hpp"
-#include "bitstream/stream/header_checks.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 
 namespace tetrakis::inline stream {
 

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "base/status.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/georeference.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/stream/texture_header.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::inline stream {
 
@@ -119,5 +119,18 @@ Result<uint64_t> headerBytes(std::span<const uint8_t> bytes);
 /// TKS_TRUNCATED with the number of bytes needed if `bytes` ends early; TKS_CORRUPT,
 /// TKS_UNSUPPORTED.
 Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes);
+
+// checkMeaning() refuses a header whose fields contradict each other, once all fields are read; the
+// range of each is checked while it is read. A stream with a part that this decoder does not know
+// but must know is refused before that, as unsupported (docs/FORMAT.md, section 2, Statuses).
+
+/// TKS_CORRUPT where a header says what no stream can hold.
+Status checkMeaning(const StreamHeader& header);
+
+// crc32() computes the checksum of headers, and of the payloads of streams that promise exact
+// samples or a largest error.
+
+/// CRC-32 as in PNG and zip: polynomial EDB88320 reflected, initial and final xor FFFFFFFF.
+uint32_t crc32(std::span<const uint8_t> bytes);
 
 }  // namespace tetrakis::inline stream

@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-#include "bitstream/coder/decision_decoding.hpp"
+#include "bitstream/coder/range_decoder.hpp"
 
 namespace tetrakis::inline stream {
 

@@ -26,7 +26,7 @@ struct LineRepeats {
 
 /// Coding of the map, line by line: whether it repeats the one before. A run is a line and its
 /// repeats; runs have the length of the last one, or of the one before that. Io:
-/// bitstream/coder/decision_decoding.hpp, decision_encoding.hpp.
+/// bitstream/coder/range_decoder.hpp, range_encoder.hpp.
 template <class Io>
 class RepeatPass {
  public:

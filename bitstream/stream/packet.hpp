@@ -21,7 +21,7 @@
 #include <span>
 #include <vector>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::inline stream {
 

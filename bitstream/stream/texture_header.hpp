@@ -89,11 +89,11 @@ struct TextureHeader {
   uint64_t alpha_bytes = 0;
   uint8_t hidden = 0;        ///< of a cut-out: colours where alpha is 0 are not coded
   bool opaque = false;       ///< no channel is alpha: the last of 2 or 4 is a further colour
-  uint16_t white_level = 0;  ///< of 16 bits: what shows as white (base/white_level.hpp); 0: 65535
+  uint16_t white_level = 0;  ///< of 16 bits: what shows as white (base/samples.hpp); 0: 65535
   /// Bytes of the overlay, drawn over what the coefficients make, which stop at its border.
   uint64_t overlay_bytes = 0;
-  /// The reach of bridges over texels that are hidden or drawn over (codec/wavelet/bridges.hpp); 0:
-  /// none.
+  /// The reach of bridges over texels that are hidden or drawn over (codec/wavelet/morphology.hpp);
+  /// 0: none.
   uint8_t bridge = 0;
   bool stored = false;      ///< sample by sample, without a transform
   std::string later_parts;  ///< of kinds that are not known and inform, as they were read

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // PlanePass codes the bit-planes of one band, so that any prefix is useful: three passes a plane
 // (after EBCOT, D. Taubman 2000), with contexts from local magnitude sums (after F. Auli-Llinas
-// 2011) and from the magnitudes of other bands (hints.hpp). Blocks without a significant
+// 2011) and from the magnitudes of other bands (band_models.hpp). Blocks without a significant
 // coefficient cost one decision a plane and no work; coefficients that do not exist (Band::absent)
 // cost nothing, nor do blocks without one that does.
 //
@@ -34,8 +34,6 @@
 
 #include "bitstream/track/band.hpp"
 #include "bitstream/track/band_models.hpp"
-#include "bitstream/track/hints.hpp"
-#include "bitstream/track/local_sums.hpp"
 
 namespace tetrakis::inline track {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "bitstream/track/local_sums.hpp"
+#include "bitstream/track/band_models.hpp"
 
 namespace tetrakis::inline track {
 

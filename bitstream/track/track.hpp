@@ -1,17 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
-// A track is one codeword that holds bands of one component (heights, or texture): all of its
-// bands, or the parts of them in one region.
+// A track is the codeword of one region of a plane: regions, tracks and the order of their passes.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
+#include "base/view.hpp"
 #include "bitstream/track/band.hpp"
 #include "bitstream/track/plane_pass.hpp"
 
 namespace tetrakis::inline track {
+
+// A Region is the part of a plane's coefficients that one track holds (docs/FORMAT.md, section
+// 5.1), so that a window of the plane can be decoded alone. The transform knows nothing of regions.
+//
+// Every coefficient belongs to a sample of the plane. The finest kRegionLevels levels are split
+// into regions of side 2^s, the next kRegionLevels into regions of side 2^(s + kRegionLevels), and
+// so on, each of about as many coefficients as a region of the finest levels. Where one region
+// would be left it is the base, which holds all the coarser levels as well.
+
+inline constexpr int kRegionLevels = 3;
+inline constexpr int kLeastRegionLog2 = 4;  ///< smallest side 2^s; above kRegionLevels
+inline constexpr int kMostRegionLog2 = 20;
+
+/// What one track holds: the coefficients of some levels whose samples lie in a rectangle.
+struct Region {
+  static constexpr int kAll = std::numeric_limits<int>::max();
+
+  int first_level = 1, last_level = kAll;   ///< kAll: down to LL, which is the base's
+  uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;  ///< samples; x1 and y1 lie behind the last
+
+  bool isBase() const { return last_level == kAll; }
+  bool holds(int level) const { return level >= first_level && level <= last_level; }
+};
+
+/// The tracks of a plane in the order of their numbers: the base, then the regions from the
+/// coarsest levels to the finest, row by row. side_log2 0: the base alone, with everything.
+std::vector<Region> regionsOf(uint32_t width, uint32_t height, int side_log2);
+
+/// The regions of the finest levels, row by row, each as a rectangle of the plane; none if the base
+/// holds everything.
+std::vector<Window> finestRegions(uint32_t width, uint32_t height, int side_log2);
+
+/// For each group of levels a region that no other of the group is larger than, in rows or columns.
+std::vector<Region> largestRegions(uint32_t width, uint32_t height, int side_log2);
+
+/// How many regionsOf() are.
+uint64_t regionCount(uint32_t width, uint32_t height, int side_log2);
+
+/// How many finestRegions() are.
+uint64_t finestRegionCount(uint32_t width, uint32_t height, int side_log2);
+
+// A track is one codeword that holds bands of one component (heights, or texture): all of its
+// bands, or the parts of them in one region.
 
 /// One band of a track, as its owner (codec/, texture_wavelet/) describes it.
 struct BandPlan {
@@ -68,6 +112,41 @@ struct TrackState {
   std::vector<Band> bands;
   std::vector<BandModels> models;
   bool complete = false;  ///< every pass asked for has been decoded: those bands are exact
+};
+
+// PassQueue gives the order of a track's passes: the next pass is always the pending one of the
+// greatest key, key = log2(norm of the band) + bit-plane + priority of the tier - delay. The delay
+// depends on the kind of pass and on the number of coefficients that are known to be significant.
+// Both sides know all of this, so the order costs no bits, and each pass improves the surface or
+// image by about the same factor as its neighbours.
+
+class PassQueue {
+ public:
+  PassQueue(const std::vector<BandPlan>& plan, int planes);
+
+  bool empty() const { return pending_.empty(); }
+  /// The next pass.
+  const Pass& front() const { return pending_.front(); }
+  /// Takes the next pass off the queue, once it has been coded. band: what is known by then of its
+  /// band.
+  void pop(const Band& band);
+  /// Bands that are needed (BandPlan::needed) have passes left.
+  bool needed() const { return needed_ > 0; }
+
+ private:
+  struct Progress {
+    int log_norm = 0, key_floor = 0;  ///< those of the band, raised by the tier's priority
+    bool needed = false;
+    uint32_t coefficients = 0;  ///< that exist
+    uint8_t open = 0;           ///< passes of the plane that are not coded yet
+  };
+
+  Progress& progressOf(const Pass& pass) { return progress_[kPriorities * pass.band + pass.tier]; }
+  void push(Pass pass, uint32_t significant);
+
+  std::vector<Progress> progress_;  ///< of each tier of each band
+  std::vector<Pass> pending_;       ///< a heap
+  size_t needed_ = 0;               ///< tiers of needed bands with passes left
 };
 
 }  // namespace tetrakis::inline track

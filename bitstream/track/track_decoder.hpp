@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "bitstream/coder/range_decoder.hpp"
-#include "bitstream/track/pass_queue.hpp"
 #include "bitstream/track/track.hpp"
 
 namespace tetrakis::inline track {

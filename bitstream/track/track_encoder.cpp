@@ -11,7 +11,7 @@
 #include "base/parallel.hpp"
 #include "base/watch.hpp"
 #include "bitstream/track/encoding_io.hpp"
-#include "bitstream/track/pass_queue.hpp"
+#include "bitstream/track/track.hpp"
 
 namespace tetrakis::inline track {
 

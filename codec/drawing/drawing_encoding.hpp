@@ -10,9 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/plane.hpp"
 #include "bitstream/coder/range_encoder.hpp"
 #include "bitstream/track/track_encoder.hpp"
-#include "codec/drawing/drawing_index.hpp"
+#include "codec/drawing/drawing_neighbours.hpp"
 
 namespace tetrakis::inline drawing {
 
@@ -121,5 +122,17 @@ class DrawingEncoding : public DrawingDecisions {
   uint64_t next_ = 0;              ///< bytes at which the error is measured again
   std::vector<RatePoint> points_;
 };
+
+// estimateDrawing() foretells from the samples of a plane how many bytes a drawing of them takes,
+// in a small part of the time of coding it.
+
+/// What a sample says that is like neither the one before nor the one above: by how much it differs
+/// from the one before, or which value it has.
+enum class Alone { kDifference, kValue };
+
+/// About how many bytes the samples take as a drawing; the first column and row cost nothing.
+/// Value: int32_t, or uint16_t.
+template <class Value>
+double estimateDrawing(const PlaneView<const Value>& samples, Alone alone);
 
 }  // namespace tetrakis::inline drawing

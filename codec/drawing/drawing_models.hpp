@@ -1,18 +1,79 @@
 // SPDX-License-Identifier: Apache-2.0
-// The models here hold the probabilities of the decisions of a drawing.
+// The models of a drawing: of the neighbours that a vertex may equal, which are made when they are
+// first met, and of the residuals of new values.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <type_traits>
+#include <vector>
 
 #include "bitstream/coder/adaptive_bit.hpp"
 #include "bitstream/coder/mixture.hpp"
 #include "codec/drawing/drawing_neighbours.hpp"
-#include "codec/drawing/lazy_models.hpp"
 
 namespace tetrakis::inline drawing {
+
+// LazyModels is a large table of models for a drawing, which may be small and ask few of them. A
+// block of models is made when the first of them is asked: making all of them takes a millisecond a
+// table, mostly for memory that the operating system hands over page by page.
+
+class LazyModels {
+ public:
+  /// count: a multiple of kTogether.
+  explicit LazyModels(size_t count)
+      : room_(new std::byte[count * sizeof(AdaptiveBit)]), made_(count / kTogether) {
+    assert(count % kTogether == 0);
+  }
+
+  AdaptiveBit& operator[](size_t index) {
+    const size_t block = index / kTogether;
+    if (made_[block] == 0) [[unlikely]] {
+      std::uninitialized_value_construct_n(models() + block * kTogether, kTogether);
+      made_[block] = 1;
+    }
+    return models()[index];
+  }
+
+ private:
+  static constexpr size_t kTogether = 64;
+  static_assert(std::is_trivially_destructible_v<AdaptiveBit>);
+
+  AdaptiveBit* models() { return reinterpret_cast<AdaptiveBit*>(room_.get()); }
+
+  std::unique_ptr<std::byte[]> room_;
+  std::vector<uint8_t> made_;  ///< of each block: 1 once its models are
+};
+
+// codeResidual() codes the difference between a value that appears for the first time and its
+// prediction.
+
+/// Number i: the magnitude has more than i bits.
+template <size_t kClasses>
+using ResidualModels = std::array<AdaptiveBit, kClasses>;
+
+/// Bits of the magnitude one by one, then its digits and the sign. Its models are all the bits that
+/// it has at most. A magnitude of 32 bits wraps.
+template <size_t kClasses, class Io>
+int32_t codeResidual(ResidualModels<kClasses>& models, int32_t ours, Io& io) {
+  const auto word = static_cast<uint32_t>(ours);
+  const uint32_t our_magnitude = ours < 0 ? 0 - word : word;
+  const auto our_bits = static_cast<size_t>(std::bit_width(our_magnitude));
+  size_t bits = 0;
+  while (bits < kClasses && io.bit(models[bits], our_bits > bits)) ++bits;
+  if (bits == 0) return 0;
+  uint32_t magnitude = 1;
+  for (size_t position = bits - 1; position-- > 0;)
+    magnitude = 2 * magnitude + io.evenBit((our_magnitude >> position) & 1);
+  return static_cast<int32_t>(io.evenBit(ours < 0) ? 0 - magnitude : magnitude);
+}
+
+// The models here hold the probabilities of the decisions of a drawing.
 
 /// Models of one decision, from the most special to the most general. The first that has experience
 /// is asked, or the last; all learn. Quick, for the decisions of which there are most.

@@ -1,12 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidates ranks the values of the known neighbours of a vertex by their votes, because a drawing
-// asks for the likeliest value first.
-//
-//   near     the 4 coarser vertices next to it: diagonal ones for a centre, along the axes for a
-//            midpoint; 6 votes each
-//   causal   2 vertices of its own level that came before: (-2s, 0) and (0, -2s) for a centre,
-//            (-s, -s) and (s, -s) for a midpoint; 4 votes each
-//   ring     the 8 coarser vertices at sqrt 5 times the distance of near; 1 vote each
+// The values of a drawing: their list, and how the neighbours of a vertex rank them.
 #pragma once
 
 #include <algorithm>
@@ -17,11 +10,44 @@
 #include <span>
 
 #include "base/plane.hpp"
-#include "codec/drawing/drawing_index.hpp"
 #include "codec/lattice/levels.hpp"
-#include "codec/lattice/stencil.hpp"
 
 namespace tetrakis::inline drawing {
+
+// A drawing has a list of the values of its vertices (colours, or heights in steps), in the order
+// in which they first appear. Encoder and decoder both build it; a vertex has the index of its
+// value.
+
+/// Place of a value in the list; the vertices that nothing is known of have kNoIndex.
+using DrawnIndex = uint16_t;
+
+inline constexpr int kDrawnIndexBits = 12;
+inline constexpr size_t kMostDrawnValues = size_t{1} << kDrawnIndexBits;
+inline constexpr DrawnIndex kNoIndex = 0xffff;
+
+/// An index as planes keep it: kNoIndex where nothing was written to zeroed memory, which then need
+/// not even be there.
+class KeptIndex {
+ public:
+  KeptIndex() = default;
+  KeptIndex& operator=(DrawnIndex index) {
+    complement_ = static_cast<DrawnIndex>(~index);
+    return *this;
+  }
+  operator DrawnIndex() const { return static_cast<DrawnIndex>(~complement_); }
+
+ private:
+  DrawnIndex complement_;
+};
+
+// Candidates ranks the values of the known neighbours of a vertex by their votes, because a drawing
+// asks for the likeliest value first.
+//
+//   near     the 4 coarser vertices next to it: diagonal ones for a centre, along the axes for a
+//            midpoint; 6 votes each
+//   causal   2 vertices of its own level that came before: (-2s, 0) and (0, -2s) for a centre,
+//            (-s, -s) and (s, -s) for a midpoint; 4 votes each
+//   ring     the 8 coarser vertices at sqrt 5 times the distance of near; 1 vote each
 
 /// A value among the neighbours.
 struct VotedIndex {

@@ -15,11 +15,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "base/bit_plane.hpp"
 #include "base/plane.hpp"
+#include "bitstream/coder/range_decoder.hpp"
 #include "codec/drawing/drawing_models.hpp"
 #include "codec/drawing/drawing_neighbours.hpp"
 #include "codec/lattice/levels.hpp"
@@ -123,6 +125,25 @@ class DrawingPass {
   List& list_;
   Io& io_;
   DrawingModels models_;
+};
+
+// DrawingDecoding is the decoder's side of the pass: it answers each decision of the pass
+// from a codeword.
+
+template <class Value>
+class DrawingDecoding {
+ public:
+  explicit DrawingDecoding(std::span<const uint8_t> codeword) : decoder_(codeword) {}
+  DrawnIndex target(size_t) const { return kNoIndex; }
+  const Value& value(size_t) const { return unknown_; }
+  bool bit(AdaptiveBit& model, bool) { return decoder_.decode(model); }
+  bool bitOf(uint32_t zero, bool) { return decoder_.decodeOf(zero); }
+  bool evenBit(bool) { return decoder_.decodeEven(); }
+  bool stopped() const { return decoder_.exhausted(); }
+
+ private:
+  RangeDecoder decoder_;
+  Value unknown_{};
 };
 
 }  // namespace tetrakis::inline drawing

@@ -13,9 +13,8 @@
 #include <vector>
 
 #include "base/plane.hpp"
-#include "bitstream/coder/decided_places.hpp"
 #include "bitstream/coder/growing_decoder.hpp"
-#include "codec/drawing/drawing_index.hpp"
+#include "codec/drawing/drawing_neighbours.hpp"
 #include "codec/drawing/drawing_pass.hpp"
 
 namespace tetrakis::inline drawing {

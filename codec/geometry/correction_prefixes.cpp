@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/correction_prefixes.hpp"
+#include "codec/geometry/heights_encoder.hpp"
 
 #include <cassert>
 #include <utility>
 
 #include "base/samples.hpp"
-#include "bitstream/coder/decided_places.hpp"
-#include "bitstream/coder/decision_decoding.hpp"
 #include "bitstream/coder/growing_decoder.hpp"
-#include "codec/geometry/corrections/activity_hints.hpp"
-#include "codec/geometry/corrections/correction_reader.hpp"
-#include "codec/geometry/corrections/corrections_pass.hpp"
+#include "bitstream/coder/range_decoder.hpp"
+#include "codec/geometry/corrections/correction_coder.hpp"
+#include "codec/geometry/corrections/corrections_decoder.hpp"
 #include "codec/geometry/corrections/exact_corrections.hpp"
 #include "codec/geometry/facets/facet_coder.hpp"
 #include "codec/geometry/heights_decoder.hpp"
 #include "codec/geometry/plane_corrections.hpp"
 #include "codec/geometry/relative/relative_pass.hpp"
-#include "codec/geometry/steps/height_samples.hpp"
-#include "codec/geometry/taken_layers.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
 
 namespace tetrakis::inline geometry {
 

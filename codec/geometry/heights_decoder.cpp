@@ -5,21 +5,43 @@
 #include <span>
 #include <utility>
 
-#include "bitstream/coder/decision_bound.hpp"
+#include "bitstream/coder/adaptive_bit.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_decoder.hpp"
-#include "codec/geometry/flat/flat_decoder.hpp"
+#include "codec/geometry/flat/flat_areas.hpp"
 #include "codec/geometry/plane_corrections.hpp"
-#include "codec/geometry/shown_heights.hpp"
-#include "codec/geometry/stored_heights_decoder.hpp"
-#include "codec/geometry/taken_layers.hpp"
-#include "codec/geometry/values/value_stand_in.hpp"
-#include "codec/geometry/values/value_table_decoder.hpp"
-#include "codec/lattice/validity_decoder.hpp"
-#include "codec/wavelet/bridges.hpp"
+#include "codec/geometry/values/value_table.hpp"
+#include "codec/lattice/validity.hpp"
+#include "codec/wavelet/morphology.hpp"
 
 namespace tetrakis::inline geometry {
 
 namespace {
+
+// shownHeights() turns heights of the coded lines into those of a view of all lines
+// (codec/lines/shown_lines.hpp).
+
+/// Turns heights of coded lines into those of the view. Where a coded sample is shown several
+/// times, the vertex lies at its first place.
+DecodedHeights shownHeights(const ShownLines& lines, DecodedHeights decoded) {
+  if (lines.none()) return decoded;
+  DecodedGeometry& geometry = decoded.geometry;
+  geometry.heights = lines.shown(std::move(geometry.heights));
+  geometry.valid = lines.shown(std::move(geometry.valid));
+  geometry.significant = lines.shown(std::move(geometry.significant));
+  decoded.corrections = lines.shown(std::move(decoded.corrections));
+  const ShownLines::Lines &columns = lines.columns(), &rows = lines.rows();
+  geometry.width = static_cast<uint32_t>(columns.size());
+  geometry.height = static_cast<uint32_t>(rows.size());
+  geometry.quiet_levels = 0;
+  if (geometry.significant.empty()) return decoded;
+  for (size_t y = 0, i = 0; y < rows.size(); ++y) {
+    const bool repeated_row = y > 0 && rows[y] == rows[y - 1];
+    for (size_t x = 0; x < columns.size(); ++x, ++i) {
+      if (repeated_row || (x > 0 && columns[x] == columns[x - 1])) geometry.significant[i] = 0;
+    }
+  }
+  return decoded;
+}
 
 /// Which samples of the whole plane are lifted, of heights whose mask comes late; null: all.
 SharedBits lateLifted(const TakenLayers& taken) {

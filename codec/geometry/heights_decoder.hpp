@@ -1,19 +1,86 @@
 // SPDX-License-Identifier: Apache-2.0
-// decodeHeights() decodes heights from the layers of their tracks: validity, flat areas,
-// coefficients or a drawing with the layers among them, corrections
-// (bitstream/stream/geometry_header.hpp), or stored samples.
+// Decodes heights: wavelet coefficients, or samples as they are stored.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "base/bit_plane.hpp"
 #include "base/view.hpp"
 #include "bitstream/stream/geometry_header.hpp"
-#include "codec/geometry/coefficients_decoder.hpp"
+#include "bitstream/stream/packet.hpp"
+#include "bitstream/track/track_decoder.hpp"
+#include "codec/geometry/flat/flat_areas.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
+#include "codec/lines/shown_lines.hpp"
+#include "codec/wavelet/band_plan.hpp"
+#include "codec/wavelet/pyramid.hpp"
+#include "codec/wavelet/region_decoder.hpp"
 
 namespace tetrakis::inline geometry {
+
+// decodeCoefficients() decodes the coefficients of a height field and turns them into heights in
+// steps. It uses integers only.
+
+/// The samples of a plane that are known before its coefficients.
+struct KnownSamples {
+  SharedBits valid = {};                  ///< which samples are valid; the others are void
+  HeldSamples flat = {};                  ///< of flat areas, which outlive the call
+  std::optional<SharedBits> lifted = {};  ///< of liftedSamples(), if voids are bridged
+};
+
+/// Decodes the heights of a view; in a window the time follows its size if the plane has regions.
+/// codewords: any prefix of the coefficients of each track, one for each of regionsOf(). known: of
+/// the whole plane. Safe on any bytes and on any header that readHeader() accepts. The memory is
+/// that of earlier calls with the same header, known samples and view, which is no window.
+DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords& codewords,
+                                   KnownSamples known = {}, const View& view = {},
+                                   const DecodeContext<TrackMemory>& context = {});
+
+// ShownSignificance marks the vertices of a view that have a significant coefficient. They make the
+// coded mesh of that view.
+
+/// Collects the marks of vertices from the tracks of a view. The pyramid outlives it.
+class ShownSignificance {
+ public:
+  ShownSignificance(const Pyramid& pyramid, const View& view, size_t tracks);
+
+  /// Takes the bands of a track. Called for different tracks at the same time.
+  void take(size_t track, const TrackState& state, std::span<const BandPart> parts);
+
+  /// Writes the marks of the vertices, and the number of finest levels without a mark, into the
+  /// heights of the view.
+  void giveTo(DecodedGeometry& geometry);
+
+ private:
+  void mark(const Band& band, const Subband& subband, const BandPart& part);
+
+  const Pyramid& pyramid_;
+  int level_;
+  const LowBand& low_;
+  Window shown_;  ///< samples of the low band
+  bool is_window_;
+  std::vector<uint8_t> marks_;  ///< of those
+  std::vector<int> quiet_;      ///< of each track, the finest levels without such a coefficient
+};
+
+// decodeStoredHeights() decodes heights that are stored sample by sample, because coding them would
+// take more bytes.
+
+/// Returns the samples of a view. Their steps are those nearest to the samples, and corrections
+/// restore the samples. A sample that has no byte yet is that of step 0. bytes: any prefix of the
+/// stored bytes of a geometry with header.stored(). valid: of the whole plane.
+DecodedHeights decodeStoredHeights(const GeometryHeader& header, std::span<const uint8_t> bytes,
+                                   const SharedBits& valid, const View& view);
+
+// decodeHeights() decodes heights from the layers of their tracks: validity, flat areas,
+// coefficients or a drawing with the layers among them, corrections
+// (bitstream/stream/geometry_header.hpp), or stored samples.
 
 /// The memory of one call of decodeHeights() for the next call, whose tracks begin with the same
 /// bytes. It is empty before the first call.

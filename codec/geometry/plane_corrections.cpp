@@ -6,13 +6,11 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "bitstream/stream/correction_tracks.hpp"
-#include "codec/geometry/corrections/activity_hints.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/corrections/corrections_decoder.hpp"
-#include "codec/geometry/corrections/exact_corrections_decoder.hpp"
-#include "codec/geometry/facets/facets_decoder.hpp"
-#include "codec/geometry/relative/relative_decoder.hpp"
-#include "codec/geometry/steps/height_samples.hpp"
+#include "codec/geometry/facets/facet_coder.hpp"
+#include "codec/geometry/relative/relative_pass.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
 
 namespace tetrakis::inline geometry {
 

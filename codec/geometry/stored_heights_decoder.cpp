@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/stored_heights_decoder.hpp"
+#include "codec/geometry/heights_decoder.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/taken_layers.hpp"
+#include "codec/geometry/plane_corrections.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
 
-#include "bitstream/stream/correction_tracks.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 
 namespace tetrakis::inline geometry {
 

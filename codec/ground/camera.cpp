@@ -3,8 +3,6 @@
 
 #include <cmath>
 
-#include "codec/ground/vec3.hpp"
-
 namespace tetrakis::inline ground {
 
 namespace {

@@ -1,17 +1,100 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Camera is a pinhole camera that looks at the ground. Encoders take cameras as options, and
-// renderers draw what they see.
+// Cameras over the ground: vectors, the frame in which cameras stand, the sky behind, and the
+// cameras that are used where callers have none.
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "base/status.hpp"
-#include "codec/ground/frame.hpp"
+#include "base/coordinates.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::inline ground {
+
+// The functions here compute with vectors in space, for cameras and the renderer.
+
+using Vec3 = std::array<double, 3>;
+
+inline Vec3 add(const Vec3& a, const Vec3& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Vec3 subtract(const Vec3& a, const Vec3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline Vec3 scale(const Vec3& a, double s) {
+  return {a[0] * s, a[1] * s, a[2] * s};
+}
+inline double dot(const Vec3& a, const Vec3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double length(const Vec3& a) {
+  return std::sqrt(dot(a, a));
+}
+/// The zero vector stays zero.
+inline Vec3 normalized(const Vec3& a) {
+  const double l = length(a);
+  return l > 0 ? scale(a, 1 / l) : a;
+}
+
+/// Orthonormal axes of a view: to the right, up in the picture, into the picture.
+struct ViewAxes {
+  Vec3 right, up, forward;
+};
+
+inline ViewAxes viewAxes(const Vec3& eye, const Vec3& target, const Vec3& up) {
+  const Vec3 forward = normalized(subtract(target, eye));
+  const Vec3 right = normalized(cross(forward, up));
+  return {right, cross(right, forward), forward};
+}
+
+// GroundFrame says where the samples of a grid of heights lie in space, in metres. The rule for
+// grids that do not say how far apart their samples are is in knownFrame() alone: encoders, cameras
+// and meshes must see the same ground.
+
+/// Column c, row r and height h, in the unit of the heights, are at
+/// ((c - (width - 1) / 2) * spacing_x,
+///  h * metres_per_unit,
+///  (r - (height - 1) / 2) * spacing_y): x east, y up, z south.
+struct GroundFrame {
+  uint32_t width = 0, height = 0;
+  double spacing_x = 1, spacing_y = 1;  ///< metres
+  double metres_per_unit = 1;
+};
+
+/// The frame of a grid of which 0 metres per sample are known: that of the other direction, or
+/// kUnknownSpacing.
+inline GroundFrame knownFrame(GroundFrame frame) {
+  const bool x = frame.spacing_x > 0, y = frame.spacing_y > 0;
+  if (!x) frame.spacing_x = y ? frame.spacing_y : kUnknownSpacing;
+  if (!y) frame.spacing_y = frame.spacing_x;
+  return frame;
+}
+
+/// Axis-aligned bounds of a terrain.
+struct Bounds {
+  std::array<double, 3> low{}, high{};
+};
+
+// skyAt() gives the colour of the sky in a row of a picture, which fills the pixels that show no
+// ground.
+
+/// The sky of a picture in R, G and B, from the top row to the bottom row.
+inline std::array<uint32_t, 3> skyAt(uint32_t row, uint32_t rows) {
+  constexpr std::array<uint32_t, 3> kZenith{172, 199, 226}, kHorizon{240, 243, 245};
+  std::array<uint32_t, 3> sky{};
+  for (size_t c = 0; c < 3; ++c) sky[c] = (kZenith[c] * (rows - row) + kHorizon[c] * row) / rows;
+  return sky;
+}
+
+// A Camera is a pinhole camera that looks at the ground. Encoders take cameras as options, and
+// renderers draw what they see.
 
 /// A pinhole camera in the axes of GroundFrame (metres, y up). fov_y in degrees.
 struct Camera {
@@ -28,5 +111,30 @@ struct Camera {
 Status checkCamera(const Camera& camera);
 
 inline constexpr uint32_t kLargestPicture = 8192;  ///< pixels a side
+
+// seeingAll() moves a camera, without turning it, to the nearest place from which it sees the whole
+// box of a terrain.
+
+/// The tangents of half the angles that a picture spans.
+struct HalfAngles {
+  double tan_x, tan_y;
+};
+
+inline Vec3 centreOf(const Bounds& bounds) {
+  return scale(add(bounds.low, bounds.high), 0.5);
+}
+
+// presetCameras() makes cameras from the name of a view and the bounds of a terrain, so that a user
+// needs no file of cameras.
+
+/// Named view of a terrain, from the south, north up: "oblique" (sees all of it, 35 degrees above
+/// the horizon), "low" (from just above the highest ground, sees about a tenth before the sky),
+/// "top" (sees all of it, straight down). "all" gives the three, "orbit" the oblique view from four
+/// sides, "any" those of unknownViewer(). Other names, or bounds that are not finite: TKS_USAGE.
+Result<std::vector<Camera>> presetCameras(const std::string& view, const Bounds& bounds);
+
+/// A mix for a viewer of whom nothing is known: the oblique and the low view from four sides, which
+/// count as one each, and the top view. Bounds that are not finite: TKS_USAGE.
+Result<std::vector<Camera>> unknownViewer(const Bounds& bounds);
 
 }  // namespace tetrakis::inline ground

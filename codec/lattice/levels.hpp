@@ -1,5 +1,70 @@
 // SPDX-License-Identifier: Apache-2.0
-// The levels of the 4-8 lattice over a W x H grid, clipped at its border (border_rule.hpp). Masks
+// The levels of the 4-8 lattice, its rule at borders, and the neighbours of a vertex in its level.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "base/view.hpp"
+
+namespace tetrakis::inline lattice {
+
+// The functions here count the squares and levels of the 4-8 subdivision along the sides of a grid,
+// under either of the two rules for its border.
+//
+// The subdivision of squares of side 2s inserts their centres, at odd multiples of s in x and y,
+// and the midpoints of their edges, at multiples of s of odd coordinate sum. Inside the grid these
+// are the same samples under both rules:
+//
+//   clipped      Squares begin at a power of two that covers the longer side, and nothing lies
+//                outside the grid: every sample is a vertex of exactly one level, and is coded
+//                once.
+//   overhanging  Squares begin at a power of two that covers the shorter side, in a row along the
+//                longer one. Those at the border are whole and reach over it, so that every
+//                triangle has two halves (codec/mesh/topology/lattice.hpp).
+//
+// There is a class for each rule, because they number vertices differently: a mask needs no
+// numbers, while a mesh needs dense numbers of the cells of a level, hidden vertices included, so
+// that a window of ancestors is found by adding an offset.
+
+enum class LevelKind : uint8_t { kRoots, kCentres, kMidpoints };
+enum class BorderRule : uint8_t { kClipped, kOverhanging };
+
+/// The number of subdivisions of a grid of width x height samples, at least one each; those of the
+/// root squares, of side 2^depth, come first.
+inline uint32_t depthOf(BorderRule rule, uint32_t width, uint32_t height) {
+  assert(width > 0 && height > 0);
+  const uint32_t covered =
+      rule == BorderRule::kClipped ? std::max(width, height) : std::min(width, height);
+  return covered > 2 ? static_cast<uint32_t>(std::bit_width(covered - 2)) : 0;
+}
+
+/// The coordinate of square `index` along a side: of its centre.
+constexpr uint32_t centreAt(uint32_t step, uint32_t index) {
+  return (2 * index + 1) * step;
+}
+
+/// How many centres of squares of side 2 * step there are along a side of `size` samples; size is
+/// at least 2 where squares overhang.
+inline uint32_t centresAlong(BorderRule rule, uint32_t size, uint32_t step) {
+  assert(size > (rule == BorderRule::kClipped ? 0 : 1) && step > 0);
+  if (rule == BorderRule::kOverhanging) return (size - 2) / (2 * step) + 1;
+  return size > step ? (size - step - 1) / (2 * step) + 1 : 0;
+}
+
+/// How many multiples of the step there are along a side of `size` samples, 0 among them; size is
+/// at least 2 where squares overhang.
+inline uint32_t multiplesAlong(BorderRule rule, uint32_t size, uint32_t step) {
+  assert(size > (rule == BorderRule::kClipped ? 0 : 1) && step > 0);
+  return rule == BorderRule::kOverhanging ? (size - 2) / step + 2 : (size - 1) / step + 1;
+}
+
+// The levels of the 4-8 lattice over a W x H grid, clipped at its border. Masks
 // and drawings are coded in this order. Levels are counted from 1 here and in the thesis, because
 // the roots are level 0; meshes, whose roots are no level, count from 0.
 //
@@ -13,17 +78,6 @@
 //   v---.---v      Every vertex of the grid belongs to exactly one level.
 //
 // The grid may have any size. It is not padded: there are no vertices outside the grid.
-#pragma once
-
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <vector>
-
-#include "base/view.hpp"
-#include "codec/lattice/border_rule.hpp"
-
-namespace tetrakis::inline lattice {
 
 /// Vertices of one level, in rows.
 struct Level {
@@ -70,5 +124,49 @@ Window neededOf(const Level& level, const Window& window, Extent grid);
 /// lie at multiples of 2^mip, in units of 2^mip: they are the levels of the grid of every 2^mip-th
 /// vertex, in the order of the whole grid.
 std::vector<Level> levelsOf(uint32_t width, uint32_t height, int mip = 0);
+
+// stencilOf() gives the offsets of the coarser vertices around a vertex of the 4-8 lattice, in two
+// rings of equal distance: 1 and sqrt 5, in units of the step.
+
+struct Stencil {
+  static constexpr std::array<int, 2> kRingSize = {4, 8};
+  static constexpr int kTaps = 12;
+
+  std::array<int, kTaps> dx, dy;        ///< grid offsets, ring after ring
+  std::array<ptrdiff_t, kTaps> linear;  ///< the same offsets in a row-major grid
+  int reach = 0;                        ///< largest |dx| or |dy|
+};
+
+/// Returns at + offset; if that lies outside [0, size), its mirror image at - offset; if both lie
+/// outside, -1.
+inline int64_t mirrored(uint32_t at, int offset, uint32_t size) {
+  const int64_t direct = int64_t{at} + offset, image = int64_t{at} - offset;
+  if (direct >= 0 && direct < size) return direct;
+  return image >= 0 && image < size ? image : -1;
+}
+
+/// Midpoints have their nearest neighbours along the axes; centres along the diagonals, which is
+/// the same pattern turned by 45 degrees and enlarged by sqrt 2.
+inline Stencil stencilOf(LevelKind kind, uint32_t step, uint32_t width) {
+  constexpr std::array<std::array<int, 2>, 3> kAxis = {{{1, 0}, {2, 1}, {1, 2}}};
+  assert(kind != LevelKind::kRoots && step > 0);  // roots have no coarser neighbours
+  Stencil stencil;
+  const int s = static_cast<int>(step);
+  int tap = 0;
+  for (const auto& [u, v] : kAxis) {
+    for (int turn = 0; turn < 4; ++turn) {
+      const std::array<int, 4> cosine = {1, 0, -1, 0}, sine = {0, 1, 0, -1};
+      const int x = u * cosine[turn] - v * sine[turn], y = u * sine[turn] + v * cosine[turn];
+      const bool diagonal = kind == LevelKind::kCentres;
+      stencil.dx[tap] = s * (diagonal ? x - y : x);
+      stencil.dy[tap] = s * (diagonal ? x + y : y);
+      stencil.linear[tap] = stencil.dy[tap] * static_cast<ptrdiff_t>(width) + stencil.dx[tap];
+      ++tap;
+    }
+  }
+  assert(tap == Stencil::kTaps);
+  stencil.reach = s * (kind == LevelKind::kCentres ? 3 : 2);
+  return stencil;
+}
 
 }  // namespace tetrakis::inline lattice

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/lattice/validity_decoder.hpp"
+#include "codec/lattice/validity.hpp"
 
 #include "bitstream/coder/range_decoder.hpp"
-#include "codec/lattice/validity_pass.hpp"
 
 namespace tetrakis::inline lattice {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/lattice/validity_encoder.hpp"
+#include "codec/lattice/validity.hpp"
 
 #include <cassert>
 
 #include "bitstream/coder/range_encoder.hpp"
-#include "codec/lattice/validity_pass.hpp"
 
 namespace tetrakis::inline lattice {
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/lines/line_repeats_encoder.hpp"
+#include "codec/lines/shown_lines.hpp"
 
 #include <string>
 
-#include "bitstream/coder/decision_encoding.hpp"
+#include "bitstream/coder/range_encoder.hpp"
 
 namespace tetrakis::inline lines {
 

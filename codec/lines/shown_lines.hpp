@@ -61,4 +61,10 @@ View codedView(const auto& header, const View& view) {
   return ShownLines(header, view).coded();
 }
 
+// encodeRepeats() codes the marks of the columns and rows that repeat the one before them, so that
+// a header can state them.
+
+/// columns, rows: 1 where a line repeats the one before, 0 for the first.
+LineRepeats encodeRepeats(std::vector<uint8_t> columns, std::vector<uint8_t> rows);
+
 }  // namespace tetrakis::inline lines

@@ -1,16 +1,74 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chosen on one level, fitted on the next finer one.
-#include "codec/mesh/budget_mesh.hpp"
+// Meshes of the lattice with a budget of triangles, and with turned edges for a camera.
+#include "codec/mesh/meshes.hpp"
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "codec/mesh/fitted_heights.hpp"
-#include "codec/mesh/fitting/height_range.hpp"
-#include "codec/mesh/needless_vertices.hpp"
+#include "codec/mesh/fitting/fitting.hpp"
 
 namespace tetrakis::inline mesh {
+
+namespace {
+
+/// For each sample how many of those left of it and above it, itself included, differ from the one
+/// before them in their row or column.
+class Changes {
+ public:
+  explicit Changes(const SurfaceView& surface)
+      : stride_(size_t{surface.width} + 1), sums_(stride_ * (size_t{surface.height} + 1)) {
+    const int32_t* here = surface.heights.data();
+    for (uint32_t y = 0; y < surface.height; ++y) {
+      uint32_t row = 0;
+      for (uint32_t x = 0; x < surface.width; ++x, ++here) {
+        const bool left = x > 0 && here[0] != here[-1];
+        const bool above = y > 0 && here[0] != *(here - surface.width);
+        row += left || above;
+        sums_[(y + size_t{1}) * stride_ + x + 1] = sums_[y * stride_ + x + 1] + row;
+      }
+    }
+  }
+
+  /// From first to last, both included.
+  bool none(GridPoint first, GridPoint last) const {
+    const size_t above = first.y * stride_, below = (last.y + size_t{1}) * stride_;
+    return sums_[below + last.x + 1] - sums_[above + last.x + 1] ==
+           sums_[below + first.x] - sums_[above + first.x];
+  }
+
+ private:
+  size_t stride_;
+  std::vector<uint32_t> sums_;
+};
+
+// withoutNeedless() takes the vertices on water out of a mesh, where they take triangles and lower
+// no error. Decimation puts them last, so they are in a mesh if its budget is more than the ground
+// around the water can use.
+
+/// A closed set without the vertices around which all samples have one height, as far as they and
+/// their descendants reach: a closed set again.
+std::vector<VertexId> withoutNeedless(const Lattice& lattice, const SurfaceView& surface,
+                                      std::vector<VertexId> vertices) {
+  assert(surface.width == lattice.width() && surface.height == lattice.height());
+  const Changes changes(surface);
+  std::erase_if(vertices, [&](VertexId v) {
+    const Site site = lattice.site(v);
+    const GridPoint at = lattice.position(site);
+    // The octagon of the vertex (topology/lattice_mesh.hpp), and one triangle beyond.
+    const uint32_t reach = (Lattice::isCentre(site.level) ? 3 : 2) * lattice.plan(site.level).step;
+    const GridPoint first{at.x - std::min(at.x, reach), at.y - std::min(at.y, reach)};
+    return changes.none(lattice.clamp(first), lattice.clamp({at.x + reach, at.y + reach}));
+  });
+  return vertices;
+}
+
+}  // namespace
+
+// Chosen on one level, fitted on the next finer one.
 
 namespace {
 
@@ -78,6 +136,34 @@ Result<BudgetMesh> budgetMesh(const Lattice& lattice, KnownSurface known, uint32
     sample =
         wholeSample(sample, known.surface.width, lattice.width(), lattice.height(), known.level);
   return fitted;
+}
+
+namespace {
+
+Result<FittedMesh> latticeMesh(const Lattice& lattice, const WeightedSurface& surface,
+                               uint32_t max_triangles,
+                               const std::function<Status(uint64_t)>& admits) {
+  if (!surface.known.empty()) {
+    Result<FittedVertices> beside = verticesBesideVoids(lattice, surface, max_triangles, admits);
+    if (!beside.ok()) return beside.status();
+    return FittedMesh{meshOf(lattice, beside->vertices), std::move(beside->heights)};
+  }
+  const Result<FittedSequence> sequence = FittedSequence::makeFor(surface, max_triangles);
+  if (!sequence.ok()) return sequence.status();
+  std::vector<VertexId> vertices = sequence->order();
+  vertices.resize(sequence->longestPrefix(max_triangles));
+  return fitMesh(lattice, surface, withoutNeedless(lattice, surface.view, std::move(vertices)));
+}
+
+}  // namespace
+
+Result<FittedMesh> screenMesh(const Lattice& lattice, const WeightedSurface& surface,
+                              uint32_t max_triangles,
+                              const std::function<Status(uint64_t)>& admits) {
+  Result<FittedMesh> mesh = latticeMesh(lattice, surface, max_triangles, admits);
+  if (!mesh.ok()) return mesh;
+  FittedMesh turned = withTurnedEdges(surface, std::move(*mesh));
+  return FittedMesh{std::move(turned.mesh), withinRange(surface, std::move(turned.heights))};
 }
 
 }  // namespace tetrakis::inline mesh

@@ -7,8 +7,7 @@
 
 #include "codec/mesh/closure/closure.hpp"
 #include "codec/mesh/decimation/decimation.hpp"
-#include "codec/mesh/decimation/saturated_order.hpp"
-#include "codec/mesh/fitting/fitted_solver.hpp"
+#include "codec/mesh/fitting/fitting.hpp"
 #include "codec/mesh/gains/gains.hpp"
 
 namespace tetrakis::inline mesh {

@@ -1,4 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
+// A mesh's heights and edges, fitted to the surface.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/mesh/fitting/fitting.hpp"
+#include "codec/mesh/surface/surface.hpp"
+#include "codec/mesh/topology/lattice.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
+
+namespace tetrakis::inline mesh {
+
 // fitMesh() moves the heights of a mesh to the least squares over all samples of a surface, and
 // FittedSequence orders vertices for meshes whose heights are fitted in this way.
 //
@@ -8,17 +22,6 @@
 // error is still a sum over vertices, and the best sets are nested), and the remaining vertices are
 // sorted by the slopes of those closures. Fitting alone saves 10 to 16 % of the root mean squared
 // error, the new order another 2 to 3 %.
-#pragma once
-
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include "codec/mesh/fitting/fitted_moments.hpp"
-#include "codec/mesh/topology/lattice.hpp"
-#include "codec/mesh/topology/lattice_mesh.hpp"
-
-namespace tetrakis::inline mesh {
 
 struct FittedMesh {
   LatticeMesh mesh;
@@ -58,5 +61,20 @@ class FittedSequence {
   WeightedSurface surface_;
   std::vector<VertexId> order_;
 };
+
+// withTurnedEdges() turns edges of a fitted mesh, so that its triangles follow ridges and valleys
+// of any direction.
+//
+// The edges of a 4-8 mesh have eight directions, so it takes many small triangles along a crest
+// that has another one. Here two triangles that share an edge become the other two of their four
+// corners wherever that errs less (data-dependent triangulation: Dyn, Levin and Rippa 1990), and
+// heights are fitted anew. Vertices and the number of triangles stay; the mesh is no longer one of
+// the lattice.
+
+/// The mesh with its edges turned and its heights fitted anew. The squared error over the known
+/// samples never grows. Triangles stay counter-clockwise, cover the same ground and have an area;
+/// those that touch an unknown sample stay as they are. The same bits with every compiler. mesh:
+/// its vertices are samples of the surface.
+FittedMesh withTurnedEdges(const WeightedSurface& surface, FittedMesh mesh);
 
 }  // namespace tetrakis::inline mesh

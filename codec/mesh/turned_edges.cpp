@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sweeps over half-edges in the order of the triangles, between least squares. Half-edge 3 t + k
 // runs from corner k of triangle t to the next; its twin is that of the triangle on the other side.
-#include "codec/mesh/turned_edges.hpp"
+#include "codec/mesh/fitted_heights.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "codec/mesh/fitting/fitted_solver.hpp"
-#include "codec/mesh/fitting/fitted_triangle.hpp"
-#include "codec/mesh/topology/triangle_samples.hpp"
+#include "codec/mesh/fitting/fitting.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 
 namespace tetrakis::inline mesh {
 namespace {

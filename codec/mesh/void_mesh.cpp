@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/mesh/void_mesh.hpp"
+#include "codec/mesh/meshes.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -9,9 +9,8 @@
 #include <utility>
 
 #include "codec/mesh/decimation/decimation.hpp"
-#include "codec/mesh/fitting/fitted_solver.hpp"
-#include "codec/mesh/fitting/height_range.hpp"
-#include "codec/mesh/surface/masked_surface.hpp"
+#include "codec/mesh/fitting/fitting.hpp"
+#include "codec/mesh/surface/surface.hpp"
 
 namespace tetrakis::inline mesh {
 
@@ -19,7 +18,7 @@ namespace {
 
 /// Valid samples for each triangle that are left where fine levels are skipped. At a coast
 /// triangles are as small as samples are dense, so meshes want more samples here than elsewhere
-/// (budget_mesh.hpp). More samples take time.
+/// (meshes.hpp). More samples take time.
 constexpr uint64_t kValidPerTriangle = 20;
 /// The part of the range of heights that voids lie below the lowest of them. Deeper pits draw more
 /// triangles to the borders of voids.

@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "codec/polyline/algorithms.hpp"
+#include "codec/polyline/polylines.hpp"
 
 namespace tetrakis::inline polyline {
 namespace {

@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <utility>
 
-#include "codec/polyline/algorithms.hpp"
-#include "codec/polyline/knot_tree.hpp"
+#include "codec/polyline/knots.hpp"
+#include "codec/polyline/polylines.hpp"
 
 namespace tetrakis::inline polyline {
 namespace {

@@ -1,20 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
-// PlaneLayout turns the subbands of a transformed plane into the bands of a track. Encoders gather
-// coefficients here; decoders put them back with codec/wavelet/synthesis/view_synthesis.hpp.
+// The bands of a plane with what their coefficients weigh.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "bitstream/track/regions.hpp"
 #include "bitstream/track/track.hpp"
-#include "codec/wavelet/norms.hpp"
 #include "codec/wavelet/priority_map.hpp"
 #include "codec/wavelet/pyramid.hpp"
+#include "codec/wavelet/wavelet.hpp"
 
 namespace tetrakis::inline wavelet {
+
+// SynthesisNorms gives the weight of an error in a wavelet coefficient of each band: the L2 norm of
+// the synthesis function of the band.
+
+/// The norms of a transform. It is separable, so a band's norm is the product of two norms of the
+/// one-dimensional synthesis, over the factor of two for each doubling of the low band. Integer
+/// only: the order of the bit-planes depends on them.
+class SynthesisNorms {
+ public:
+  /// levels: the most splits that will be asked for. The work doubles with each.
+  SynthesisNorms(const WaveletSpec& spec, int levels);
+
+  /// 16 log2 of the band's norm, rounded.
+  int log16(const Subband& band) const { return (fine(band) + 8) >> 4; }
+
+  /// The band's squared norm, for rate-distortion weights.
+  double energy(const Subband& band) const;
+
+ private:
+  static constexpr int kFineSteps = 256;
+  using Table = std::array<int, kMaxLevels + 1>;
+
+  int fine(const Subband& band) const;
+
+  WaveletSpec spec_;
+  Table low_{}, high_{};  ///< kFineSteps log2 of the norm after so many splits
+};
+
+// PlaneLayout turns the subbands of a transformed plane into the bands of a track. Encoders gather
+// coefficients here; decoders put them back with codec/wavelet/synthesis/view_synthesis.hpp.
 
 /// The classes of contexts that the bands of one plane use: levels 1, 2, 3, all coarser levels, LL.
 inline constexpr uint32_t kPlaneModels = 5;

@@ -16,12 +16,11 @@
 #include <span>
 #include <vector>
 
-#include "codec/wavelet/held_samples.hpp"
-
-#include "codec/wavelet/lifting/lifting_steps.hpp"
-#include "codec/wavelet/lifting/masked_lifting.hpp"
 #include "codec/wavelet/pyramid.hpp"
-#include "codec/wavelet/wavelet_spec.hpp"
+
+#include "codec/wavelet/lifting/lifting.hpp"
+#include "codec/wavelet/lifting/lifting_steps.hpp"
+#include "codec/wavelet/wavelet.hpp"
 
 namespace tetrakis::inline wavelet {
 

@@ -7,7 +7,6 @@
 #include "base/parallel.hpp"
 #include "codec/wavelet/held_lifting.hpp"
 #include "codec/wavelet/lifting/lifting.hpp"
-#include "codec/wavelet/lifting/masked_lifting.hpp"
 
 namespace tetrakis::inline wavelet {
 

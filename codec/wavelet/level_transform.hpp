@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/plane.hpp"
-#include "codec/wavelet/lifting/joint_lifting.hpp"
-#include "codec/wavelet/wavelet_spec.hpp"
+#include "codec/wavelet/lifting/lifting.hpp"
+#include "codec/wavelet/wavelet.hpp"
 
 namespace tetrakis::inline wavelet {
 

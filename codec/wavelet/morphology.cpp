@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "base/bit_plane.hpp"
 
@@ -96,6 +97,18 @@ BitPlane closed(BitPlane marks, uint8_t reach) {
 
 std::vector<uint8_t> closed(const std::vector<uint8_t>& marks, Extent plane, uint8_t reach) {
   return closed(BitPlane(marks, plane), reach).bytes();
+}
+
+SharedBits liftedSamples(const SharedBits& valid, uint8_t reach) {
+  if (reach == 0 || valid == nullptr) return valid;
+  if (reach == kBridgeAll) return nullptr;
+  BitPlane lifted = closed(*valid, reach);
+  return lifted.all() ? nullptr : shared(std::move(lifted));
+}
+
+std::vector<uint8_t> liftedSamples(const std::vector<uint8_t>& valid, Extent plane, uint8_t reach) {
+  if (reach == 0) return valid;
+  return shownMarks(liftedSamples(sharedBits(valid, plane), reach), {});
 }
 
 }  // namespace tetrakis::inline wavelet

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measured: an impulse goes through the one-dimensional synthesis.
-#include "codec/wavelet/norms.hpp"
+#include "codec/wavelet/band_plan.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <span>
 
-#include "bitstream/coder/decision_decoding.hpp"
-#include "codec/wavelet/priority_pass.hpp"
+#include "bitstream/coder/range_decoder.hpp"
 
 namespace tetrakis::inline wavelet {
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/wavelet/priority_map_encoder.hpp"
+#include "codec/wavelet/priority_map.hpp"
 
-#include "bitstream/coder/decision_encoding.hpp"
-#include "codec/wavelet/priority_pass.hpp"
+#include "bitstream/coder/range_encoder.hpp"
 
 namespace tetrakis::inline wavelet {
 

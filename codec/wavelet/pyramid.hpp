@@ -1,4 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
+// The pyramid of the low bands of a plane, and the samples that have their values before.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/bit_plane.hpp"
+#include "base/plane.hpp"
+#include "base/view.hpp"
+#include "bitstream/track/band.hpp"
+
+namespace tetrakis::inline wavelet {
+
+// HeldSamples lists the samples that have their values before any coefficient is decoded: areas of
+// constant height.
+
+/// Area a holds the samples of number a + 1, and all of them have values[a]. The numbers and the
+/// values belong to somebody else, who keeps them alive.
+struct HeldSamples {
+  std::span<const uint16_t>
+      numbers;                      ///< one a sample, row by row: 0 for free ones; empty: all free
+  std::span<const int32_t> values;  ///< one an area
+
+  bool none() const { return numbers.empty(); }
+};
+
 // The pyramid of a plane holds the low bands that a dyadic wavelet splits the plane into, level by
 // level, and the bands of coefficients that each split leaves behind.
 //
@@ -11,19 +38,6 @@
 //
 // In a height field every coefficient belongs to one vertex of the 4-8 lattice: those of HH belong
 // to the centres of its squares, those of HL and LH to the midpoints of the sides.
-#pragma once
-
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include "base/bit_plane.hpp"
-#include "base/plane.hpp"
-#include "base/view.hpp"
-#include "bitstream/track/band.hpp"
-#include "codec/wavelet/held_samples.hpp"
-
-namespace tetrakis::inline wavelet {
 
 /// A side of so many samples or fewer is not split. HL or LH, and HH, are empty then.
 inline constexpr uint32_t kSmallestSide = 4;

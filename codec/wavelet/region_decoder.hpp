@@ -15,7 +15,7 @@
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/track/track_decoder.hpp"
 #include "codec/wavelet/band_plan.hpp"
-#include "codec/wavelet/wavelet_header.hpp"
+#include "codec/wavelet/wavelet.hpp"
 
 namespace tetrakis::inline wavelet {
 

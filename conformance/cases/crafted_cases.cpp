@@ -3,10 +3,10 @@
 // Here are those of heights; wavelets and drawings have files of their own.
 #include <limits>
 
-#include "bitstream/stream/correction_tracks.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
-#include "codec/lattice/validity_encoder.hpp"
-#include "codec/lines/line_repeats_encoder.hpp"
+#include "codec/lattice/validity.hpp"
+#include "codec/lines/shown_lines.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
 

@@ -2,11 +2,11 @@
 // Drawings of noise: values and indices that nothing foretells.
 #include "codec/drawing/drawing_encoding.hpp"
 #include "codec/drawing/drawing_pass.hpp"
-#include "codec/geometry/drawn_heights/drawn_steps.hpp"
+#include "codec/geometry/drawn_heights/drawn_heights_decoder.hpp"
 #include "codec/lattice/levels.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
-#include "texture_wavelet/drawn/drawn_colours.hpp"
+#include "texture_wavelet/drawn/drawn_decoder.hpp"
 
 namespace tetrakis::conformance {
 namespace {

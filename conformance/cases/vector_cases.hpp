@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "base/status.hpp"
 #include "conformance/samples/few_texels.hpp"
 #include "conformance/samples/few_values.hpp"
 #include "conformance/samples/offset_heights.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 #include "conformance/samples/void_masks.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::conformance {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/height_errors.hpp"
+#include "encoder/heights/coded_heights.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "base/samples.hpp"
-#include "codec/geometry/correction_prefixes.hpp"
-#include "codec/geometry/drawn_heights/drawn_heights_prefixes.hpp"
-#include "codec/geometry/steps/height_samples.hpp"
-#include "codec/geometry/taken_layers.hpp"
+#include "codec/geometry/drawn_heights/drawn_heights_encoder.hpp"
+#include "codec/geometry/heights_encoder.hpp"
+#include "codec/geometry/plane_corrections.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
 
 namespace tetrakis::inline heights {
 

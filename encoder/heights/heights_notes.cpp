@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/heights_notes.hpp"
+#include "encoder/heights/coded_heights.hpp"
 
 #include <algorithm>
 #include <cmath>

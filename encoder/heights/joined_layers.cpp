@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/joined_layers.hpp"
+#include "encoder/heights/coded_heights.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,9 +7,8 @@
 #include <span>
 #include <utility>
 
-#include "codec/wavelet/priority_map_encoder.hpp"
-#include "encoder/heights/followed_heights.hpp"
-#include "ratecontrol/curves/hull.hpp"
+#include "codec/wavelet/priority_map.hpp"
+#include "ratecontrol/curves/component_curve.hpp"
 
 namespace tetrakis::inline heights {
 

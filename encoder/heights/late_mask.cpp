@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/late_mask.hpp"
+#include "encoder/heights/quantised_heights.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "codec/lattice/validity_encoder.hpp"
-#include "ratecontrol/curves/track_order.hpp"
+#include "codec/lattice/validity.hpp"
+#include "ratecontrol/curves/component_curve.hpp"
 
 namespace tetrakis::inline heights {
 

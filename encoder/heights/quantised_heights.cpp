@@ -9,16 +9,13 @@
 
 #include "base/portable_math.hpp"
 #include "codec/geometry/corrections/corrections_encoder.hpp"
-#include "codec/geometry/quantiser/bridged_steps.hpp"
-#include "codec/geometry/quantiser/stand_in_choice.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
 #include "codec/geometry/quantiser/step_choice.hpp"
-#include "codec/geometry/quantiser/step_errors.hpp"
-#include "codec/geometry/quantiser/voids.hpp"
-#include "codec/geometry/relative/relative_step_choice.hpp"
-#include "codec/geometry/steps/height_samples.hpp"
-#include "codec/geometry/values/value_table_encoder.hpp"
-#include "codec/lattice/validity_encoder.hpp"
-#include "encoder/heights/height_options.hpp"
+#include "codec/geometry/quantiser/value_choice.hpp"
+#include "codec/geometry/relative/relative_encoder.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
+#include "codec/geometry/values/value_table.hpp"
+#include "codec/lattice/validity.hpp"
 
 namespace tetrakis::inline heights {
 

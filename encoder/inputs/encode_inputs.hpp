@@ -1,20 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
-// EncodeInputs is the input of one encoding (heights, image, options, priorities), with the lines
-// of both components that are coded, and the place for notes of what is weighed. The functions
-// derive from it what both components need alike.
+// What is encoded, with its targets: samples, the lines of them that are coded, and regions.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
-#include "base/status.hpp"
+#include "base/plane.hpp"
+#include "bitstream/stream/line_repeats.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
 #include "codec/wavelet/priority_map.hpp"
-#include "encoder/inputs/coded_lines.hpp"
-#include "encoder/plans/plan_notes.hpp"
+#include "encoder/plans/plan.hpp"
+#include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::inline inputs {
+
+// CodedLines is the part of heights, or of an image, that is coded where columns and rows repeat
+// the one before them: the other lines, and the map of repeats (bitstream/stream/line_repeats.hpp).
+// Rasters that were enlarged by copying samples, or warped to the nearest one, have such lines.
+
+/// Heights, or an image, without the lines that repeat others.
+struct CodedLines {
+  LineRepeats repeats;             ///< none: it does not pay
+  std::vector<std::byte> samples;  ///< of the lines that are coded
+  Extent extent = {0, 0};          ///< of these
+  /// A coded sample counts as often as it is shown. This is the weight of the sample that is shown
+  /// most often, divided by the mean weight: the mean squared error of all samples is at most as
+  /// many times that of the coded ones.
+  double heaviest = 1;
+  /// `heaviest` up to which a PSNR is met on coded samples. A larger number drops lines of more
+  /// files, and asks coded samples for an error that much smaller.
+  static constexpr double kNearlyAlike = 1.1;
+  std::vector<uint32_t> shown_by;  ///< how many samples each coded one stands for
+
+  /// The coded part of `whole`. Its data is `samples`, which outlives the result.
+  tks_heights of(const tks_heights& whole) const;
+  tks_image of(const tks_image& whole) const;
+};
+
+// EncodeInputs is the input of one encoding (heights, image, options, priorities), with the lines
+// of both components that are coded, and the place for notes of what is weighed. The functions
+// derive from it what both components need alike.
 
 /// The coefficients that come earlier in each component; empty maps: none do.
 struct ViewPriorities {
@@ -94,5 +122,37 @@ uint64_t limitOf(const EncodeInputs& inputs);
 
 /// The mean squared error that is a PSNR in dB. peak: the range that it refers to.
 double worstMeanSquare(double peak, double psnr);
+
+// chooseRegions() decides whether a component is coded in regions (bitstream/track/track.hpp),
+// and how large they are, from its size and the caller's options.
+
+/// The largest number of heights in one region; more lie in several regions unless the caller says
+/// otherwise. A larger number saves more planes the bytes that regions cost, and their windows take
+/// the whole plane.
+inline constexpr uint64_t kOneRegionHeights = 1025 * 1025;
+
+struct RegionChoice {
+  int side_log2 = 0;     ///< 0: one region
+  bool windows = false;  ///< the stream is made to be read by windows of it
+};
+
+/// large: planes of the size of this one are coded in regions unless the caller says otherwise; for
+/// windows all planes are.
+RegionChoice chooseRegions(const tks_encode_options& options, Extent plane, bool large);
+
+// findRepeatedLines() finds the columns and rows of heights, or of an image, that repeat the one
+// before them. They are left out before anything else looks at the samples, so that every target
+// profits from the smaller grid; decoders copy them at the end.
+
+/// Samples of `sample_bytes` bytes each, row by row; of an image these are texels.
+struct SampleGrid {
+  const void* data;
+  Extent extent;
+  size_t sample_bytes;
+};
+
+/// The lines to code in an encoding. All lines are coded for a judge of pictures, who takes whole
+/// inputs, and for budgets of which the map of lines would take too much.
+CodedLines linesThatPay(const tks_encode_options& options, const SampleGrid& grid, uint32_t least);
 
 }  // namespace tetrakis::inline inputs

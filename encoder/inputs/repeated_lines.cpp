@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/inputs/repeated_lines.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -8,10 +8,30 @@
 #include <utility>
 #include <vector>
 
-#include "codec/lines/line_repeats_encoder.hpp"
-#include "encoder/inputs/region_choice.hpp"
+#include "codec/ground/camera.hpp"
+#include "codec/lines/shown_lines.hpp"
 
 namespace tetrakis::inline inputs {
+
+tks_heights CodedLines::of(const tks_heights& whole) const {
+  tks_heights coded = whole;
+  coded.width = extent.width;
+  coded.height = extent.height;
+  coded.data = samples.data();
+  const GroundFrame frame =
+      knownFrame({whole.width, whole.height, whole.spacing_x, whole.spacing_y, 1});
+  coded.spacing_x = frame.spacing_x * whole.width / extent.width;
+  coded.spacing_y = frame.spacing_y * whole.height / extent.height;
+  return coded;
+}
+
+tks_image CodedLines::of(const tks_image& whole) const {
+  tks_image coded = whole;
+  coded.width = extent.width;
+  coded.height = extent.height;
+  coded.data = samples.data();
+  return coded;
+}
 
 namespace {
 
@@ -119,8 +139,10 @@ EvenLines evened(std::vector<uint8_t> repeated, uint32_t least) {
   return {std::move(repeated), most};
 }
 
-}  // namespace
-
+/// The lines to code; none where all are. Lines count as repeated where runs of them are about as
+/// long everywhere, so that all coded samples count alike: a sea in the first hundred rows is no
+/// reason to code only one of these rows. least: how many columns, and how many rows, are coded at
+/// least where there are as many.
 CodedLines findRepeatedLines(const SampleGrid& grid, uint32_t least) {
   assert(grid.extent.samples() > 0 && least > 0);
   const SampleBytes samples(grid);
@@ -145,6 +167,8 @@ CodedLines findRepeatedLines(const SampleGrid& grid, uint32_t least) {
   lines.repeats = encodeRepeats(std::move(columns), std::move(rows));
   return lines;
 }
+
+}  // namespace
 
 CodedLines linesThatPay(const tks_encode_options& options, const SampleGrid& grid, uint32_t least) {
   if (options.picture_error != nullptr) return {};

@@ -4,15 +4,69 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <string>
 
-#include "bitstream/stream/checksum.hpp"
 #include "bitstream/stream/header.hpp"
-#include "encoder/selection/selection_notes.hpp"
-#include "encoder/selection/stated_place.hpp"
-#include "ratecontrol/needs/packet_budget.hpp"
+#include "encoder/heights/coded_heights.hpp"
+#include "encoder/textures/coded_texture.hpp"
+#include "ratecontrol/needs/needs.hpp"
 
 namespace tetrakis::inline selection {
+
+namespace {
+
+std::string textOf(const char* text) {
+  return text != nullptr ? text : "";
+}
+
+template <class T>
+Placement placementOf(const T& raster) {
+  Placement placement;
+  placement.has_transform = raster.has_geotransform != 0;
+  if (placement.has_transform)
+    std::copy_n(raster.geotransform, placement.transform.size(), placement.transform.begin());
+  placement.registration = static_cast<uint8_t>(raster.registration);
+  placement.geo_keys = textOf(raster.geo_keys);
+  return placement;
+}
+
+/// Either may be null. A texture in the reference system of the heights has none of its own.
+Georeference georeferenceOf(const tks_heights* heights, const tks_image* image) {
+  Georeference out;
+  if (heights != nullptr) {
+    out.heights = placementOf(*heights);
+    out.description = textOf(heights->description);
+    out.nan_nodata = heights->has_nodata && std::isnan(heights->nodata);
+  }
+  if (image == nullptr) return out;
+  out.texture = placementOf(*image);
+  out.texture_crs = textOf(image->crs);
+  const bool shared = heights != nullptr && out.texture.has_transform &&
+                      out.texture_crs == textOf(heights->crs) &&
+                      out.texture.geo_keys == out.heights.geo_keys;
+  if (shared) {
+    out.texture_crs.clear();
+    out.texture.geo_keys.clear();
+  }
+  return out;
+}
+
+/// Notes the components of a stream that holds so many bytes of the packets.
+void noteTaken(const EncodeInputs& inputs, const Selection& taken, uint64_t payload_bytes) {
+  const auto sent = payloadWithin(taken.packets, payload_bytes);
+  if (taken.heights) note(inputs, *taken.heights, Verdict::kTaken, sent[0]);
+  if (taken.texture) note(inputs, *taken.texture, Verdict::kTaken, sent[1]);
+}
+
+}  // namespace
+
+void noteOthers(const EncodeInputs& inputs, const Selection& better, const Selection& lost) {
+  if (lost.heights && lost.heights != better.heights)
+    note(inputs, *lost.heights, Verdict::kWorseInBudget);
+  if (lost.texture && lost.texture != better.texture)
+    note(inputs, *lost.texture, Verdict::kWorseInBudget);
+}
 
 namespace {
 

@@ -1,16 +1,51 @@
 // SPDX-License-Identifier: Apache-2.0
-// writeStream() writes the finished stream of a selection: the header, its index, and the packets
-// that fit the budget. It notes the plans of what it has written as taken.
+// The selected packets as a stream, with notes on them and the place that its header states.
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
-#include "base/status.hpp"
+#include "bitstream/stream/georeference.hpp"
+#include "bitstream/stream/packet.hpp"
+#include "encoder/heights/coded_heights.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
-#include "encoder/selection/selection.hpp"
+#include "encoder/textures/coded_texture.hpp"
+#include "tetrakis/result.hpp"
+#include "tetrakis/tetrakis.h"
 
 namespace tetrakis::inline selection {
+
+// georeferenceOf() and positionsOf() make the part of the header that says where heights and
+// texture lie, from the places that the caller gives. A texture over the same ground takes one
+// byte.
+
+/// The positions of heights or of an image, which may be null; "" if it has none.
+template <class Raster>
+std::string positionsOf(const Raster* raster) {
+  if (raster == nullptr || raster->positions == nullptr) return {};
+  return {reinterpret_cast<const char*>(raster->positions), raster->positions_size};
+}
+
+// A Selection is the content of a stream before it is written: both coded components, and the
+// packets of both in one order.
+
+struct Selection {
+  std::shared_ptr<const CodedHeights> heights;  ///< null: there are none
+  std::shared_ptr<const CodedTexture> texture;  ///< null: there is none
+  std::vector<Packet> packets;
+};
+
+// noteTaken() and noteOthers() tell the notes of an encoding which components were taken, and which
+// were left for these.
+
+/// Notes the components of a selection that lost within the budget, but for those that the better
+/// one holds as well.
+void noteOthers(const EncodeInputs& inputs, const Selection& better, const Selection& lost);
+
+// writeStream() writes the finished stream of a selection: the header, its index, and the packets
+// that fit the budget. It notes the plans of what it has written as taken.
 
 /// How many bytes the header of a stream of these packets takes if the stream is not lossless.
 uint64_t headerBytesOf(const EncodeInputs& inputs, const Selection& selection);

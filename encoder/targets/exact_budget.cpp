@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/targets/exact_budget.hpp"
+#include "encoder/targets/targets.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,14 +10,11 @@
 #include <vector>
 
 #include "base/portable_math.hpp"
-#include "encoder/heights/ways/restored_heights.hpp"
+#include "encoder/heights/ways/ways.hpp"
 #include "encoder/selection/write_stream.hpp"
-#include "encoder/targets/exact_candidates.hpp"
-#include "encoder/targets/other_exact_heights.hpp"
-#include "encoder/views/errors_of_prefixes.hpp"
+#include "encoder/views/pairs.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
-#include "ratecontrol/needs/needed_bytes.hpp"
-#include "ratecontrol/needs/packet_budget.hpp"
+#include "ratecontrol/needs/needs.hpp"
 
 namespace tetrakis::inline targets {
 
@@ -184,7 +181,7 @@ std::optional<Selection> exactHeightsIfTheyPay(const EncodeInputs& inputs, const
 std::optional<Selection> exactWithinBudget(const EncodeInputs& inputs, const Candidates& lossy,
                                            const Selection& selection) {
   assert(inputs.budgeted());
-  FewValues of_few = fewValues(inputs, lossy.heights);
+  HeightsOfFewValues of_few = fewValues(inputs, lossy.heights);
   std::optional<HeightsCandidate> few;
   if (of_few.fit) few = of_few.heights;
   const ByNeighbours neighbours(lossy.heights, inputs.options.bytes);

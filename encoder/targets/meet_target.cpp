@@ -1,29 +1,80 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/targets/meet_target.hpp"
+// The packets that meet a target, or that are worth as much as a bound.
+#include "encoder/targets/targets.hpp"
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "encoder/heights/heights_notes.hpp"
-#include "encoder/heights/ways/exact_heights.hpp"
-#include "encoder/selection/selection_notes.hpp"
+#include "base/portable_math.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
+#include "encoder/heights/coded_heights.hpp"
+#include "encoder/heights/ways/ways.hpp"
 #include "encoder/selection/write_stream.hpp"
-#include "encoder/targets/beside_bound.hpp"
-#include "encoder/targets/candidates.hpp"
-#include "encoder/targets/component_curves.hpp"
-#include "encoder/targets/exact_budget.hpp"
-#include "encoder/targets/heights_need.hpp"
-#include "encoder/textures/texture_notes.hpp"
+#include "encoder/textures/coded_texture.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
-#include "ratecontrol/needs/needed_bytes.hpp"
-#include "ratecontrol/needs/packet_budget.hpp"
+#include "ratecontrol/needs/needs.hpp"
 
 namespace tetrakis::inline targets {
 
+// The slopes at the end of heights that were coded for a bound tell little: the last bits of a
+// coarse step, and corrections, take hardly anything off the squared error, and heights that vary
+// less than the bound take no bytes at all. So the packets are put in the order of heights coded
+// for as good a PSNR, whose slopes fall steadily as their error does.
+
 namespace {
+
+constexpr double kLeastPsnr = 0.1, kMostPsnr = 300;  // dB; 0 is no target
+/// Heights beside a bound are coded for this PSNR at least, in dB, so that there are packets to
+/// order. A larger number takes time; with a smaller one a coarse bound leaves packets too few.
+constexpr double kOrderedPsnr = 30;
+
+/// The PSNR of heights. Exact samples are as good as errors spread evenly within half of the step
+/// that all of them are multiples of.
+double psnrOf(const EncodeInputs& inputs, const CodedHeights& heights) {
+  const HeightSteps& steps = heights.quantised->steps;
+  const double least = steps.exact ? steps.step * steps.step / 12 : 0;
+  const double squares =
+      sampleErrorsOf(heights, codewordsOf(heights.tracks), inputs.options.threads).mean_square;
+  const SampleRange range = rangeOf(*inputs.heights, steps.valid);
+  const double peak = range.high - range.low;
+  const double psnr = 10 * portable::log10(peak * peak / std::max(squares, least));
+  return peak > 0 ? std::clamp(psnr, kLeastPsnr, kMostPsnr) : kLeastPsnr;
+}
+
+/// Codes the heights for a PSNR of at least kOrderedPsnr, so that there are packets to order; null
+/// where the step that the caller gave is too coarse for this PSNR.
+std::shared_ptr<const CodedHeights> codeForPsnr(const EncodeInputs& inputs,
+                                                tks_encode_options options) {
+  options.psnr = std::max(options.psnr, kOrderedPsnr);
+  const EncodeInputs to_psnr = inputs.with(options, inputs.priorities);
+  const Result<std::shared_ptr<const QuantisedHeights>> quantised = quantiseHeights(to_psnr);
+  return quantised.ok() ? codeHeightsForTarget(to_psnr, *quantised) : nullptr;
+}
+
+// textureBesideBound() decides how many bytes a texture gets beside heights that keep a largest
+// error. The caller gives no size for the texture, so it gets the packets that are worth as much as
+// the bytes that bring the heights within their bound.
+
+/// The bytes of the texture's packets that are worth as much as the bytes that bring heights within
+/// the largest error; all bytes if heights of one value take none. candidates: heights within that
+/// error, and a texture with a curve.
+uint64_t textureBesideBound(const EncodeInputs& inputs, const Candidates& candidates) {
+  tks_encode_options options = inputs.options;
+  options.max_error = 0;
+  options.psnr = psnrOf(inputs, *candidates.heights.coded);
+  EncodeInputs to_psnr = inputs.with(options, inputs.priorities);
+  to_psnr.notes = nullptr;  // these heights are no candidates
+  const std::shared_ptr<const CodedHeights> heights = codeForPsnr(to_psnr, options);
+  if (!heights) return kAllBytes;
+  const Candidates both = withCurves(to_psnr, {{heights}, candidates.texture});
+  const uint64_t need = heightsNeed(to_psnr, both.heights).value_or(kAllBytes);
+  return sentWith(orderPackets(both).packets, Component::kGeometry, need)[1];
+}
 
 /// The packets that the components need, in their joint order.
 Selection selectNeeded(const EncodeInputs& inputs, const Candidates& candidates) {

@@ -8,14 +8,53 @@
 #include <utility>
 
 #include "base/samples.hpp"
-#include "encoder/textures/texture_notes.hpp"
-#include "encoder/textures/texture_options.hpp"
-#include "ratecontrol/curves/audit.hpp"
-#include "texture_wavelet/drawn/drawn_prefixes.hpp"
-#include "texture_wavelet/stored_texture_encoder.hpp"
-#include "texture_wavelet/texture_choice.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
+#include "ratecontrol/curves/component_curve.hpp"
+#include "texture_wavelet/drawn/drawn_encoder.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
 
 namespace tetrakis::inline textures {
+
+namespace {
+
+/// The largest number of texels in one region. A larger number saves more textures the bytes that
+/// regions cost; their windows then take the whole texture.
+constexpr uint64_t kOneRegionTexels = 2048 * 2048;
+
+// textureOptions() makes the options for coding a texture from the options of an encoding.
+
+/// inputs: with an image, which is `texels`.
+TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) {
+  const tks_encode_options& options = inputs.options;
+  const Extent extent = texels.extent();
+  const RegionChoice regions = chooseRegions(options, extent, extent.samples() > kOneRegionTexels);
+  const ViewPriorities* const priorities = inputs.priorities;
+  const bool some_first = priorities != nullptr && !priorities->texture.empty();
+  const bool to_psnr = options.psnr > 0;
+  const double heaviest = inputs.heaviestTexel();
+  return {.limit = limitOf(inputs),
+          .region_log2 = regions.side_log2,
+          .threads = options.threads,
+          .windows = regions.windows,
+          .visual = options.weights == TKS_WEIGHTS_VISUAL,
+          .room = inputs.budgeted() ? options.bytes : UINT64_MAX,
+          .mean_square = to_psnr ? worstMeanSquare(texels.white(), options.psnr) / heaviest : 0,
+          .priorities = some_first ? &priorities->texture : nullptr};
+}
+
+}  // namespace
+
+CodedLines texelLines(const EncodeInputs& inputs) {
+  if (inputs.image == nullptr) return {};
+  const tks_image& image = *inputs.image;
+  CodedLines lines = linesThatPay(
+      inputs.options,
+      {image.data, {image.width, image.height}, image.channels * tks_sample_bytes(image.sample)},
+      1);
+  if (lines.repeats.none() || inputs.options.psnr == 0) return lines;
+  const bool alpha = image.channels % 2 == 0;
+  return lines.heaviest <= (alpha ? 1 : CodedLines::kNearlyAlike) ? lines : CodedLines();
+}
 
 namespace {
 

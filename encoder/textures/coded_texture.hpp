@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// CodedTexture is a texture as a component of a stream: its tracks, and the header that describes
-// them. The functions here make such values in each way to code a texture, and measure the texels
-// that a decoder makes of a prefix. A value is not changed once it is made.
+// A coded texture: its options, the lines of texels that are coded, and notes on how it was coded.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +7,19 @@
 #include <span>
 #include <vector>
 
+#include "base/samples.hpp"
 #include "bitstream/stream/header.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
-#include "ratecontrol/curves/coded_tracks.hpp"
+#include "encoder/plans/plan.hpp"
+#include "ratecontrol/curves/component_curve.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 #include "texture_wavelet/texture_source.hpp"
 
 namespace tetrakis::inline textures {
+
+// CodedTexture is a texture as a component of a stream: its tracks, and the header that describes
+// them. The functions here make such values in each way to code a texture, and measure the texels
+// that a decoder makes of a prefix. A value is not changed once it is made.
 
 struct CodedTexture {
   std::shared_ptr<const TextureSource> source;
@@ -65,5 +69,30 @@ TextureMemory memoryFor(const CodedTexture& texture);
 
 /// Whether the prefix reaches the PSNR of the options.
 bool reachesPsnr(const EncodeInputs& inputs, const CodedTexture& texture, const Codewords& prefix);
+
+// texelLines() finds the columns and rows of the input image that repeat the one before them, so
+// that only the other lines are coded (encoder/inputs/encode_inputs.hpp).
+
+/// The lines of the image to code; none where all are. A PSNR counts all texels, so for a PSNR all
+/// lines are coded if runs differ clearly in length, or beside an alpha, where nobody knows by how
+/// much a run counts.
+CodedLines texelLines(const EncodeInputs& inputs);
+
+// planOf() reads the plan of a texture from its header. note(), notePassed() and the others
+// tell the notes of an encoding, if somebody asked for them, of textures that were weighed.
+
+/// header: with filters, if it is that of coded coefficients.
+Plan planOf(const TextureHeader& header);
+
+/// Notes a texture that was coded. need: bytes of its tracks that the target needs, at most.
+void note(const EncodeInputs& inputs, const CodedTexture& coded, Verdict verdict,
+          uint64_t need = UINT64_MAX);
+
+/// Notes what encodeTexture() has passed over.
+void notePassed(const EncodeInputs& inputs, const TextureSource& source,
+                const PassedTextures& passed);
+
+/// Notes that storing the samples is expected to take so many bytes, which are too many.
+void noteStoredExpected(const EncodeInputs& inputs, uint64_t bytes);
 
 }  // namespace tetrakis::inline textures

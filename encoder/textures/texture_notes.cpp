@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/textures/texture_notes.hpp"
+#include "encoder/textures/coded_texture.hpp"
 
 #include <algorithm>
 #include <cmath>

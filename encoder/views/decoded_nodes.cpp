@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "codec/geometry/steps/height_samples.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
 #include "encoder/views/view_inputs.hpp"
 
 namespace tetrakis::inline views {

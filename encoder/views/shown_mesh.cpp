@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/views/shown_mesh.hpp"
+#include "encoder/views/decoded_nodes.hpp"
 
 #include <array>
 #include <cassert>
@@ -9,11 +9,10 @@
 #include <utility>
 
 #include "base/portable_math.hpp"
-#include "base/white_level.hpp"
-#include "codec/mesh/budget_mesh.hpp"
-#include "codec/mesh/screen/screen_weights.hpp"
-#include "codec/mesh/screen_mesh.hpp"
-#include "codec/mesh/topology/triangle_samples.hpp"
+#include "base/samples.hpp"
+#include "codec/mesh/meshes.hpp"
+#include "codec/mesh/screen/surface_picture.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 #include "encoder/views/view_inputs.hpp"
 
 namespace tetrakis::inline views {

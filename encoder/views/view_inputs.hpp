@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// frameOf(), reliefOf() and camerasOf() translate the caller's heights and cameras for rate
-// control, which works in metres on the ground.
+// The cameras of an encoder: what they look at, whether they see anything, and the priorities that
+// follow.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "codec/ground/camera.hpp"
-#include "codec/ground/frame.hpp"
+#include "encoder/inputs/encode_inputs.hpp"
 #include "ratecontrol/pictures/ground_rays.hpp"
+#include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::inline views {
+
+// frameOf(), reliefOf() and camerasOf() translate the caller's heights and cameras for rate
+// control, which works in metres on the ground.
 
 /// A unit that is no length counts as metres.
 GroundFrame frameOf(const tks_heights& heights);
@@ -28,5 +32,23 @@ std::vector<Camera> givenCameras(const tks_encode_options& options);
 /// The given cameras, or those of a viewer of whom nothing is known; none if the terrain has no
 /// bounds.
 std::vector<Camera> camerasOf(const tks_encode_options& options, const Bounds& bounds);
+
+// checkCameras() refuses cameras of the options through which nothing can be seen, before any other
+// function looks through them.
+
+/// TKS_USAGE with a sentence that names the camera, if one of the options is none
+/// (checkCamera()), is below the ground, or sees none of it; or if all weights are 0.
+Status checkCameras(const EncodeInputs& inputs);
+
+// prioritiesOf() makes maps of priorities over the ground from the cameras of the options: where an
+// error of the heights or of the texture changes the pictures most, coefficients come first. Some
+// ten thousand points of the pictures tell the cost of errors. A tile of texels where a squared
+// error costs four times as much has one priority more, which is one bit-plane; a tile of heights,
+// where it costs sixteen times as much, because the cost of a typical error does not hold for all
+// errors.
+
+/// The maps have no tiles if there are no cameras, if only one component is coded, or if the target
+/// counts all samples alike (a PSNR, a largest error).
+ViewPriorities prioritiesOf(const EncodeInputs& inputs);
 
 }  // namespace tetrakis::inline views

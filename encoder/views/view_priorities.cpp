@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/views/view_priorities.hpp"
+#include "encoder/views/view_inputs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,9 @@
 #include <utility>
 
 #include "base/portable_math.hpp"
-#include "codec/geometry/quantiser/voids.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
 #include "encoder/textures/coded_texture.hpp"
-#include "encoder/views/view_inputs.hpp"
-#include "ratecontrol/pictures/screen_points.hpp"
+#include "ratecontrol/pictures/picture_errors.hpp"
 
 namespace tetrakis::inline views {
 

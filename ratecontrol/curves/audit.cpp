@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ratecontrol/curves/audit.hpp"
+#include "ratecontrol/curves/component_curve.hpp"
 
 #include <algorithm>
 #include <array>

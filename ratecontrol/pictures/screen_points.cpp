@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ratecontrol/pictures/screen_points.hpp"
+#include "ratecontrol/pictures/picture_errors.hpp"
 
 #include <algorithm>
 #include <array>

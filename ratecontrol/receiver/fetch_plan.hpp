@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// planFetch() names the byte ranges of a stream with a front index that help a view most (thesis
-// 1.2.5: a static source, a dynamic view). The worth of a packet is the slope that the index
-// states, times the cost in the picture of an error in its region, over the mean cost in the
-// pictures that the encoder thought of. Only that quotient passes from the encoder's cameras to the
-// viewer's. The server knows nothing of it: it hands out byte ranges.
+// Which bytes of a stream a receiver should fetch next for what it sees.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -13,11 +10,71 @@
 
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/pieces.hpp"
-#include "ratecontrol/receiver/piece_choice.hpp"
-#include "ratecontrol/receiver/piece_ranges.hpp"
-#include "ratecontrol/receiver/sighting.hpp"
+#include "ratecontrol/receiver/ground_sight.hpp"
+#include "ratecontrol/receiver/placed_packets.hpp"
 
 namespace tetrakis::inline receiver {
+
+// choosePieces() chooses the missing pieces of a stream that are worth their bytes and, if requests
+// cost something, their requests.
+
+/// What a plan may take.
+struct FetchLimits {
+  uint64_t bytes = 0;          ///< of all ranges
+  uint64_t request_bytes = 0;  ///< that come in the time that a request costs beside its own
+};
+
+/// A part of a packet that is missing, or bytes between two of them that are there.
+struct Piece {
+  uint64_t begin = 0, end = 0;
+  PacketWorth worth;
+  bool is_missing = true;
+
+  uint64_t size() const { return end - begin; }
+  bool helps() const { return worth.now > 0; }
+};
+
+/// Numbers of the missing pieces, those first that help most.
+std::vector<uint32_t> rankedPieces(std::span<const Piece> pieces);
+
+/// Bytes of each piece, from its begin on.
+using Choice = std::vector<uint64_t>;
+
+/// order: of rankedPieces().
+Choice choosePieces(std::span<const Piece> pieces, std::span<const uint32_t> order,
+                    const FetchLimits& limits);
+
+// rangesOf() turns chosen pieces into byte ranges to ask for, and joins neighbours.
+
+/// Bytes to fetch, and what one of the first of them takes off the error of the picture beside
+/// other ranges; 0: nothing in this view.
+struct FetchRange {
+  uint64_t begin = 0, end = 0;
+  double gain = 0;
+};
+
+/// A range, and the best place among the pieces of the plan that are in it.
+struct RankedRange {
+  FetchRange range;
+  uint32_t rank = 0;
+
+  void join(const RankedRange& next) {
+    range.end = next.range.end;
+    range.gain = std::max(range.gain, next.range.gain);
+    rank = std::min(rank, next.rank);
+  }
+};
+
+/// Ranges that help go on over bytes that do not, where a request costs more than these. The most
+/// helpful come first.
+std::vector<FetchRange> rangesOf(std::span<const Piece> pieces, std::span<const uint32_t> order,
+                                 const Choice& chosen, uint64_t request_bytes);
+
+// planFetch() names the byte ranges of a stream with a front index that help a view most (thesis
+// 1.2.5: a static source, a dynamic view). The worth of a packet is the slope that the index
+// states, times the cost in the picture of an error in its region, over the mean cost in the
+// pictures that the encoder thought of. Only that quotient passes from the encoder's cameras to the
+// viewer's. The server knows nothing of it: it hands out byte ranges.
 
 /// What is not there of the bytes from a place on, up to another one, in their order.
 using Missing = std::function<std::vector<ByteRange>(uint64_t begin, uint64_t end)>;

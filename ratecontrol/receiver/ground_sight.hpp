@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sightOf() tells from coarse heights the cost of an error of the ground at each point in one
-// picture (thesis 6.1): how many pixels show the ground around the point, and how far a height
-// error moves it on the screen. Both come from derivatives of the camera's matrix, which knows
-// neither metres nor angles.
+// What a camera sees of the ground.
 #pragma once
 
 #include <array>
@@ -10,6 +7,11 @@
 #include <vector>
 
 namespace tetrakis::inline receiver {
+
+// sightOf() tells from coarse heights the cost of an error of the ground at each point in one
+// picture (thesis 6.1): how many pixels show the ground around the point, and how far a height
+// error moves it on the screen. Both come from derivatives of the camera's matrix, which knows
+// neither metres nor angles.
 
 /// Heights at every `step`-th column and row of a grid, none of them NaN, in the matrix's unit.
 struct CoarseGround {
@@ -37,5 +39,21 @@ std::vector<GroundPoint> sightOf(const CoarseGround& ground, const Eye& eye);
 /// middle column looked that way. aspect: the spacing of columns over that of rows. Nothing
 /// is seen without an eye.
 std::vector<GroundPoint> sightAround(const CoarseGround& ground, const Eye& eye, double aspect);
+
+// A Sighting tells how the picture of a viewer, now or later, shows each point of the ground, so
+// that a receiver can say which bytes improve it.
+
+/// What a receiver looks at. Without points all ground counts alike.
+struct Sighting {
+  uint32_t columns = 0, rows = 0;  ///< of the points, which lie over all of the ground
+  std::vector<GroundPoint> points;
+  uint32_t triangles = 0;  ///< that meshes will have; 0: any number
+};
+
+/// What some viewer sees, and how much that counts.
+struct WeightedSighting {
+  Sighting sighting;
+  double weight = 1;
+};
 
 }  // namespace tetrakis::inline receiver

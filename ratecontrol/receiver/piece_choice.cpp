@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ratecontrol/receiver/piece_choice.hpp"
+#include "ratecontrol/receiver/fetch_plan.hpp"
 
 #include <algorithm>
 #include <limits>

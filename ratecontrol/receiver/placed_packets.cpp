@@ -6,10 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "bitstream/stream/correction_tracks.hpp"
-#include "bitstream/stream/indexed_packets.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/scattered_packets.hpp"
-#include "ratecontrol/receiver/track_costs.hpp"
 
 namespace tetrakis::inline receiver {
 

@@ -1,19 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
-// placedPackets() lists the packets of a front index, each with its place in the stream and with
-// the worth of one of its bytes to the viewers.
+// The packets of a stream by their tracks and places, and what their bytes are worth to a viewer.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
 
-#include "base/status.hpp"
 #include "bitstream/stream/header.hpp"
-#include "ratecontrol/receiver/sighting.hpp"
+#include "ratecontrol/receiver/ground_sight.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::inline receiver {
+
+// TrackCosts gives the cost of an error of each track in the picture of a sighting, divided by its
+// mean cost in the pictures that the encoder looked at. It counts how many pixels a sample of the
+// track's region covers, how far a height error moves it, and which of the region's levels the
+// picture shows.
+
+class TrackCosts {
+ public:
+  TrackCosts(const StreamHeader& header, const Sighting& sighting);
+
+  /// Whether there is such a track.
+  bool holds(const PacketHead& packet) const { return packet.track < of(packet).size(); }
+  double at(const PacketHead& packet) const { return of(packet)[packet.track]; }
+
+ private:
+  const std::vector<double>& of(const PacketHead& packet) const {
+    return costs_[static_cast<size_t>(packet.component)];
+  }
+
+  std::array<std::vector<double>, kRoles> costs_;
+};
+
+// placedPackets() lists the packets of a front index, each with its place in the stream and with
+// the worth of one of its bytes to the viewers.
 
 constexpr double kOpening = std::numeric_limits<double>::infinity();
 

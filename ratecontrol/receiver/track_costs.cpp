@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ratecontrol/receiver/track_costs.hpp"
+#include "ratecontrol/receiver/placed_packets.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "base/length_unit.hpp"
-#include "bitstream/stream/correction_tracks.hpp"
-#include "bitstream/track/regions.hpp"
-#include "codec/ground/frame.hpp"
+#include "base/coordinates.hpp"
+#include "bitstream/stream/geometry_header.hpp"
+#include "bitstream/track/track.hpp"
+#include "codec/ground/camera.hpp"
 
 namespace tetrakis::inline receiver {
 
@@ -41,7 +41,7 @@ struct UsualView {
   double sine;    ///< of the angle between the lines of sight and the horizon
 };
 
-/// From afar, from near and from above (unknownViewer() in codec/ground/preset_cameras.hpp).
+/// From afar, from near and from above (unknownViewer() in codec/ground/camera.hpp).
 constexpr std::array<UsualView, 3> kUsualViews = {{{1, 0.5, 0.574}, {0.1, 0.8, 0.2}, {1, 0.67, 1}}};
 
 /// The mean point of the ground that the view shows.

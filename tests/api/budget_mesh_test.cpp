@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "codec/mesh/fitted_heights.hpp"
-#include "codec/mesh/topology/triangle_samples.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/stream_fixture.hpp"
 

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <string>
 
-#include "bitstream/stream/correction_tracks.hpp"
-#include "bitstream/stream/indexed_packets.hpp"
+#include "bitstream/stream/geometry_header.hpp"
+#include "bitstream/stream/scattered_packets.hpp"
 #include "conformance/samples/offset_heights.hpp"
 #include "tests/support/indexed_terrain.hpp"
 #include "tests/support/stream_fixture.hpp"

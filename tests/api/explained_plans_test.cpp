@@ -11,7 +11,7 @@
 #include "conformance/samples/few_values.hpp"
 #include "conformance/samples/offset_heights.hpp"
 #include "conformance/samples/patches.hpp"
-#include "encoder/plans/plan_notes.hpp"
+#include "encoder/plans/plan.hpp"
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {

@@ -9,7 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "base/watch.hpp"
-#include "encoder/told_progress.hpp"
+#include "encoder/encode_stream.hpp"
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {

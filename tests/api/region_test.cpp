@@ -8,14 +8,14 @@
 #include <set>
 
 #include "base/parallel.hpp"
-#include "codec/geometry/coefficients_decoder.hpp"
-#include "codec/geometry/coefficients_encoder.hpp"
+#include "codec/geometry/heights_decoder.hpp"
+#include "codec/geometry/heights_encoder.hpp"
 #include "conformance/samples/void_masks.hpp"
-#include "ratecontrol/curves/track_order.hpp"
+#include "ratecontrol/curves/component_curve.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
-#include "texture_wavelet/texture_choice.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
 
 namespace tetrakis::test {
 namespace {

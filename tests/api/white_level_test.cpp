@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/white_level.hpp"
+#include "base/samples.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/stream_fixture.hpp"
 #include "tests/support/texture_agreement.hpp"

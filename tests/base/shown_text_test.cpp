@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/shown_text.hpp"
-#include "base/utf8.hpp"
 
 namespace tetrakis::base {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/zeroed_array.hpp"
 #include "bitstream/coder/adaptive_bit.hpp"
-#include "bitstream/track/hints.hpp"
+#include "bitstream/track/band_models.hpp"
 #include "tests/support/band_shapes.hpp"
 #include "tests/support/random_planes.hpp"
 

@@ -7,7 +7,7 @@
 #include <random>
 #include <span>
 
-#include "bitstream/coder/decision_bound.hpp"
+#include "bitstream/coder/adaptive_bit.hpp"
 #include "bitstream/coder/range_decoder.hpp"
 #include "bitstream/coder/range_encoder.hpp"
 #include "bitstream/stream/fields.hpp"

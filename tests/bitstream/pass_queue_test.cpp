@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order of passes by its properties.
-#include "bitstream/track/pass_queue.hpp"
+#include "bitstream/track/track.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "apps/tools/profile/best_profile.hpp"
-#include "codec/polyline/algorithms.hpp"
+#include "codec/polyline/polylines.hpp"
 
 namespace tetrakis::test {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "tests/cli/cli_fixture.hpp"
 
-#include "base/utf8.hpp"
+#include "base/shown_text.hpp"
 #include "bitstream/stream/header.hpp"
 #include "tetrakis/tetrakis.hpp"
 

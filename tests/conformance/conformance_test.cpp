@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "bitstream/stream/header.hpp"
-#include "codec/wavelet/lifting/lifting_filter.hpp"
+#include "codec/wavelet/lifting/lifting_kernel.hpp"
 #include "conformance/cases/stream_tools.hpp"
 #include "conformance/cases/vector_cases.hpp"
 #include "conformance/digest.hpp"

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "codec/geometry/corrections/exact_corrections_decoder.hpp"
-#include "codec/geometry/corrections/exact_corrections_encoder.hpp"
+#include "codec/geometry/corrections/corrections_decoder.hpp"
+#include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "conformance/reference_decoder/layers.hpp"
 
 namespace tetrakis::test {

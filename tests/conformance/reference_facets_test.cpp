@@ -11,9 +11,9 @@
 #include <span>
 #include <vector>
 
-#include "codec/geometry/facets/facets_decoder.hpp"
+#include "codec/geometry/facets/facet_coder.hpp"
 #include "codec/geometry/facets/facets_encoder.hpp"
-#include "codec/geometry/steps/height_samples.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
 #include "conformance/reference_decoder/facets.hpp"
 #include "conformance/reference_decoder/samples.hpp"
 #include "conformance/samples/facets.hpp"

@@ -8,9 +8,7 @@
 #include <utility>
 
 #include "ratecontrol/allocation/allocation.hpp"
-#include "ratecontrol/allocation/corrected_errors.hpp"
-#include "ratecontrol/allocation/pair_errors.hpp"
-#include "ratecontrol/curves/hull.hpp"
+#include "ratecontrol/curves/component_curve.hpp"
 #include "tests/support/rate_curves.hpp"
 
 namespace tetrakis {

@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "conformance/samples/terrain_samples.hpp"
-#include "ratecontrol/curves/audit.hpp"
 #include "ratecontrol/curves/component_curve.hpp"
-#include "ratecontrol/curves/hull.hpp"
-#include "ratecontrol/needs/needed_bytes.hpp"
+#include "ratecontrol/needs/needs.hpp"
 #include "tests/support/rate_curves.hpp"
 
 namespace tetrakis {

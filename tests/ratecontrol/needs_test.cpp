@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What meets a target: searches over packets, needs, budgets.
-#include "ratecontrol/needs/needed_bytes.hpp"
+#include "ratecontrol/needs/needs.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <iterator>
 #include <random>
-
-#include "ratecontrol/needs/packet_budget.hpp"
 
 namespace tetrakis {
 namespace {

@@ -8,8 +8,7 @@
 
 #include "conformance/samples/terrain_samples.hpp"
 #include "ratecontrol/pictures/ground_rays.hpp"
-#include "ratecontrol/pictures/outlines.hpp"
-#include "ratecontrol/pictures/screen_points.hpp"
+#include "ratecontrol/pictures/picture_errors.hpp"
 
 namespace tetrakis {
 namespace {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "codec/mesh/surface/surface_view.hpp"
+#include "codec/mesh/surface/surface.hpp"
 #include "codec/mesh/topology/lattice_mesh.hpp"
 
 namespace tetrakis::checks {

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "base/texels.hpp"
+#include "base/samples.hpp"
 
 namespace tetrakis {
 

@@ -7,7 +7,6 @@
 
 #include "conformance/samples/terrain_samples.hpp"
 #include "texture_wavelet/tables/channel_tables_encoder.hpp"
-#include "texture_wavelet/tables/few_values.hpp"
 
 namespace tetrakis::test {
 namespace {

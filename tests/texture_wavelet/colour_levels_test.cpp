@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "tests/support/random_planes.hpp"
+#include "texture_wavelet/colour/colour.hpp"
 #include "texture_wavelet/colour/colour_fit.hpp"
-#include "texture_wavelet/colour/colour_levels.hpp"
-#include "texture_wavelet/texture_choice.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
 
 namespace tetrakis::test {
 namespace {

@@ -9,9 +9,7 @@
 #include "bitstream/stream/fields.hpp"
 #include "tests/support/texel_errors.hpp"
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
-#include "texture_wavelet/drawn/drawn_prefixes.hpp"
-#include "texture_wavelet/mask/overlay.hpp"
-#include "texture_wavelet/texture_choice.hpp"
+#include "texture_wavelet/mask/mask.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 #include "texture_wavelet/texture_encoder.hpp"
 

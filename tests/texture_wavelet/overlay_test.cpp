@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Overlays: what is taken for one, that it is exact, and that the image below loses nothing.
-#include "texture_wavelet/mask/overlay.hpp"
+#include "texture_wavelet/mask/mask.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "texture_wavelet/texture_choice.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
 
 namespace tetrakis {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bridges over texels that are hidden or drawn over: only bytes depend on what stands there.
-#include "texture_wavelet/texture_bridges.hpp"
+#include "texture_wavelet/colour_planes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "conformance/samples/void_masks.hpp"
-#include "texture_wavelet/mask/overlay.hpp"
+#include "texture_wavelet/mask/mask.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 #include "texture_wavelet/texture_encoder.hpp"
 

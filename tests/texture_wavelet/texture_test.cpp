@@ -7,8 +7,8 @@
 #include <random>
 
 #include "tests/support/texel_errors.hpp"
-#include "texture_wavelet/texture_choice.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
 
 namespace tetrakis {
 namespace {

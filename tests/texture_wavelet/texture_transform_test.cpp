@@ -11,7 +11,6 @@
 #include "tests/support/random_planes.hpp"
 #include "texture_wavelet/colour/colour.hpp"
 #include "texture_wavelet/colour/colour_fit.hpp"
-#include "texture_wavelet/colour/lossless_colour.hpp"
 
 namespace tetrakis::test {
 namespace {

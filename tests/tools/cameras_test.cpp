@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Preset cameras, and cameras that files describe.
-#include "codec/ground/preset_cameras.hpp"
+#include "codec/ground/camera.hpp"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 
 #include "apps/tools/files/place/ground_positions.hpp"
 #include "apps/tools/files/place/proj_objects.hpp"
-#include "bitstream/stream/ground_positions.hpp"
+#include "bitstream/stream/georeference.hpp"
 
 namespace tetrakis::tools {
 namespace {

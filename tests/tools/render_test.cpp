@@ -14,7 +14,7 @@
 #include <string>
 
 #include "apps/tools/render/texture_pyramid.hpp"
-#include "codec/ground/preset_cameras.hpp"
+#include "codec/ground/camera.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "base/length_unit.hpp"
+#include "base/coordinates.hpp"
 
 namespace tetrakis::tools {
 namespace {

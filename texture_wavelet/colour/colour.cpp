@@ -3,11 +3,13 @@
 #include "texture_wavelet/colour/colour.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <type_traits>
 
 namespace tetrakis::inline colour {
+
 namespace {
 
 /// What one shear does: the plane it changes and the two it reads.
@@ -198,6 +200,34 @@ std::array<double, 3> furtherEnergies(const ColourTransform& transform, size_t p
     energies[i] = std::pow(change / (1 << kShearFractionBits), 2);
   }
   return energies;
+}
+
+void forwardColourLevels(const ColourTransform& transform, const Pyramid& pyramid,
+                         std::span<int32_t* const> planes) {
+  if (planes.size() < 3) return;
+  for (const Subband& subband : pyramid.subbands()) {
+    for (uint32_t row = 0; row < subband.height; ++row) {
+      const size_t first = pyramid.indexOf(subband, row);
+      const std::array<int32_t*, 3> rows = {planes[0] + first, planes[1] + first,
+                                            planes[2] + first};
+      forwardLevelColour(transform, subband.level, rows, subband.width);
+    }
+  }
+}
+
+void inverseColourLevels(const ColourTransform& transform, const Pyramid& pyramid,
+                         std::span<ViewSynthesis> planes) {
+  if (planes.size() < 3) return;
+  for (const Subband& subband : pyramid.subbands()) {
+    const uint32_t count = planes.front().rows(subband);
+    for (uint32_t row = 0; row < count; ++row) {
+      const std::span<int32_t> first = planes[0].row(subband, row);
+      const std::array<int32_t*, 3> rows = {first.data(), planes[1].row(subband, row).data(),
+                                            planes[2].row(subband, row).data()};
+      assert(planes[1].row(subband, row).size() == first.size());
+      inverseLevelColour(transform, subband.level, rows, first.size());
+    }
+  }
 }
 
 }  // namespace tetrakis::inline colour

@@ -25,6 +25,8 @@
 #include <span>
 #include <vector>
 
+#include "codec/wavelet/synthesis/view_synthesis.hpp"
+
 namespace tetrakis::inline colour {
 
 inline constexpr int kShearFractionBits = 7;
@@ -89,5 +91,20 @@ std::array<double, 3> planeEnergies(const ColourTransform& transform, int level 
 
 /// Squared error of the last of `planes` channels for a unit squared error in each plane before it.
 std::array<double, 3> furtherEnergies(const ColourTransform& transform, size_t planes, int level);
+
+// forwardColourLevels() and inverseColourLevels() turn the colour planes of each level by the
+// shears of that level. Photographs out of a camera or a JPEG file have grey details, because
+// chroma was sampled or kept at half the resolution, while their coarse shapes follow the colours
+// of the ground: one rotation cannot suit both.
+
+/// Turns the colour planes of every level, in place. planes: the coefficients of 3 or more
+/// transformed planes of that pyramid. Fewer planes are left alone.
+void forwardColourLevels(const ColourTransform& transform, const Pyramid& pyramid,
+                         std::span<int32_t* const> planes);
+
+/// Turns them back, as far as views of the planes need them. planes: 3 or more of one view of that
+/// pyramid, of which every coefficient is put. Fewer are left alone.
+void inverseColourLevels(const ColourTransform& transform, const Pyramid& pyramid,
+                         std::span<ViewSynthesis> planes);
 
 }  // namespace tetrakis::inline colour

@@ -4,16 +4,13 @@
 // Daubechies et al., Iteratively reweighted least squares, 2010). A further colour that follows the
 // others repeats their errors, which makes these dearer by its share in their energies; so lossy
 // coding takes the part of the way along that direction where all planes together are cheapest.
-#include "texture_wavelet/colour/further_colour_fit.hpp"
+#include "texture_wavelet/colour/colour_fit.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
-
-#include "texture_wavelet/colour/colour_axes.hpp"
-#include "texture_wavelet/colour/colour_details.hpp"
 
 namespace tetrakis::inline colour {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "texture_wavelet/colour/lossless_colour.hpp"
+#include "texture_wavelet/colour/colour_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,7 @@
 #include <vector>
 
 #include "base/portable_math.hpp"
-#include "codec/wavelet/choice/typical_parts.hpp"
-#include "texture_wavelet/colour/colour_axes.hpp"
-#include "texture_wavelet/colour/colour_fit.hpp"
-#include "texture_wavelet/colour/colour_level_fit.hpp"
+#include "codec/wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline colour {
 

@@ -1,17 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "texture_wavelet/drawn/drawn_encoder.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "codec/drawing/drawing_encoding.hpp"
-#include "codec/drawing/drawing_estimate.hpp"
 #include "codec/drawing/drawing_pass.hpp"
-#include "texture_wavelet/drawn/drawn_error.hpp"
-#include "texture_wavelet/drawn/drawn_fill.hpp"
+#include "codec/drawing/drawing_prefixes.hpp"
+#include "texture_wavelet/drawn/drawn_decoder.hpp"
+#include "texture_wavelet/drawn/drawn_interpolation.hpp"
 
 namespace tetrakis::inline drawn {
+
+namespace {
+
+/// Fills the unknown texels and returns their squared error.
+template <size_t kChannels>
+uint64_t squaresOfUnknown(std::span<const Level> levels, std::span<const KeptIndex> indices,
+                          const Texels& original, Texels& shown) {
+  const DrawnColour grey = greyOf(shown);
+  const uint16_t *const truth = original.samples.data(), *const seen = shown.samples.data();
+  uint64_t squares = 0;
+  const auto known = [indices](size_t texel) { return indices[texel] != kNoIndex; };
+  const auto filled = [truth, seen, &squares](size_t texel) {
+    for (size_t k = texel * kChannels; k < (texel + 1) * kChannels; ++k) {
+      const auto off = static_cast<uint32_t>(int32_t{truth[k]} - seen[k]);
+      squares += off * off;
+    }
+  };
+  const DrawnPart whole{shown.extent(), {0, 0, shown.width, shown.height}, shown.samples.data()};
+  for (const Level& level : levels) Interpolation<kChannels>(level, grey, whole).run(known, filled);
+  return squares;
+}
+
+}  // namespace
+
+double DrawnError::squares(std::span<const KeptIndex> indices) {
+  std::copy(original_.samples.begin(), original_.samples.end(), shown_.samples.begin());
+  uint64_t squares = 0;
+  withChannels(original_.channels, [&]<size_t kChannels>() {
+    squares = squaresOfUnknown<kChannels>(levels_, indices, original_, shown_);
+  });
+  return static_cast<double>(squares);
+}
 
 namespace {
 
@@ -112,6 +149,43 @@ std::vector<uint8_t> encodeOverlay(const Texels& texels, Mask photograph) {
   ColourEncoding io(*image, colours.size(), {});
   draw(texels, indices, colours, io);
   return io.finish();
+}
+
+namespace {
+
+using ColourPrefixes = DrawingPrefixes<DrawnColours, DrawnColour>;
+
+std::shared_ptr<ColourPrefixes> prefixesOf(const TextureHeader& header,
+                                           std::span<const uint8_t> codeword,
+                                           DrawnColours colours) {
+  const std::vector<Level> levels = levelsOf(header.width, header.height);
+  return std::make_shared<ColourPrefixes>(codeword, header.extent(), nullptr, levels,
+                                          std::move(colours));
+}
+
+}  // namespace
+
+std::function<Texels(uint64_t bytes)> prefixesOfDrawing(const TextureHeader& header,
+                                                        std::span<const uint8_t> codeword) {
+  Texels format = formatOf(header);
+  const auto prefixes = prefixesOf(header, codeword, DrawnColours(format));
+  format.samples.resize(header.extent().samples() * header.channels);
+  return [prefixes, texels = std::move(format),
+          levels = levelsOf(header.width, header.height)](uint64_t bytes) mutable {
+    fillDrawn(levels, prefixes->indicesAfter(bytes), prefixes->list(), texels);
+    return texels;
+  };
+}
+
+std::function<DrawnOverlay(uint64_t bytes)> prefixesOfOverlay(const TextureHeader& header,
+                                                              std::span<const uint8_t> codeword) {
+  const auto prefixes = prefixesOf(header, codeword, overlayColours(formatOf(header)));
+  return [prefixes](uint64_t bytes) {
+    const std::span<const KeptIndex> known = prefixes->indicesAfter(bytes);
+    DrawnOverlay overlay{ZeroedArray<KeptIndex>(known.size()), 1, prefixes->list()};
+    std::copy(known.begin(), known.end(), overlay.indices.begin());
+    return overlay;
+  };
 }
 
 }  // namespace tetrakis::inline drawn

@@ -10,8 +10,7 @@
 
 #include "base/view.hpp"
 #include "codec/lattice/levels.hpp"
-#include "codec/lattice/stencil.hpp"
-#include "texture_wavelet/drawn/drawn_colours.hpp"
+#include "texture_wavelet/drawn/drawn_decoder.hpp"
 
 namespace tetrakis::inline drawn {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "bitstream/coder/decision_decoding.hpp"
+#include "bitstream/coder/range_decoder.hpp"
 #include "bitstream/coder/value_table_pass.hpp"
 
 namespace tetrakis::inline tables {

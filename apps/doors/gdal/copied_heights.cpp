@@ -8,7 +8,7 @@
 #include "apps/doors/gdal/copied_voids.hpp"
 #include "apps/doors/gdal/ground_spacing.hpp"
 #include "apps/doors/gdal/source.hpp"
-#include "base/length_unit.hpp"
+#include "base/coordinates.hpp"
 
 namespace tetrakis::gdal {
 namespace {

@@ -4,7 +4,7 @@
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
-#include "base/length_unit.hpp"
+#include "base/coordinates.hpp"
 
 #include "base/shown_text.hpp"
 

@@ -8,8 +8,7 @@
 #include <cpl_string.h>
 #include <gdal_alg.h>
 #include "apps/doors/gdal/copied_raster.hpp"
-#include "base/crs_name.hpp"
-#include "base/placed_raster.hpp"
+#include "base/coordinates.hpp"
 
 namespace tetrakis::gdal {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "apps/tools/output/output.hpp"
 #include "apps/tools/render/render.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

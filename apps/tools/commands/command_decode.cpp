@@ -25,7 +25,7 @@
 #include "apps/tools/report/draped_texture.hpp"
 #include "apps/tools/report/surface_normals.hpp"
 #include "apps/tools/report/viewed_mesh.hpp"
-#include "base/length_unit.hpp"
+#include "base/coordinates.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -23,7 +23,7 @@
 #include "apps/tools/output/progress.hpp"
 #include "apps/tools/report/picture_judge.hpp"
 #include "apps/tools/report/report.hpp"
-#include "base/length_unit.hpp"
+#include "base/coordinates.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -13,7 +13,7 @@
 #include "apps/tools/commands/command.hpp"
 #include "apps/tools/commands/options.hpp"
 #include "apps/tools/files/file_bytes.hpp"
-#include "base/utf8.hpp"
+#include "base/shown_text.hpp"
 
 namespace tetrakis::tools {
 namespace {

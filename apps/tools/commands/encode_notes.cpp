@@ -13,7 +13,7 @@
 #include "apps/tools/files/text.hpp"
 #include "apps/tools/files/void_samples.hpp"
 #include "apps/tools/report/scene.hpp"
-#include "base/length_unit.hpp"
+#include "base/coordinates.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "apps/tools/files/file_bytes.hpp"
-#include "base/length_unit.hpp"
+#include "base/coordinates.hpp"
 #include "base/shown_text.hpp"
 #include "tetrakis/tetrakis.h"
 

@@ -13,7 +13,7 @@
 #include "apps/tools/files/stream.hpp"
 #include "apps/tools/files/units.hpp"
 #include "apps/tools/report/camera_choice.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 
@@ -69,7 +69,7 @@ CLI::Option* addBytes(CLI::App& app, T& bytes, const std::string& help) {
   return addSize(app, "--bytes", bytes, help);
 }
 
-/// The name of preset cameras (codec/ground/preset_cameras.hpp).
+/// The name of preset cameras (codec/ground/camera.hpp).
 inline CLI::Validator presetView() {
   return silent(CLI::IsMember({"oblique", "low", "top", "orbit", "all", "any"}));
 }

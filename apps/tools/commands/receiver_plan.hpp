@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/tools/compression/mesh_arrays.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

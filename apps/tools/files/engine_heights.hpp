@@ -10,7 +10,7 @@
 
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/files/place/ground_axes.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

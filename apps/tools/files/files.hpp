@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "base/status.hpp"
-#include "base/white_level.hpp"
+#include "base/samples.hpp"
+#include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::tools {

@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-#include "base/describe_bytes.hpp"
+#include "base/shown_text.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

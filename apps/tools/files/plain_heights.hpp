@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/tools/files/files.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

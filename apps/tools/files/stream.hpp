@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "apps/tools/files/files.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::tools {

@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

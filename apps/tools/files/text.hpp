@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <string>
 
-#include "base/utf8.hpp"
+#include "base/shown_text.hpp"
 
 namespace tetrakis::tools {
 

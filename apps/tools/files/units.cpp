@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "base/length_unit.hpp"
+#include "base/coordinates.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <string>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

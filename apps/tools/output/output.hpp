@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "apps/tools/files/temporary.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

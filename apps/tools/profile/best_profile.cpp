@@ -7,7 +7,7 @@
 #include <queue>
 #include <utility>
 
-#include "codec/polyline/algorithms.hpp"
+#include "codec/polyline/polylines.hpp"
 
 namespace tetrakis::tools {
 namespace {

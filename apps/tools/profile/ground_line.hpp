@@ -8,7 +8,7 @@
 
 #include "apps/tools/files/stream.hpp"
 #include "apps/tools/profile/ground_path.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "apps/tools/files/stream.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

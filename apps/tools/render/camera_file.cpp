@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/tools/render/render.hpp"
-#include "codec/ground/vec3.hpp"
+#include "codec/ground/camera.hpp"
 
 namespace tetrakis::tools {
 namespace {

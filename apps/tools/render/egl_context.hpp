@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

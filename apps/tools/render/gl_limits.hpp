@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

@@ -7,7 +7,7 @@
 
 #include <array>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

@@ -10,7 +10,7 @@
 
 #include "apps/tools/render/gl_name.hpp"
 #include "apps/tools/render/gl_program.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

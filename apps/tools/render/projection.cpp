@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "codec/ground/vec3.hpp"
+#include "codec/ground/camera.hpp"
 
 namespace tetrakis::tools {
 namespace {

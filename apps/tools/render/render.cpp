@@ -15,7 +15,7 @@
 #include "apps/tools/render/gl_scene.hpp"
 #include "apps/tools/render/gl_target.hpp"
 #include "apps/tools/render/projection.hpp"
-#include "codec/ground/sky.hpp"
+#include "codec/ground/camera.hpp"
 
 namespace tetrakis::tools {
 namespace {

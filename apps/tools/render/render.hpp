@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "apps/tools/files/files.hpp"
-#include "base/status.hpp"
 #include "codec/ground/camera.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "base/white_level.hpp"
+#include "base/samples.hpp"
 
 namespace tetrakis::tools {
 namespace {

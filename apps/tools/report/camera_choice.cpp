@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tools/report/camera_choice.hpp"
 
-#include "codec/ground/preset_cameras.hpp"
-#include "codec/ground/vec3.hpp"
+#include "codec/ground/camera.hpp"
 
 namespace tetrakis::tools {
 

@@ -8,8 +8,8 @@
 
 #include "apps/tools/files/place/ground_axes.hpp"
 #include "apps/tools/render/render.hpp"
-#include "base/status.hpp"
-#include "codec/ground/frame.hpp"
+#include "codec/ground/camera.hpp"
+#include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::tools {

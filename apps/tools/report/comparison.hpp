@@ -13,7 +13,7 @@
 #include "apps/tools/render/render.hpp"
 #include "apps/tools/report/camera_choice.hpp"
 #include "apps/tools/report/scene.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

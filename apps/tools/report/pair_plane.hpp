@@ -12,7 +12,7 @@
 
 #include "apps/tools/report/comparison.hpp"
 #include "apps/tools/report/split_stream.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

@@ -11,7 +11,7 @@
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/render/render.hpp"
 #include "apps/tools/report/scene.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

@@ -14,7 +14,7 @@
 
 #include "apps/tools/report/comparison.hpp"
 #include "apps/tools/report/pair_plane.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "apps/tools/files/place/ground_spacing.hpp"
-#include "base/length_unit.hpp"
+#include "base/coordinates.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -7,7 +7,7 @@
 #include "apps/tools/files/place/ground_axes.hpp"
 #include "apps/tools/render/render.hpp"
 #include "apps/tools/report/sample_surface.hpp"
-#include "codec/ground/frame.hpp"
+#include "codec/ground/camera.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::tools {

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "base/status.hpp"
 #include "bitstream/stream/header.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

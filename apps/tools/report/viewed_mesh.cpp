@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "apps/tools/files/stream.hpp"
-#include "codec/ground/vec3.hpp"
+#include "codec/ground/camera.hpp"
 
 namespace tetrakis::tools {
 

@@ -11,7 +11,7 @@
 
 #include "apps/tools/files/place/raster_place.hpp"
 #include "apps/tools/tiles/geographic_tile.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::tools {

@@ -9,7 +9,7 @@
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/files/place/raster_place.hpp"
 #include "apps/tools/tiles/geographic_tile.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::tools {

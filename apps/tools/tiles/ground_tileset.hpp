@@ -14,7 +14,7 @@
 
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/tiles/terrain_level.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

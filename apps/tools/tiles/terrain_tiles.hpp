@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::tools {

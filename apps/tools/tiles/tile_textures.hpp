@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "apps/tools/tiles/ground_texture.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::tools {

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "base/white_level.hpp"
+#include "base/samples.hpp"
 #include "tetrakis/tetrakis.h"
 
 extern "C" {

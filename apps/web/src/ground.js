@@ -2,7 +2,7 @@
 // Metres on the ground: as a stream states them, or as its place tells. Encoders that know no CRS
 // state a place alone.
 
-/** Of lengths by their names, those of base/length_unit.cpp: lower case, words apart by blanks. */
+/** Of lengths by their names, those of base/coordinates.cpp: lower case, words apart by blanks. */
 const METRES = new Map([
   [1, 'm metre meter metres meters'],
   [0.01, 'cm centimetre'],

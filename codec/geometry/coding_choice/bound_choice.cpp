@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/coding_choice/bound_choice.hpp"
+#include "codec/geometry/coding_choice/cuts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,11 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "codec/geometry/coding_choice/corrected_cut.hpp"
-#include "codec/geometry/coding_choice/exact_cut.hpp"
-#include "codec/geometry/coefficients_encoder.hpp"
+#include "codec/geometry/heights_encoder.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
-#include "codec/wavelet/choice/typical_parts.hpp"
+#include "codec/wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline coding_choice {
 

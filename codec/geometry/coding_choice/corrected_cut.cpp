@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/coding_choice/corrected_cut.hpp"
+#include "codec/geometry/coding_choice/cuts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,8 @@
 #include <utility>
 
 #include "base/parallel.hpp"
-#include "codec/geometry/corrections/activity_hints.hpp"
+#include "codec/geometry/corrections/corrections_decoder.hpp"
 #include "codec/geometry/corrections/corrections_encoder.hpp"
-#include "codec/geometry/corrections/exact_corrections_encoder.hpp"
 
 namespace tetrakis::inline coding_choice {
 

@@ -15,9 +15,8 @@
 
 #include "codec/geometry/coding_choice/tried_plane.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
-#include "codec/geometry/flat/flat_parts.hpp"
-#include "codec/wavelet/choice/compared_steps.hpp"
-#include "codec/wavelet/choice/typical_parts.hpp"
+#include "codec/wavelet/choice/plane_cost.hpp"
+#include "codec/wavelet/choice/typical_plane.hpp"
 
 namespace tetrakis::inline coding_choice {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/plane.hpp"
-#include "codec/geometry/coefficients_encoder.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
+#include "codec/geometry/heights_encoder.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline coding_choice {

@@ -10,10 +10,10 @@
 
 #include "base/plane.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
-#include "codec/geometry/flat/flat_parts.hpp"
+#include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/wavelet/band_plan.hpp"
 #include "codec/wavelet/choice/plane_cost.hpp"
-#include "codec/wavelet/wavelet_header.hpp"
+#include "codec/wavelet/wavelet.hpp"
 
 namespace tetrakis::inline coding_choice {
 

@@ -1,13 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A correction is a small integer, mostly 0. Corrections turn decoded heights into heights within a
-// bound (after SPERR's outliers: S. Li, P. Lindstrom, J. Clyne 2023, but quantised to twice the
-// bound) or into the very samples. They are coded row by row.
-//
-// A correction of magnitude m has the class bits(m). The coder decides whether the class exceeds 0,
-// then 1, and so on; then it codes the sign, and the bits below the highest one, of which all but
-// the first are at even odds. The contexts are a hint of the caller, the classes of the neighbours
-// before (2 W + 2 N + NW + NE), and their signs, because the errors of a cut oscillate from sample
-// to sample. Against signs at even odds that saves 2 to 15 % of the corrections.
+// How corrections are coded, for both sides: one correction, and all of a plane.
 #pragma once
 
 #include <algorithm>
@@ -17,12 +9,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "base/plane.hpp"
 #include "bitstream/coder/adaptive_bit.hpp"
 
 namespace tetrakis::inline corrections {
+
+// A correction is a small integer, mostly 0. Corrections turn decoded heights into heights within a
+// bound (after SPERR's outliers: S. Li, P. Lindstrom, J. Clyne 2023, but quantised to twice the
+// bound) or into the very samples. They are coded row by row.
+//
+// A correction of magnitude m has the class bits(m). The coder decides whether the class exceeds 0,
+// then 1, and so on; then it codes the sign, and the bits below the highest one, of which all but
+// the first are at even odds. The contexts are a hint of the caller, the classes of the neighbours
+// before (2 W + 2 N + NW + NE), and their signs, because the errors of a cut oscillate from sample
+// to sample. Against signs at even odds that saves 2 to 15 % of the corrections.
 
 inline uint32_t magnitudeOf(int32_t correction) {
   const auto bits = static_cast<uint32_t>(correction);
@@ -142,5 +146,33 @@ class CorrectionCoder {
   Signs sign_;
   CorrectionDigits digits_;
 };
+
+// codeCorrections() walks over the corrections of a plane for both sides: row by row, one
+// correction for each sample that exists, with a hint of the caller for each.
+
+/// The knowledge of both sides about the samples: a hint for each, below kHints. Samples that do
+/// not exist have no correction.
+using CorrectionHints = PlaneView<const uint8_t>;
+inline constexpr int kHints = 32;
+
+/// Codes all corrections. Io: as of CorrectionCoder. known(sample): the correction, or any number
+/// in decoders. take(first, row): takes the corrections row by row, up to the first undecided one.
+template <class Io, class KnownCorrection, class TakeRow>
+void codeCorrections(const CorrectionHints& hints, Io& io, const KnownCorrection& known,
+                     const TakeRow& take) {
+  CorrectionCoder<Io> coder(hints.width, kHints, io);
+  std::vector<int32_t> row(hints.width);
+  for (uint32_t y = 0; y < hints.height; ++y) {
+    const size_t first = size_t{y} * hints.width;
+    coder.nextRow();
+    for (uint32_t x = 0; x < hints.width; ++x) {
+      row[x] = 0;
+      if (!hints.valid[first + x]) continue;
+      row[x] = coder.code(x, hints.data[first + x], known(first + x));
+      if (io.stopped()) return take(first, std::span<const int32_t>(row).first(x));
+    }
+    take(first, std::span<const int32_t>(row));
+  }
+}
 
 }  // namespace tetrakis::inline corrections

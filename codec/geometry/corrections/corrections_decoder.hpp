@@ -1,16 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
-// decodeCorrections() decodes a codeword of corrections (corrections_pass.hpp) into one small
-// integer for each sample.
+// The decoder's side of corrections, of steps (correction_coder.hpp) and of exact values
+// (exact_corrections.hpp), and the hints that both sides take from significant coefficients.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <vector>
 
-#include "codec/geometry/corrections/corrections_pass.hpp"
+#include "base/plane.hpp"
+#include "bitstream/coder/range_decoder.hpp"
+#include "codec/geometry/corrections/correction_coder.hpp"
 
 namespace tetrakis::inline corrections {
+
+// activityHints() counts the significant coefficients near each sample: where there are some,
+// corrections of steps are larger, so the count is a context for them.
+
+/// Returns the hints (correction_coder.hpp) of corrections of steps: how many of a vertex and its
+/// four neighbours are significant. significant: of the samples of a part.
+std::vector<uint8_t> activityHints(std::span<const uint8_t> significant, Extent extent);
+
+// CorrectionReader is the decoder's side of a correction (correction_coder.hpp).
+
+/// Decoder: a RangeDecoder, or a class with the same functions.
+template <class Decoder = RangeDecoder>
+class CorrectionReader {
+ public:
+  /// codeword: any prefix of a codeword of corrections; outlives the reader.
+  explicit CorrectionReader(std::span<const uint8_t> codeword) : decoder_(codeword) {}
+
+  bool more(AdaptiveBit& model, int32_t, int) { return decoder_.decode(model); }
+  bool negative(AdaptiveBit& model, int32_t, bool flip) { return decoder_.decode(model) != flip; }
+  bool high(AdaptiveBit& model, int32_t, int) { return decoder_.decode(model); }
+  bool low(int32_t, int) { return decoder_.decodeEven(); }
+  bool stopped() const { return decoder_.exhausted(); }
+  const Decoder& decoder() const { return decoder_; }
+
+ private:
+  Decoder decoder_;
+};
+
+// decodeCorrections() decodes a codeword of corrections (correction_coder.hpp) into one small
+// integer for each sample.
 
 /// Takes corrections from sample `first` on, all of one row: integers modulo 2^32, 0 where samples
 /// are void.
@@ -20,5 +53,17 @@ using TakeCorrections = std::function<void(size_t first, std::span<const int32_t
 /// codeword of encodeCorrections(). Safe on any bytes.
 void decodeCorrections(std::span<const uint8_t> codeword, const CorrectionHints& hints,
                        const TakeCorrections& take);
+
+// decodeExactSteps() decodes exact corrections (exact_corrections.hpp), which turn decoded heights
+// into whole steps again.
+
+/// Takes whole steps from sample `first` on, all of one row; 0 where samples are void.
+using TakeSteps = std::function<void(size_t first, std::span<const int32_t> row)>;
+
+/// Hands over the steps row by row, as far as they are decided. codeword: any prefix of a codeword
+/// of encodeExactSteps() for the same heights, which are in units of 2^-fraction_bits steps; those
+/// of a row may change once the row is handed over. Safe on any bytes.
+void decodeExactSteps(std::span<const uint8_t> codeword, const PlaneView<const int32_t>& heights,
+                      int fraction_bits, const TakeSteps& take);
 
 }  // namespace tetrakis::inline corrections

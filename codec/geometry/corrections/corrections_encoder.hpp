@@ -1,18 +1,92 @@
 // SPDX-License-Identifier: Apache-2.0
-// encodeCorrections() codes one small integer for each sample as a codeword of corrections
-// (corrections_pass.hpp).
+// The encoder's side of corrections, of steps (correction_coder.hpp) and of exact values
+// (exact_corrections.hpp), region by region.
 #pragma once
 
+#include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
-#include "codec/geometry/corrections/corrections_pass.hpp"
+#include "base/parallel.hpp"
+#include "base/plane.hpp"
+#include "base/view.hpp"
+#include "bitstream/coder/range_encoder.hpp"
+#include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/corrections/correction_coder.hpp"
 
 namespace tetrakis::inline corrections {
+
+// CorrectionWriter is the encoder's side of a correction (correction_coder.hpp).
+
+class CorrectionWriter {
+ public:
+  bool more(AdaptiveBit& model, int32_t known, int depth) {
+    const bool bit = static_cast<int>(std::bit_width(magnitudeOf(known))) > depth;
+    encoder_.encode(model, bit);
+    return bit;
+  }
+  bool negative(AdaptiveBit& model, int32_t known, bool flip) {
+    const bool negative = known < 0;
+    encoder_.encode(model, negative != flip);
+    return negative;
+  }
+  bool high(AdaptiveBit& model, int32_t known, int position) {
+    const bool bit = (magnitudeOf(known) >> position) & 1;
+    encoder_.encode(model, bit);
+    return bit;
+  }
+  bool low(int32_t known, int position) {
+    const bool bit = (magnitudeOf(known) >> position) & 1;
+    encoder_.encodeEven(bit);
+    return bit;
+  }
+  static constexpr bool stopped() { return false; }
+
+  /// The codeword, after which nothing is written.
+  std::vector<uint8_t> finish() { return encoder_.finish(); }
+
+ private:
+  RangeEncoder encoder_;
+};
+
+// encodeParts() codes the corrections of each region of a plane as a codeword of its own
+// (bitstream/stream/geometry_header.hpp), on several threads. A plane in one track is one part.
+
+/// The codewords of the parts, in their order. The codeword of a part whose samples are all void
+/// may be empty.
+using PartCodewords = std::vector<std::vector<uint8_t>>;
+
+inline uint64_t bytesOf(const PartCodewords& codewords) {
+  return std::accumulate(codewords.begin(), codewords.end(), uint64_t{0},
+                         [](uint64_t sum, const auto& codeword) { return sum + codeword.size(); });
+}
+
+/// Codes the parts at the same time. code(window): the codeword of a part. Nothing depends on the
+/// threads.
+template <class Code>
+PartCodewords encodeParts(const GeometryHeader& header, uint32_t threads, const Code& code) {
+  const std::vector<Window> parts = correctionParts(header.extent(), header.regions.side_log2);
+  PartCodewords codewords(parts.size());
+  parallelFor(threads, parts.size(), [&](size_t i) { codewords[i] = code(parts[i]); });
+  return codewords;
+}
+
+// encodeCorrections() codes one small integer for each sample as a codeword of corrections
+// (correction_coder.hpp).
 
 /// Returns the codeword of one correction for each sample. Those of void samples are not coded.
 std::vector<uint8_t> encodeCorrections(std::span<const int32_t> corrections,
                                        const CorrectionHints& hints);
+
+// encodeExactSteps() codes exact corrections (exact_corrections.hpp), which turn decoded heights
+// into whole steps again.
+
+/// The codeword that leads from decoded heights, in units of 2^-fraction_bits steps, to the steps.
+/// Those of void samples are not coded.
+std::vector<uint8_t> encodeExactSteps(std::span<const int32_t> steps,
+                                      const PlaneView<const int32_t>& heights, int fraction_bits);
 
 }  // namespace tetrakis::inline corrections

@@ -24,7 +24,6 @@
 #include "base/plane.hpp"
 #include "codec/geometry/corrections/correction_coder.hpp"
 #include "codec/geometry/corrections/error_forecast.hpp"
-#include "codec/geometry/corrections/near_steps.hpp"
 #include "codec/geometry/corrections/step_models.hpp"
 
 namespace tetrakis::inline corrections {

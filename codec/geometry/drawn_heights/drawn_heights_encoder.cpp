@@ -2,14 +2,17 @@
 #include "codec/geometry/drawn_heights/drawn_heights_encoder.hpp"
 
 #include <cmath>
+#include <memory>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "base/portable_math.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "codec/drawing/drawing_encoding.hpp"
 #include "codec/drawing/drawing_pass.hpp"
-#include "codec/geometry/drawn_heights/drawn_surface.hpp"
+#include "codec/drawing/drawing_prefixes.hpp"
+#include "codec/geometry/drawn_heights/drawn_heights_decoder.hpp"
 
 namespace tetrakis::inline drawn_heights {
 
@@ -68,6 +71,27 @@ std::optional<EncodedTrack> encodeDrawnHeights(const PlaneView<const int32_t>& h
   DrawingEncoding<int32_t> io(*numbered, 0, [&] { return squaredError(heights, surface); });
   DrawingPass(plane, valid.get(), steps, io).run(levels);
   return io.finishTrack(GeometryHeader::kDirectPlanes);
+}
+
+namespace {
+
+using HeightPrefixes = DrawingPrefixes<DrawnSteps, int32_t>;
+
+}  // namespace
+
+std::function<DecodedGeometry(uint64_t bytes)> prefixesOfDrawing(const GeometryHeader& header,
+                                                                 std::span<const uint8_t> codeword,
+                                                                 Mask valid) {
+  const Extent extent = header.extent();
+  const SharedBits marks = sharedBits(valid, extent);
+  std::vector<Level> levels = levelsOf(extent.width, extent.height);
+  const auto prefixes =
+      std::make_shared<HeightPrefixes>(codeword, extent, marks.get(), levels, DrawnSteps());
+  const Window whole{0, 0, extent.width, extent.height};
+  return [=, levels = std::move(levels)](uint64_t bytes) {
+    return decodedHeights(
+        {prefixes->indicesAfter(bytes), extent, marks.get(), prefixes->list(), levels, whole});
+  };
 }
 
 }  // namespace tetrakis::inline drawn_heights

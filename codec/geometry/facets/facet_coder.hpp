@@ -26,7 +26,6 @@
 #include "codec/geometry/corrections/correction_coder.hpp"
 #include "codec/geometry/corrections/error_forecast.hpp"
 #include "codec/geometry/facets/facet_rows.hpp"
-#include "codec/geometry/facets/facet_unit.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
 #include "codec/geometry/steps/step_units.hpp"
@@ -227,5 +226,14 @@ void codeFacets(const FacetedHeights& faceted, Io& io, const ExactSample& exact,
     }
   }
 }
+
+// This file restores samples of facets from a codeword and decoded heights.
+
+/// The heights with the samples restored, row by row, as far as they are decided; meshes pass
+/// through these as well. decoded: first rows of what encodeFacets() coded, whole, without
+/// corrections. header: of floats. unit: of FacetUnit. codeword: any prefix of its one. Safe on any
+/// bytes.
+DecodedHeights restoreFacets(DecodedHeights decoded, const GeometryHeader& header, int unit,
+                             std::span<const uint8_t> codeword);
 
 }  // namespace tetrakis::inline facets

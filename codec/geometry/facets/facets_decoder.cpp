@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/facets/facets_decoder.hpp"
+#include "codec/geometry/facets/facet_coder.hpp"
 
 #include <cassert>
 
-#include "bitstream/coder/decision_decoding.hpp"
-#include "codec/geometry/facets/facet_coder.hpp"
-#include "codec/geometry/steps/value_in_steps.hpp"
+#include "bitstream/coder/range_decoder.hpp"
+#include "codec/geometry/steps/restore.hpp"
 
 namespace tetrakis::inline facets {
 

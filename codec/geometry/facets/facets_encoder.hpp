@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file codes the difference between decoded heights and samples of facets (facet_coder.hpp).
+// The encoder's side of facets: how much of a surface they make up, and their codeword.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +11,20 @@
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::inline facets {
+
+// The functions here measure how much of a surface consists of facets (facet_rows.hpp), so that an
+// encoder tries them only where they may pay.
+
+struct FacetShare {
+  double beyond = 1;   ///< the part of the samples that no prediction comes near
+  double spacing = 1;  ///< the geometric mean of their distances to the next floats
+  int unit = 1;        ///< that suits the samples, of FacetUnit
+};
+
+/// By bands of rows that are spread over the plane. heights: floats.
+FacetShare findFacets(const tks_heights& heights, Mask valid);
+
+// This file codes the difference between decoded heights and samples of facets (facet_coder.hpp).
 
 /// The codeword that leads from decoded heights to the samples of a part, whatever these are.
 /// samples: floats. steps: the heights in whole steps, and which of them are valid. header: base

@@ -8,11 +8,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "base/bit_plane.hpp"
 #include "base/plane.hpp"
-#include "codec/wavelet/held_samples.hpp"
+#include "codec/wavelet/pyramid.hpp"
 
 namespace tetrakis::inline flat {
 
@@ -58,5 +60,13 @@ struct NumberedAreas {
   uint32_t count = 0;
 };
 NumberedAreas numberAreas(const PlaneView<const uint8_t>& flat);
+
+// decodeFlatAreas() decodes the layer of flat areas (flat_pass.hpp).
+
+/// codeword: any prefix of the codeword of a plane with this number of areas and these valid
+/// samples. The result has no areas unless every decision counts and the number of areas is right.
+/// Safe on any bytes.
+FlatAreas decodeFlatAreas(std::span<const uint8_t> codeword, Extent plane, const SharedBits& valid,
+                          uint32_t areas);
 
 }  // namespace tetrakis::inline flat

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // FlatMaskIo and FlatHeightsPass code flat areas, for both sides: a mask of the lattice says which
-// samples are flat (codec/lattice/validity_pass.hpp; voids are not, without a decision); then
+// samples are flat (codec/lattice/validity.hpp; voids are not, without a decision); then
 // follows the height of each area. Inlets of one sea and ponds along one canal share a height, so
 // the eight latest heights that differ are kept, the last one first. A height is one of these,
 // named by its place; or it is new: the difference to the last one, its number of bits in unary,
@@ -16,7 +16,7 @@
 
 #include "base/plane.hpp"
 #include "bitstream/coder/adaptive_bit.hpp"
-#include "codec/lattice/validity_pass.hpp"
+#include "codec/lattice/validity.hpp"
 
 namespace tetrakis::inline flat {
 

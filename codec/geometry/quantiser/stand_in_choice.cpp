@@ -4,7 +4,7 @@
 // 1972; errors are weighted with the number of samples of each value). Each polyline on the way is
 // a candidate. A knot pays if it takes off more error a byte than the table itself does later: then
 // the product of error and bytes falls.
-#include "codec/geometry/quantiser/stand_in_choice.hpp"
+#include "codec/geometry/quantiser/value_choice.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -16,7 +16,7 @@
 #include "codec/geometry/steps/decoded_heights.hpp"
 #include "codec/geometry/steps/restore.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
-#include "codec/geometry/values/value_stand_in.hpp"
+#include "codec/geometry/values/value_table.hpp"
 
 namespace tetrakis::inline quantiser {
 

@@ -14,9 +14,8 @@
 
 #include "base/portable_math.hpp"
 #include "base/samples.hpp"
-#include "codec/geometry/quantiser/other_steps.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
 #include "codec/geometry/quantiser/value_choice.hpp"
-#include "codec/geometry/quantiser/voids.hpp"
 #include "codec/geometry/steps/restore.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
 

@@ -1,15 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
+// The choice of the step: the widest that keeps the promised error, or a grid on or near which the
+// samples lie.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+
+#include "base/plane.hpp"
+#include "base/portable_math.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
+#include "tetrakis/result.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::inline quantiser {
+
+// The functions here estimate the number of bits that heights take to the last bit. Encoder only.
+
+/// Corrections of samples: how many are not 0, and the bits that their magnitudes take.
+struct Exceptions {
+  size_t count = 0;
+  double magnitude_bits = 0;
+
+  void add(uint32_t correction, size_t samples) {
+    const auto signed_one = static_cast<double>(static_cast<int32_t>(correction));
+    count += samples;
+    magnitude_bits += static_cast<double>(samples) * (1 + portable::log2(1 + std::abs(signed_one)));
+  }
+  /// The bits of the corrections that are not 0, and of their places among all samples.
+  double bits(size_t samples) const {
+    const double share = static_cast<double>(count) / static_cast<double>(samples);
+    if (count == 0 || count == samples) return magnitude_bits;
+    const double entropy = -share * portable::log2(share) - (1 - share) * portable::log2(1 - share);
+    return magnitude_bits + static_cast<double>(samples) * entropy;
+  }
+};
+
+/// The bits of the coefficients of steps, without the corrections that restore samples behind them.
+double bitsOfSteps(const tks_heights& heights, const HeightSteps& steps);
+
+/// The bits of the steps, multiples of `step`, and of the corrections that restore the samples.
+double exactBits(const tks_heights& heights, const HeightSteps& steps);
+
+// nearGrid() finds the common unit near whose multiples floats lie, though not on them: whole
+// metres that a program has shifted by a rounding of its own, feet that were written with three
+// decimals. Within a largest error the multiples will do. Encoder only.
+
+/// The widest common unit, beyond 2 * error, that has a multiple within the error of every valid
+/// sample. heights: of floats.
+std::optional<double> nearGrid(const tks_heights& heights, Mask valid, double error);
+
 // toSteps() turns heights of any sample type into integer steps, sample = base + q * step: it finds
 // the base and the step of all samples. A few samples off that grid (a negative zero, one
 // interpolated height, an undeclared void of 3.4e38) are left to corrections, so that they do not
 // make every step finer.
-#pragma once
-
-#include "base/status.hpp"
-#include "codec/geometry/quantiser/height_steps.hpp"
-#include "tetrakis/tetrakis.h"
-
-namespace tetrakis::inline quantiser {
 
 /// The demands of the target on the steps that are chosen.
 struct StepNeeds {
@@ -30,5 +76,15 @@ struct StepNeeds {
 /// 64 unless that takes more than 2^26 steps. TKS_USAGE: a sample is infinite, or the given step
 /// needs more than 2^26 steps.
 Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs);
+
+// fewerBitsByOtherSteps() tries a coarser and a finer step than the one that shows all samples.
+// Files that join several sources have samples of whole metres, or decimetres, beside any others: a
+// step that shows all samples codes bits that the whole ones do not have. A coarser step shows the
+// whole ones, and corrections restore the others. Floats that are smooth to their last bits, which
+// no step shows, take fewer bits as coefficients of a finer step than as corrections. Encoder only.
+
+/// found: the steps of toSteps(), with corrections behind them where they are not exact. Returns
+/// these steps, or coarser or finer ones that by the estimate clearly take fewer bits.
+HeightSteps fewerBitsByOtherSteps(const tks_heights& heights, HeightSteps found);
 
 }  // namespace tetrakis::inline quantiser

@@ -12,11 +12,10 @@
 #include <vector>
 
 #include "base/samples.hpp"
-#include "codec/geometry/quantiser/exact_bits.hpp"
-#include "codec/geometry/quantiser/value_gaps.hpp"
+#include "codec/geometry/quantiser/step_choice.hpp"
 #include "codec/geometry/steps/restore.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
-#include "codec/geometry/values/value_table_encoder.hpp"
+#include "codec/geometry/values/value_table.hpp"
 
 namespace tetrakis::inline quantiser {
 

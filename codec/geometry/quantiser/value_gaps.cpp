@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/quantiser/value_gaps.hpp"
+#include "codec/geometry/quantiser/value_choice.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/relative/relative_decoder.hpp"
+#include "codec/geometry/relative/relative_pass.hpp"
 
 #include "base/samples.hpp"
-#include "codec/geometry/corrections/correction_reader.hpp"
-#include "codec/geometry/relative/relative_pass.hpp"
-#include "codec/geometry/steps/value_in_steps.hpp"
+#include "codec/geometry/corrections/corrections_decoder.hpp"
+#include "codec/geometry/steps/restore.hpp"
 
 namespace tetrakis::inline relative {
 

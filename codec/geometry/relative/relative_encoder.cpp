@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/samples.hpp"
-#include "codec/geometry/corrections/correction_writer.hpp"
+#include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "codec/geometry/relative/relative_pass.hpp"
 
 namespace tetrakis::inline relative {

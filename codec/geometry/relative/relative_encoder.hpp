@@ -19,4 +19,15 @@ std::vector<uint8_t> encodeRelative(const tks_heights& samples, PlaneView<const 
                                     const Window& part, const GeometryHeader& header,
                                     const RelativeSteps& relative);
 
+// findRelativeStep() finds the relative step of floats (relative_pass.hpp) from the distances
+// by which samples miss the prediction of their neighbours: jumps gather at multiples of the step.
+// Ground of triangles is smooth between jumps of any size; there a small part of the jumps is the
+// step.
+
+/// The step whose multiples nearly all samples lie beside what their neighbours predict, and which
+/// is much wider than the distance of neighbouring floats; 0 if there is none. On ground that is
+/// smooth between edges it is a part of the jumps there, and may be of no use. Of large planes a
+/// part is looked at.
+double findRelativeStep(const tks_heights& heights, Mask valid);
+
 }  // namespace tetrakis::inline relative

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/relative/relative_step_choice.hpp"
+#include "codec/geometry/relative/relative_encoder.hpp"
 
 #include <algorithm>
 #include <array>

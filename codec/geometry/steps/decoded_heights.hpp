@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// DecodedHeights are heights as a decoder knows them: steps, which later become samples, and
-// corrections of these samples.
+// Decoded heights in steps, and the samples of the file that they stand for.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "base/plane.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 
 namespace tetrakis::inline steps {
+
+// DecodedHeights are heights as a decoder knows them: steps, which later become samples, and
+// corrections of these samples.
 
 /// Decoded heights of a view, row by row.
 struct DecodedGeometry {
@@ -39,5 +43,19 @@ inline int32_t wholeStep(int32_t height, int fraction_bits) {
 
 /// Returns all heights in whole steps.
 std::vector<int32_t> wholeSteps(DecodedGeometry decoded);
+
+// fromSteps() turns the steps of decoded heights into samples: sample = base + q * step, plus a
+// correction where there is one.
+
+/// Writes samples of header.sample, one for each height of `decoded`; integers saturate at their
+/// type's range. Voids become layers.nodata or NaN; a height that would be the declared nodata
+/// value becomes the next sample, whether there are voids or not.
+void fromSteps(const DecodedHeights& decoded, const GeometryHeader& header,
+               const GeometryLayers& layers, void* out);
+
+/// The hints (codec/geometry/corrections/correction_coder.hpp) of corrections of samples, from the
+/// heights that the samples come from, as decoders know them.
+std::vector<uint8_t> sampleHints(std::span<const int32_t> heights, int fraction_bits,
+                                 const GeometryHeader& header);
 
 }  // namespace tetrakis::inline steps

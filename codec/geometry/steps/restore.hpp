@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// restore() computes the sample that a step stands for, in the sample's own type.
+// From steps to values and back: base + q * step, by integers where it can be.
 #pragma once
 
 #include <algorithm>
@@ -10,11 +10,49 @@
 #include <span>
 #include <type_traits>
 
+#include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
-#include "codec/geometry/steps/integer_scale.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
+#include "codec/geometry/steps/step_units.hpp"
 
 namespace tetrakis::inline steps {
+
+// IntegerScale turns integer steps into small integer samples without floating point.
+
+/// The class applies to integer samples of up to 16 bits with a whole base and step: base + q *
+/// step is a whole number that doubles hold exactly, so that 32-bit integers hold it as well once q
+/// is clamped to the range in which it makes a difference.
+template <class T>
+class IntegerScale {
+ public:
+  IntegerScale(double base, double step)
+      : applies_(isWhole(base) && isWhole(step)),
+        base_(applies_ ? static_cast<int32_t>(base) : 0),
+        step_(applies_ ? static_cast<int32_t>(step) : 1),
+        least_(quotient(kLow - base_) - 1),
+        most_(quotient(kHigh - base_) + 1) {}
+
+  bool applies() const { return applies_; }
+  T restore(int32_t q) const {
+    const int32_t sample = base_ + std::min(std::max(q, least_), most_) * step_;
+    return static_cast<T>(std::min(std::max(sample, kLow), kHigh));
+  }
+
+ private:
+  /// All sums stay below 2^30.
+  static constexpr double kMost = 1 << 26;
+  static constexpr int32_t kLow = std::numeric_limits<T>::min();
+  static constexpr int32_t kHigh = std::numeric_limits<T>::max();
+
+  static bool isWhole(double x) { return std::abs(x) <= kMost && x == std::floor(x); }
+  /// The quotient, truncated.
+  int32_t quotient(int32_t difference) const { return difference / step_; }
+
+  bool applies_;
+  int32_t base_, step_, least_, most_;
+};
+
+// restore() computes the sample that a step stands for, in the sample's own type.
 
 /// base + q * step as the nearest finite sample of its type.
 template <class T>
@@ -61,6 +99,25 @@ void restoreCorrected(const DecodedHeights& decoded, size_t first, const Scale& 
     const auto correction = static_cast<uint32_t>(decoded.corrections[first + i]);
     samples[i] = fromOrder<T>(orderOf(samples[i]) + correction);
   }
+}
+
+// inSteps() expresses a sample that is known without steps (neighbours restore it, or it stands in
+// a table of values) as a height between steps and a correction that leads from there to the very
+// sample, because everything behind the decoder of heights works on steps.
+
+struct ValueInSteps {
+  int32_t height;      ///< the nearest multiple of 2^-fraction_bits steps, up to 2^29
+  int32_t correction;  ///< to the value, from the sample that the nearest whole step restores
+};
+
+/// grid: of the header's base and step.
+template <class T>
+ValueInSteps inSteps(T value, const GeometryHeader& header, const StepGrid& grid,
+                     int fraction_bits) {
+  ValueInSteps out{isNaN(value) ? 0 : grid.nearest(value, fraction_bits), 0};
+  const T near = restore<T>(header.base, header.step, wholeStep(out.height, fraction_bits));
+  out.correction = static_cast<int32_t>(orderOf(value) - orderOf(near));
+  return out;
 }
 
 }  // namespace tetrakis::inline steps

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/geometry/values/value_table_encoder.hpp"
+#include "codec/geometry/values/value_table.hpp"
 
-#include "bitstream/coder/decision_encoding.hpp"
+#include "bitstream/coder/range_encoder.hpp"
 #include "bitstream/coder/value_table_pass.hpp"
 
 namespace tetrakis::inline values {
@@ -9,7 +9,7 @@ namespace tetrakis::inline values {
 std::vector<uint8_t> encodeValueTable(const ValueTable& table) {
   DecisionEncoding io;
   std::vector<uint32_t> words = table.words;
-  ValueTablePass<DecisionEncoding>(io, kWordBits).run(words);
+  ValueTablePass<DecisionEncoding>(io, kValueBits).run(words);
   return io.finish();
 }
 

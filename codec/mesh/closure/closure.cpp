@@ -9,8 +9,6 @@
 #include <numeric>
 #include <utility>
 
-#include "codec/mesh/closure/closure_flow.hpp"
-
 namespace tetrakis::inline closure {
 namespace {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // First-in-first-out push-relabel; exact distances again after as many relabels as vertices.
-#include "codec/mesh/closure/closure_flow.hpp"
+#include "codec/mesh/closure/closure.hpp"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "codec/mesh/topology/octagon.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 
 namespace tetrakis::inline decimation {
 namespace {

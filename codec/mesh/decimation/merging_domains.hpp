@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// MergingDomains keeps, while vertices are removed, the error and the cost that the removal of each
-// merging domain M_v (v and its remaining descendants) would add and save (thesis 5.3.1). The worth
-// of a removed vertex is subtracted from the domain of each of its ancestors exactly once, which is
-// the inclusion and exclusion over intersections of domains (thesis 3.4.4). Sums of gains are exact
-// (gains/gains.hpp), and so are all values at all times.
+// What the removal of merging domains costs and saves: of the complete ones, and while vertices are
+// removed.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +8,16 @@
 #include <vector>
 
 #include "codec/mesh/decimation/deferred_losses.hpp"
-#include "codec/mesh/decimation/vertex_costs.hpp"
 #include "codec/mesh/decimation/worth.hpp"
 #include "codec/mesh/topology/ancestors.hpp"
 
 namespace tetrakis::inline decimation {
+
+// MergingDomains keeps, while vertices are removed, the error and the cost that the removal of each
+// merging domain M_v (v and its remaining descendants) would add and save (thesis 5.3.1). The worth
+// of a removed vertex is subtracted from the domain of each of its ancestors exactly once, which is
+// the inclusion and exclusion over intersections of domains (thesis 3.4.4). Sums of gains are exact
+// (gains/gains.hpp), and so are all values at all times.
 
 class MergingDomains {
  public:

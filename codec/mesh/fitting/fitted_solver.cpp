@@ -1,13 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// Normal equations triangle by triangle, solved by conjugate gradients with the diagonal as
-// preconditioner (Hestenes and Stiefel 1952). The unknowns are corrections of the present heights;
-// every sum runs in the mesh's order.
-#include "codec/mesh/fitting/fitted_solver.hpp"
+// The least squares of all heights of a mesh, within the range of the surface.
+#include "codec/mesh/fitting/fitting.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 
 namespace tetrakis::inline fitting {
+
+std::vector<double> withinRange(const WeightedSurface& surface, std::vector<double> heights) {
+  int32_t low = std::numeric_limits<int32_t>::max(), high = std::numeric_limits<int32_t>::min();
+  for (size_t i = 0; i < surface.view.heights.size(); ++i) {
+    if (!surface.isKnown(i)) continue;
+    low = std::min(low, surface.view.heights[i]);
+    high = std::max(high, surface.view.heights[i]);
+  }
+  if (low > high) return heights;
+  for (double& height : heights) height = std::clamp<double>(height, low, high);
+  return heights;
+}
+
+// Normal equations triangle by triangle, solved by conjugate gradients with the diagonal as
+// preconditioner (Hestenes and Stiefel 1952). The unknowns are corrections of the present heights;
+// every sum runs in the mesh's order.
+
 namespace {
 
 /// The squared error of the solution over that of zero heights. A smaller number takes steps of the

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "codec/mesh/quadtree/location_code.hpp"
+#include "codec/mesh/quadtree/mesh_tree.hpp"
 #include "codec/mesh/quadtree/semilinear_quadtree.hpp"
-#include "codec/mesh/quadtree/traversal.hpp"
-#include "codec/mesh/quadtree/view_raster.hpp"
 #include "codec/mesh/topology/lattice.hpp"
 
 namespace tetrakis::inline quadtree {

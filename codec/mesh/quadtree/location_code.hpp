@@ -1,4 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+// Codes of places in a quadtree, differences between the indices of neighbours, and the way from
+// one triangle to the next.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cstdint>
+
+namespace tetrakis::inline quadtree {
+
 // Location codes number the nodes of a forest of quadtrees (thesis 4.3.1, definition 4.1, property
 // 4.1; 4.6).
 //
@@ -14,13 +25,6 @@
 // forest of P patches, row by row, is one code space too: level after level, patch after patch
 // within a level. Every formula of the thesis holds with its 1 replaced by P: level i begins at
 // P (4^i - 1) / 3 and the children of p are 4p + P ... 4p + P + 3.
-#pragma once
-
-#include <bit>
-#include <cassert>
-#include <cstdint>
-
-namespace tetrakis::inline quadtree {
 
 /// A node by its place: `column`, `row` count the nodes of `level` over the whole forest from the
 /// north-west.
@@ -83,6 +87,130 @@ struct QuadtreeShape {
     return {level, undilate(local) + (patch % columns << level),
             undilate(local >> 1) + (patch / columns << level)};
   }
+};
+
+// IndexDifferences gives the difference between the location codes of two neighbours in closed
+// form, so that a traversal goes on by one addition (thesis 4.4, theorem 4.1).
+//
+// Neighbours whose lowest common ancestor is r + 1 levels up differ by a constant. Between columns
+// g - 1 and g of a level that r, the relative level distance (4.6), is the number of zeros that g
+// ends with; so one short table replaces the delta-vectors of 2^i + 1 entries (4.7). Where g is a
+// multiple of 2^i the step leaves the patch: it is the toroidal difference (4.2), (4.4), plus the
+// distance to the patch that it enters, times 4^i.
+
+constexpr int64_t powerOfFour(uint32_t exponent) {
+  return int64_t{1} << 2 * exponent;
+}
+/// (4.1): between horizontal neighbours at relative level distance r. Vertical differences are
+/// twice as large: (4.3), (4.4).
+constexpr int64_t horizontalDifference(uint32_t r) {
+  return (2 * powerOfFour(r) + 1) / 3;
+}
+/// (4.2): between the ends of a row of the 2^level nodes that a patch has there.
+constexpr int64_t toroidalHorizontalDifference(uint32_t level) {
+  return (powerOfFour(level) - 1) / 3;
+}
+
+/// All differences of a forest. Additions are modulo 2^32, so that steps back need no sign.
+class IndexDifferences {
+ public:
+  explicit IndexDifferences(QuadtreeShape shape) : shape_(shape) {
+    for (uint32_t level = 0; level < kLevels; ++level) {
+      const int64_t patch = powerOfFour(level), torus = toroidalHorizontalDifference(level);
+      within_[level] = static_cast<uint32_t>(horizontalDifference(level));
+      Border& border = borders_[level];
+      border.enter_east = static_cast<uint32_t>(patch - torus);
+      border.wrap_east = static_cast<uint32_t>(-torus - (shape.columns - 1) * patch);
+      border.enter_south = static_cast<uint32_t>(shape.columns * patch - 2 * torus);
+      border.wrap_south =
+          static_cast<uint32_t>(-2 * torus - int64_t{shape.rows - 1} * shape.columns * patch);
+    }
+  }
+
+  const QuadtreeShape& shape() const { return shape_; }
+
+  /// What a step east from column g - 1 to column g adds. g = 0 and g = columns of the level: from
+  /// the last column to the first.
+  uint32_t horizontal(uint32_t level, uint32_t g) const {
+    const auto r = static_cast<uint32_t>(std::countr_zero(g | 1u << level));
+    if (r < level) return within_[r];
+    const bool wraps = g == 0 || g == shape_.columnsOf(level);
+    return wraps ? borders_[level].wrap_east : borders_[level].enter_east;
+  }
+  /// The difference of a step south, from row g - 1 to row g.
+  uint32_t vertical(uint32_t level, uint32_t g) const {
+    const auto r = static_cast<uint32_t>(std::countr_zero(g | 1u << level));
+    if (r < level) return 2 * within_[r];
+    const bool wraps = g == 0 || g == shape_.rowsOf(level);
+    return wraps ? borders_[level].wrap_south : borders_[level].enter_south;
+  }
+
+ private:
+  static constexpr uint32_t kLevels = 16;
+  struct Border {
+    uint32_t enter_east = 0, wrap_east = 0, enter_south = 0, wrap_south = 0;
+  };
+
+  QuadtreeShape shape_;
+  std::array<uint32_t, kLevels> within_{};
+  std::array<Border, kLevels> borders_{};
+};
+
+// Traversal moves from node to node of a forest by one addition a step, so that no location code is
+// decoded on the way (thesis 4.4.4).
+//
+// A traversal is a scaling to another level (4.23) followed by unit steps; a traversal path visits
+// the nodes on the way. The coordinates of the first node are decoded once, then kept. Steps are
+// toroidal over the whole forest: east of the last column is the first.
+
+/// A node that moves through a forest by steps. `differences` must outlive it.
+class Traversal {
+ public:
+  Traversal(const IndexDifferences& differences, Square start)
+      : differences_(&differences), square_(start), node_(differences.shape().nodeOf(start)) {}
+
+  const Square& square() const { return square_; }
+  uint32_t code() const { return shape().firstOf(square_.level) + node_; }
+  /// Number within the level (QuadtreeShape::nodeOf): what the steps below add to.
+  uint32_t node() const { return node_; }
+
+  bool atEastBorder() const { return square_.column + 1 == shape().columnsOf(square_.level); }
+  bool atSouthBorder() const { return square_.row + 1 == shape().rowsOf(square_.level); }
+
+  Traversal& east() {  // (4.16)
+    node_ += differences_->horizontal(square_.level, square_.column + 1);
+    square_.column = atEastBorder() ? 0 : square_.column + 1;
+    return *this;
+  }
+  Traversal& west() {  // (4.15)
+    node_ -= differences_->horizontal(square_.level, square_.column);
+    square_.column = (square_.column == 0 ? shape().columnsOf(square_.level) : square_.column) - 1;
+    return *this;
+  }
+  Traversal& south() {  // (4.18)
+    node_ += differences_->vertical(square_.level, square_.row + 1);
+    square_.row = atSouthBorder() ? 0 : square_.row + 1;
+    return *this;
+  }
+  Traversal& north() {  // (4.17)
+    node_ -= differences_->vertical(square_.level, square_.row);
+    square_.row = (square_.row == 0 ? shape().rowsOf(square_.level) : square_.row) - 1;
+    return *this;
+  }
+
+  /// One level down: the scaling function (4.23). `child`: 0 ... 3 along the z-curve.
+  Traversal& toChild(uint32_t child) {
+    node_ = 4 * node_ + child;
+    square_ = {square_.level + 1, 2 * square_.column + child % 2, 2 * square_.row + child / 2};
+    return *this;
+  }
+
+ private:
+  const QuadtreeShape& shape() const { return differences_->shape(); }
+
+  const IndexDifferences* differences_;
+  Square square_;
+  uint32_t node_;
 };
 
 }  // namespace tetrakis::inline quadtree

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/mesh/screen/screen_weights.hpp"
+#include "codec/mesh/screen/surface_picture.hpp"
 
 #include <algorithm>
 #include <cmath>

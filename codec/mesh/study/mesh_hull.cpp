@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/mesh/study/mesh_hull.hpp"
+#include "codec/mesh/study/study.hpp"
 
 #include <algorithm>
 #include <cassert>

@@ -22,7 +22,7 @@
 // not hidden(). A hidden vertex falls onto a corner of the triangles that it splits.
 //
 // Of meshes, only this file knows where neighbours are; all other code walks parents, children and
-// ancestors. Masks use the same vertices under another border rule (codec/lattice/border_rule.hpp).
+// ancestors. Masks use the same vertices under another border rule (codec/lattice/levels.hpp).
 #pragma once
 
 #include <array>
@@ -31,8 +31,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "base/status.hpp"
-#include "codec/lattice/border_rule.hpp"
+#include "codec/lattice/levels.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::inline topology {
 

@@ -7,8 +7,6 @@
 #include <limits>
 #include <numeric>
 
-#include "codec/mesh/topology/triangle.hpp"
-
 namespace tetrakis::inline topology {
 namespace {
 

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// chooseBridges() decides which voids are bridged (codec/wavelet/bridges.hpp). Holes of single
-// samples cut lifting short, and cost a multiple of the bytes of the samples in them; a frame of
-// voids is cheaper as it is. Bridges are chosen by the cost of typical parts, at the step of the
-// target and at coarser ones, because prefixes pay as well.
+// Which voids an encoder bridges, and with what it fills them.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +10,20 @@
 #include "codec/wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::inline choice {
+
+// bridged() fills bridged voids (codec/wavelet/morphology.hpp) with a smooth surface through the
+// samples around them. Decoders throw these values away, so an encoder is free to choose the ones
+// that take the fewest bytes.
+
+/// Returns the plane with the voids that are lifted filled smoothly; all other values stay as they
+/// are. plane: with the mask of valid samples, which has bytes. Values stay within those of the
+/// valid samples.
+std::vector<int32_t> bridged(const PlaneView<const int32_t>& plane, Mask lifted);
+
+// chooseBridges() decides which voids are bridged (codec/wavelet/morphology.hpp). Holes of single
+// samples cut lifting short, and cost a multiple of the bytes of the samples in them; a frame of
+// voids is cheaper as it is. Bridges are chosen by the cost of typical parts, at the step of the
+// target and at coarser ones, because prefixes pay as well.
 
 /// A plane over whose voids lifting goes on.
 struct BridgedPlane {

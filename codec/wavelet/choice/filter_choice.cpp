@@ -15,8 +15,8 @@
 
 #include "base/portable_math.hpp"
 #include "codec/wavelet/band_plan.hpp"
-#include "codec/wavelet/choice/typical_parts.hpp"
-#include "codec/wavelet/wavelet_header.hpp"
+#include "codec/wavelet/choice/typical_plane.hpp"
+#include "codec/wavelet/wavelet.hpp"
 
 namespace tetrakis::inline choice {
 

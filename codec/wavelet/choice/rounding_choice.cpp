@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/wavelet/choice/rounding_choice.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@
 
 #include "bitstream/track/track_decoder.hpp"
 #include "codec/wavelet/band_plan.hpp"
-#include "codec/wavelet/choice/typical_parts.hpp"
+#include "codec/wavelet/choice/typical_plane.hpp"
 #include "codec/wavelet/synthesis/view_synthesis.hpp"
-#include "codec/wavelet/wavelet_header.hpp"
+#include "codec/wavelet/wavelet.hpp"
 
 namespace tetrakis::inline choice {
 

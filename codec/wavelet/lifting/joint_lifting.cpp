@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/wavelet/lifting/joint_lifting.hpp"
+#include "codec/wavelet/lifting/lifting.hpp"
 
 #include <algorithm>
 #include <cassert>

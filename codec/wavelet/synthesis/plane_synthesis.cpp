@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/wavelet/synthesis/plane_synthesis.hpp"
+#include "codec/wavelet/synthesis/view_synthesis.hpp"
 
 #include <cassert>
 

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// ViewSynthesis is the inverse wavelet of what a view shows of a plane: coefficients go in, and the
-// samples of the view come out. A view of a whole plane, or of one of its levels, is worked out in
-// place (plane_synthesis.hpp). A window is worked out from the coefficients that reach it
-// (window_synthesis.hpp), and has the same samples that the whole plane has there.
+// Samples from coefficients: of a whole plane, of a window, and of whichever a view asks for.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +8,158 @@
 #include <vector>
 
 #include "base/view.hpp"
-#include "codec/wavelet/synthesis/plane_synthesis.hpp"
-#include "codec/wavelet/synthesis/window_synthesis.hpp"
+#include "codec/wavelet/band_plan.hpp"
+#include "codec/wavelet/level_transform.hpp"
+#include "codec/wavelet/wavelet.hpp"
 
 namespace tetrakis::inline synthesis {
+
+// WindowSynthesis is the inverse wavelet of a window. It gives the samples that the inverse wavelet
+// of the whole plane would give there, from the coefficients that reach the window. At every level
+// the window grows by the reach of the filter and then halves, so the work follows the size of the
+// window and not that of the plane. Of a plane whose columns go round, a level whose block would
+// reach across the seam takes whole rows: those are rings.
+//
+// Coefficients that lie outside must not change a window. So the stream header says how many bytes
+// a complete track has, because a window cannot see whether all tracks are complete; and sums
+// beside voids always have 64 bits.
+
+/// The functions are those of ViewSynthesis, which says what they do.
+class WindowSynthesis {
+ public:
+  WindowSynthesis(const WaveletSpec& spec, const Pyramid& pyramid, const Window& window);
+
+  void allocate();
+  uint64_t coefficients() const;
+  uint64_t workBytes(uint32_t threads, bool masked) const;
+
+  bool needs(const BandPart& part) const;
+  void put(const Band& band, int fraction_bits, const BandPart& part);
+  uint32_t rows(const Subband& subband) const;
+  std::span<int32_t> row(const Subband& subband, uint32_t row);
+  /// Works on the calling thread alone.
+  std::vector<int32_t> run(uint32_t threads);
+
+ private:
+  /// Half-open.
+  struct Range {
+    uint32_t begin, end;
+    uint32_t size() const { return end - begin; }
+  };
+  /// One direction of the low band that a level splits.
+  struct Axis {
+    Range block;  ///< what the level works on; begins at an even place where it is split
+    Range low;    ///< the part of the low half
+    Range high;   ///< the part of the high half; empty where this direction is not split
+
+    bool split() const { return high.size() > 0; }
+    bool isWhole(uint32_t size) const { return block.size() == size; }
+    /// The part of one of the halves.
+    Range wanted(bool is_high) const { return is_high ? high : low; }
+  };
+  struct Level {
+    Axis x, y;
+    std::vector<int32_t> values;  ///< of the block: low columns before high ones, rows in place
+
+    Window block() const { return {x.block.begin, y.block.begin, x.block.size(), y.block.size()}; }
+    Window low() const { return {x.low.begin, y.low.begin, x.low.size(), y.low.size()}; }
+    size_t samples() const { return block().extent().samples(); }
+    SplitBlock split() { return {values.data(), x.block.size(), block().extent(), low().extent()}; }
+  };
+  /// The coefficients of a subband that are needed, and where they lie among the values of a block
+  /// or of LL.
+  struct Target {
+    Range columns, rows;
+    size_t first, row_pitch;  ///< index of the first coefficient; from one row to the next
+
+    size_t index(uint32_t row) const { return first + (row - rows.begin) * row_pitch; }
+  };
+
+  static Axis axisOf(Range needed, bool splits, uint32_t size, uint32_t reach);
+  /// Of rows, which may be rings.
+  Axis rowAxisOf(Range needed, int level) const;
+  const Level& at(int level) const { return levels_[static_cast<size_t>(level - 1)]; }
+  Target targetOf(const Subband& subband) const;
+  int32_t* valuesOf(const Subband& subband);
+  void copyLow(const std::vector<int32_t>& low, int level);
+  std::vector<uint8_t> maskOf(int level) const;
+  LevelTransform transformOf(int level) const;
+
+  WaveletSpec spec_;
+  const Pyramid* pyramid_;
+  Window window_;
+  std::vector<Level> levels_;  ///< [l - 1]: what level l works on
+  Range ll_x_, ll_y_;
+  std::vector<int32_t> ll_;
+};
+
+// PlaneSynthesis is the inverse wavelet of a whole plane, or of the samples of one of its levels.
+// It works in place.
+//
+// The low band after `level` levels holds the samples at multiples of 2^level, so that the finer
+// levels need no inverse. The gain that their filters and doublings give to constants is divided
+// out. Where a side is too short to be split so often the low band holds more samples than the
+// level has, and those in between are left out.
+
+/// What run() leaves to that of the same plane with other coefficients. It is empty at first.
+struct SynthesisMemory {
+  std::vector<int32_t> coefficients, samples;
+};
+
+/// The functions are those of ViewSynthesis, which says what they do.
+class PlaneSynthesis {
+ public:
+  PlaneSynthesis(const WaveletSpec& spec, const Pyramid& pyramid, int level);
+
+  void allocate() { values_.resize(coefficients()); }
+  uint64_t coefficients() const { return pyramid_->low(level_).extent.samples(); }
+  uint64_t workBytes(uint32_t threads, bool masked) const;
+
+  bool needs(const BandPart& part) const {
+    return part.subband < pyramid_->subbandsOf(level_).size();
+  }
+  void put(const Band& band, int fraction_bits, const BandPart& part);
+  uint32_t rows(const Subband& subband) const {
+    const bool lies_in_low = subband.orientation == Orientation::kLL || subband.level > level_;
+    return lies_in_low ? subband.height : 0;
+  }
+  std::span<int32_t> row(const Subband& subband, uint32_t row);
+  std::vector<int32_t> run(uint32_t threads);
+  /// Returns what memory holds, where the coefficients are those of the call that filled it; else
+  /// fills it.
+  std::vector<int32_t> run(uint32_t threads, SynthesisMemory& memory);
+
+ private:
+  void normalise();
+
+  WaveletSpec spec_;
+  const Pyramid* pyramid_;
+  int level_;
+  std::vector<int32_t> values_;  ///< of the low band
+};
+
+/// Moves the samples at multiples of 2^level of the plane to the front of the values of the low
+/// band of that level, and returns how many they are.
+template <class T>
+size_t thin(const Pyramid& pyramid, int level, std::span<T> low) {
+  const LowBand& band = pyramid.low(level);
+  const Extent wanted = View{level, {}}.extentIn(pyramid.plane());
+  assert(low.size() == band.extent.samples() && wanted.samples() <= low.size());
+  if (wanted == band.extent) return low.size();
+  for (uint32_t y = 0; y < wanted.height; ++y) {
+    for (uint32_t x = 0; x < wanted.width; ++x) {
+      const size_t from = (size_t{y} << (level - band.splits_y)) * band.extent.width +
+                          (size_t{x} << (level - band.splits_x));
+      low[size_t{y} * wanted.width + x] = low[from];
+    }
+  }
+  return wanted.samples();
+}
+
+// ViewSynthesis is the inverse wavelet of what a view shows of a plane: coefficients go in, and the
+// samples of the view come out. A view of a whole plane, or of one of its levels, is worked out in
+// place. A window is worked out from the coefficients that reach it, and has the same samples that
+// the whole plane has there.
 
 class ViewSynthesis {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/ways/bounded_heights.hpp"
+#include "encoder/heights/ways/ways.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -8,20 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "codec/geometry/coding_choice/bound_choice.hpp"
-#include "codec/geometry/coding_choice/corrected_cut.hpp"
-#include "codec/geometry/quantiser/bridged_steps.hpp"
-#include "codec/geometry/quantiser/near_grid.hpp"
+#include "codec/geometry/coding_choice/cuts.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
 #include "codec/geometry/quantiser/step_choice.hpp"
-#include "codec/geometry/quantiser/step_errors.hpp"
-#include "codec/geometry/quantiser/voids.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
-#include "encoder/heights/height_errors.hpp"
-#include "encoder/heights/height_options.hpp"
-#include "encoder/heights/heights_notes.hpp"
-#include "encoder/heights/ways/corrected_heights.hpp"
-#include "encoder/heights/ways/lossless_heights.hpp"
-#include "ratecontrol/needs/candidate.hpp"
+#include "encoder/heights/coded_heights.hpp"
+#include "encoder/heights/quantised_heights.hpp"
+#include "ratecontrol/needs/needs.hpp"
 
 namespace tetrakis::inline ways {
 

@@ -1,22 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/heights/ways/lossless_heights.hpp"
+#include "encoder/heights/ways/ways.hpp"
 
 #include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "codec/geometry/coding_choice/exact_cut.hpp"
-#include "codec/geometry/drawn_heights/drawn_heights_estimate.hpp"
+#include "codec/geometry/coding_choice/cuts.hpp"
+#include "codec/geometry/drawn_heights/drawn_heights_encoder.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
 #include "codec/wavelet/choice/typical_plane.hpp"
-#include "encoder/heights/direct_heights.hpp"
-#include "encoder/heights/height_options.hpp"
-#include "encoder/heights/heights_notes.hpp"
-#include "encoder/heights/ways/corrected_heights.hpp"
-#include "encoder/heights/ways/facet_heights.hpp"
-#include "encoder/heights/ways/relative_heights.hpp"
-#include "ratecontrol/needs/candidate.hpp"
+#include "encoder/heights/coded_heights.hpp"
+#include "encoder/heights/quantised_heights.hpp"
+#include "ratecontrol/needs/needs.hpp"
 
 namespace tetrakis::inline ways {
 

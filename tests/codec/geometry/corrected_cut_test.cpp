@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cuts of coefficients with corrections behind them.
-#include "codec/geometry/coding_choice/corrected_cut.hpp"
+#include "codec/geometry/coding_choice/cuts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "codec/geometry/coefficients_encoder.hpp"
+#include "codec/geometry/heights_encoder.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
 
 namespace tetrakis::test {

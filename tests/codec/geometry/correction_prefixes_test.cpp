@@ -8,12 +8,12 @@
 #include <iterator>
 #include <set>
 
-#include "bitstream/stream/correction_tracks.hpp"
+#include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
-#include "codec/geometry/correction_prefixes.hpp"
 #include "codec/geometry/heights_decoder.hpp"
-#include "codec/geometry/taken_layers.hpp"
+#include "codec/geometry/heights_encoder.hpp"
+#include "codec/geometry/plane_corrections.hpp"
 
 namespace tetrakis::test {
 namespace {

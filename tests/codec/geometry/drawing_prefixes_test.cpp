@@ -4,7 +4,6 @@
 
 #include "codec/geometry/drawn_heights/drawn_heights_decoder.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_encoder.hpp"
-#include "codec/geometry/drawn_heights/drawn_heights_prefixes.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 
 namespace tetrakis::test {

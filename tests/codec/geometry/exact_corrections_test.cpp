@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "codec/geometry/corrections/exact_corrections_decoder.hpp"
-#include "codec/geometry/corrections/exact_corrections_encoder.hpp"
+#include "codec/geometry/corrections/corrections_decoder.hpp"
+#include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 
 namespace tetrakis::test {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which heights are coded as a cut with exact corrections behind it.
-#include "codec/geometry/coding_choice/exact_cut.hpp"
+#include "codec/geometry/coding_choice/cuts.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,7 @@
 #include <functional>
 #include <vector>
 
-#include "codec/geometry/coding_choice/corrected_cut.hpp"
-#include "codec/geometry/coefficients_encoder.hpp"
+#include "codec/geometry/heights_encoder.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 

@@ -10,9 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "codec/geometry/facets/facet_share.hpp"
-#include "codec/geometry/facets/facet_unit.hpp"
-#include "codec/geometry/facets/facets_decoder.hpp"
+#include "codec/geometry/facets/facet_coder.hpp"
+#include "codec/geometry/facets/facet_rows.hpp"
 #include "codec/geometry/facets/facets_encoder.hpp"
 #include "codec/geometry/steps/sample_order.hpp"
 #include "conformance/samples/facets.hpp"

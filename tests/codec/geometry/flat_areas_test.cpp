@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "codec/geometry/coding_choice/flat_choice.hpp"
-#include "codec/geometry/flat/flat_decoder.hpp"
+#include "codec/geometry/flat/flat_areas.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
-#include "codec/geometry/flat/flat_parts.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"

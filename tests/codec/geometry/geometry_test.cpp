@@ -7,8 +7,8 @@
 #include <bit>
 #include <cmath>
 
-#include "codec/geometry/coefficients_decoder.hpp"
-#include "codec/geometry/coefficients_encoder.hpp"
+#include "codec/geometry/heights_decoder.hpp"
+#include "codec/geometry/heights_encoder.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "codec/geometry/steps/height_samples.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
 #include "tests/support/random_planes.hpp"
 
 namespace tetrakis::test {

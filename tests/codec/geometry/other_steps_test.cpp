@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which step suits files that join several sources, and smooth ones.
-#include "codec/geometry/quantiser/other_steps.hpp"
+#include "codec/geometry/quantiser/step_choice.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <vector>
-
-#include "codec/geometry/quantiser/step_choice.hpp"
 
 namespace tetrakis::test {
 namespace {

@@ -8,9 +8,8 @@
 #include <limits>
 #include <vector>
 
-#include "codec/geometry/relative/relative_decoder.hpp"
 #include "codec/geometry/relative/relative_encoder.hpp"
-#include "codec/geometry/relative/relative_step_choice.hpp"
+#include "codec/geometry/relative/relative_pass.hpp"
 #include "conformance/samples/offset_heights.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 #include "tests/codec/geometry/restored_samples.hpp"

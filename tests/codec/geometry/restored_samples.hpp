@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "codec/geometry/steps/height_samples.hpp"
+#include "codec/geometry/steps/decoded_heights.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 
 namespace tetrakis::test {

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 
-#include "codec/geometry/quantiser/value_gaps.hpp"
-#include "codec/geometry/values/value_table_decoder.hpp"
-#include "codec/geometry/values/value_table_encoder.hpp"
+#include "codec/geometry/quantiser/value_choice.hpp"
+#include "codec/geometry/values/value_table.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 
 namespace tetrakis::test {

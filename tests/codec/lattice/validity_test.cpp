@@ -12,9 +12,7 @@
 #include "codec/geometry/corrections/corrections_decoder.hpp"
 #include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "codec/lattice/levels.hpp"
-#include "codec/lattice/validity_decoder.hpp"
-#include "codec/lattice/validity_encoder.hpp"
-#include "codec/lattice/validity_pass.hpp"
+#include "codec/lattice/validity.hpp"
 #include "conformance/samples/void_masks.hpp"
 
 namespace tetrakis::test {

@@ -8,9 +8,9 @@
 #include <numeric>
 #include <random>
 
-#include "codec/mesh/closure/closure_flow.hpp"
+#include "codec/mesh/closure/closure.hpp"
 #include "codec/mesh/gains/gains.hpp"
-#include "codec/mesh/study/mesh_hull.hpp"
+#include "codec/mesh/study/study.hpp"
 #include "tests/support/closed_sets.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/mesh_values.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coarse surfaces and where they lie in the whole.
-#include "codec/mesh/surface/coarse_surface.hpp"
+#include "codec/mesh/surface/surface.hpp"
 
 #include <gtest/gtest.h>
 

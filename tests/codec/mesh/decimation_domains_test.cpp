@@ -13,7 +13,7 @@
 
 #include "codec/mesh/decimation/merging_domains.hpp"
 #include "codec/mesh/gains/gains.hpp"
-#include "codec/mesh/topology/octagon.hpp"
+#include "codec/mesh/topology/lattice_mesh.hpp"
 #include "tests/support/decimation_terrain.hpp"
 #include "tests/support/mesh_values.hpp"
 

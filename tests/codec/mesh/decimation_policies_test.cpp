@@ -8,12 +8,10 @@
 #include <random>
 #include <span>
 
-#include "codec/mesh/decimation/general_decimation.hpp"
+#include "codec/mesh/decimation/decimation.hpp"
 #include "codec/mesh/decimation/merging_domains.hpp"
-#include "codec/mesh/decimation/saturated_order.hpp"
 #include "codec/mesh/gains/gains.hpp"
-#include "codec/mesh/study/decimation_policies.hpp"
-#include "codec/mesh/study/local_errors.hpp"
+#include "codec/mesh/study/study.hpp"
 #include "codec/mesh/topology/ancestors.hpp"
 #include "tests/support/closed_sets.hpp"
 #include "tests/support/decimation_terrain.hpp"

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <limits>
 
-#include "codec/mesh/decimation/general_decimation.hpp"
+#include "codec/mesh/decimation/decimation.hpp"
 #include "codec/mesh/gains/gains.hpp"
-#include "codec/mesh/study/decimation_policies.hpp"
+#include "codec/mesh/study/study.hpp"
 #include "tests/support/decimation_terrain.hpp"
 #include "tests/support/mesh_checks.hpp"
 

@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "codec/mesh/decimation/decimation.hpp"
-#include "codec/mesh/fitting/fitted_solver.hpp"
+#include "codec/mesh/fitting/fitting.hpp"
 #include "tests/support/closed_sets.hpp"
 #include "tests/support/mesh_checks.hpp"
 

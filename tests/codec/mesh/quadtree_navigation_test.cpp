@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "codec/mesh/quadtree/traversal.hpp"
+#include "codec/mesh/quadtree/location_code.hpp"
 #include "tests/support/mesh_values.hpp"
 
 namespace tetrakis {

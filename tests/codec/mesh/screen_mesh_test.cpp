@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes for cameras: weights from pictures, edges that turn.
-#include "codec/mesh/screen_mesh.hpp"
+#include "codec/mesh/meshes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,9 @@
 #include <limits>
 #include <set>
 
-#include "codec/mesh/fitting/fitted_triangle.hpp"
-#include "codec/mesh/screen/screen_weights.hpp"
+#include "codec/mesh/fitted_heights.hpp"
+#include "codec/mesh/fitting/fitting.hpp"
 #include "codec/mesh/screen/surface_picture.hpp"
-#include "codec/mesh/turned_edges.hpp"
 #include "tests/support/decimation_terrain.hpp"
 #include "tests/support/mesh_checks.hpp"
 

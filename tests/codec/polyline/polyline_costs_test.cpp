@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "codec/polyline/algorithms.hpp"
+#include "codec/polyline/polylines.hpp"
 #include "tests/support/polyline_curves.hpp"
 
 namespace tetrakis::test {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "codec/polyline/algorithms.hpp"
+#include "codec/polyline/polylines.hpp"
 #include "tests/support/polyline_curves.hpp"
 
 namespace tetrakis::test {

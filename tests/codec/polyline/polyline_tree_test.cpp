@@ -6,8 +6,8 @@
 #include <bit>
 #include <limits>
 
-#include "codec/polyline/algorithms.hpp"
-#include "codec/polyline/knot_tree.hpp"
+#include "codec/polyline/knots.hpp"
+#include "codec/polyline/polylines.hpp"
 #include "tests/support/polyline_curves.hpp"
 
 namespace tetrakis::test {

@@ -4,9 +4,8 @@
 
 #include <algorithm>
 
-#include "codec/wavelet/bridges.hpp"
 #include "codec/wavelet/choice/bridge_choice.hpp"
-#include "codec/wavelet/choice/bridge_fill.hpp"
+#include "codec/wavelet/morphology.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"

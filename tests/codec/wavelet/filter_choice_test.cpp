@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "codec/wavelet/choice/filter_choice.hpp"
-#include "codec/wavelet/choice/typical_parts.hpp"
+#include "codec/wavelet/choice/typical_plane.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"

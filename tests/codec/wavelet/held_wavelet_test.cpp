@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "codec/wavelet/synthesis/window_synthesis.hpp"
+#include "codec/wavelet/synthesis/view_synthesis.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"

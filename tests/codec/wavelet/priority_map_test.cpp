@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <random>
 
-#include "codec/wavelet/priority_map_encoder.hpp"
-
 namespace tetrakis {
 namespace {
 

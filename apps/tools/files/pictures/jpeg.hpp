@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

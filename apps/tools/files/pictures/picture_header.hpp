@@ -9,7 +9,7 @@
 #include <string>
 
 #include "apps/tools/files/pictures/picture_formats.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

@@ -15,7 +15,7 @@
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/files/pictures/band_colours.hpp"
 #include "apps/tools/files/pictures/picture_formats.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

@@ -13,7 +13,7 @@
 
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/files/pictures/band_colours.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "apps/tools/files/place/proj_objects.hpp"
-#include "base/length_unit.hpp"
+#include "base/coordinates.hpp"
 
 namespace tetrakis::tools {
 namespace {

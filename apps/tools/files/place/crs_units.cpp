@@ -9,7 +9,7 @@
 
 #include "apps/tools/files/pictures/tiff.hpp"
 #include "apps/tools/files/place/proj_objects.hpp"
-#include "base/length_unit.hpp"
+#include "base/coordinates.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "apps/tools/files/place/crs_units.hpp"
-#include "base/length_unit.hpp"
+#include "base/coordinates.hpp"
 
 namespace tetrakis::tools {
 namespace {

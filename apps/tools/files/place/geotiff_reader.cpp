@@ -16,7 +16,7 @@
 #include "apps/tools/files/place/geo_units.hpp"
 #include "apps/tools/files/place/ground_spacing.hpp"
 #include "apps/tools/files/text.hpp"
-#include "base/length_unit.hpp"
+#include "base/coordinates.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -7,8 +7,7 @@
 #include <utility>
 
 #include "apps/tools/files/place/proj_objects.hpp"
-#include "base/crs_name.hpp"
-#include "base/placed_raster.hpp"
+#include "base/coordinates.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::tools {

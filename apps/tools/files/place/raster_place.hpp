@@ -7,7 +7,7 @@
 
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/files/place/proj_objects.hpp"
-#include "base/status.hpp"
+#include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
 

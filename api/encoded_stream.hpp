@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What callers of the encoder get: a buffer, a stream that keeps its promises, and the plans that
+// were weighed.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "encoder/encode_stream.hpp"
+#include "tetrakis/result.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::inline api {
+
+// giveBytes() copies bytes into a buffer that the caller releases.
+
+/// Copies bytes to where tks_free_buffer() finds them. out: has none. Throws std::bad_alloc.
+void giveBytes(std::span<const uint8_t> bytes, tks_buffer& out);
+
+// prove() decodes a finished stream through the public interface and compares it with the input:
+// the byte budget, the largest error, and every bit where the stream calls itself lossless. No
+// caller gets a stream that breaks a promise.
+
+/// Decodes the finished stream through the public interface and compares: a budget, a largest
+/// error, and every bit where the target or the stream says lossless. heights and image (null:
+/// there is none) are what was encoded. TKS_MISMATCH with a sentence if a promise is broken, which
+/// is a fault of the encoder. Streams that promise nothing are not decoded.
+Status prove(std::span<const uint8_t> stream, const tks_heights* heights, const tks_image* image,
+             const tks_encode_options& options);
+
+// explain() tells a caller of tks_encode() the plans that the encoder weighed.
+
+/// Calls options.explain, which is not null, for each plan. scale: of the heights; 1 without them.
+void explain(const PlanNotes& notes, double scale, const tks_encode_options& options);
+
+}  // namespace tetrakis::inline api
