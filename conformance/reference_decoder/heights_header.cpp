@@ -107,7 +107,7 @@ void readHeights(Reader& in, const Domain& domain, RegionHeader regions, Stream&
   readCoding(parts, g);
   stream.layers = readLayers(parts);
   parts.take(64, [](Reader& p) {
-    p.u8(0, 1);  // exact
+    p.u8(0, 1);              // exact
     if (!p.ends()) p.f64();  // max_error
   });
   parts.end();

@@ -109,7 +109,7 @@ inline std::vector<uint8_t> withBody(std::span<const uint8_t> stream, const Head
   return out;
 }
 
-inline constexpr size_t kDomainByte = 2;   ///< where the number of its domain stands in a component
+inline constexpr size_t kDomainByte = 2;  ///< where the number of its domain stands in a component
 inline constexpr size_t kFractionByte = 4;  ///< where fraction_bits stands in a wavelet
 
 /// Bytes of a component before `coding`.
