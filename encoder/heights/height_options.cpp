@@ -15,7 +15,7 @@ CoefficientOptions heightOptions(const EncodeInputs& inputs) {
   const Extent extent = extentOf(*inputs.heights);
   const bool large = extent.samples() > kOneRegionHeights;
   const RegionChoice regions = chooseRegions(options, extent, large);
-  const ViewPriorities* const priorities = inputs.priorities;
+  const Priorities* const priorities = inputs.priorities;
   const bool some_first = priorities != nullptr && !priorities->heights.empty();
   return {.limit = limitOf(inputs),
           .region_log2 = regions.side_log2,

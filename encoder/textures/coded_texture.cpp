@@ -28,7 +28,7 @@ TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) 
   const tks_encode_options& options = inputs.options;
   const Extent extent = texels.extent();
   const RegionChoice regions = chooseRegions(options, extent, extent.samples() > kOneRegionTexels);
-  const ViewPriorities* const priorities = inputs.priorities;
+  const Priorities* const priorities = inputs.priorities;
   const bool some_first = priorities != nullptr && !priorities->texture.empty();
   const bool to_psnr = options.psnr > 0;
   const double heaviest = inputs.heaviestTexel();
