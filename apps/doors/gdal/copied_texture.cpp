@@ -135,6 +135,7 @@ std::unique_ptr<CopiedTexture> copyTexels(const std::string& name, GDALDataset& 
   std::copy_n(place.geotransform, 6, image.geotransform);
   image.has_geotransform = place.has_geotransform;
   image.registration = place.registration;
+  image.domain = domainOf(place, dataset.GetSpatialRef(), image.width);
   image.crs = copy->crs.crs.c_str();
   copy->ground = WebGround::of(dataset, copy->crs.crs);
   image.data = copy->texels.data();

@@ -291,3 +291,31 @@ def test_texts_become_utf8(tmp_path):
     band = first_band(gdal.Open(str(tmp_path / "a.tks")))
     assert band.GetUnitType().strip() == "m²"
     assert band.GetDescription() == "Hö he"
+
+
+def test_grids_that_go_round_are_cylinders(tmp_path):
+    """Geographic grids of 360 degrees, of any origin, and pictures on them; no others."""
+    heights, picture = terrain(20, 72, "i2"), terrain(20, 72, "u1")
+
+    def domain(array, *options, **facts):
+        dataset = copy(memory(array, **facts), tmp_path / "a.tks", *options)
+        np.testing.assert_array_equal(dataset.ReadAsArray(), array)
+        return dataset.GetMetadataItem("DOMAIN", "TKS")
+
+    world = {"transform": (-180, 5, 0, 50, 0, -5), "crs": "EPSG:4326"}
+    assert domain(heights, **world) == "CYLINDER"
+    assert domain(heights, transform=(0, 5, 0, -50, 0, 5), crs="EPSG:4326") == "CYLINDER"
+    assert domain(heights, "DOMAIN=PLANE", **world) is None
+    assert domain(heights, transform=(-180, 4.99, 0, 50, 0, -5), crs="EPSG:4326") is None
+    assert domain(heights, transform=(-180, 5, 0, 50, 0, -5), crs="EPSG:3857") is None
+    assert domain(heights) is None
+    assert domain(heights, "DOMAIN=CYLINDER") == "CYLINDER"
+    refused(lambda: domain(heights, "DOMAIN=BALL", **world), "DOMAIN=BALL")
+
+    image = str(tmp_path / "image.tif")
+    gdal.GetDriverByName("GTiff").CreateCopy(image, memory(picture))
+    name = tmp_path / "b.tks"
+    copy(memory(heights, **world), name, "TEXTURE=" + image)
+    draped = gdal.Open(f'TKS:"{name}":texture')
+    np.testing.assert_array_equal(draped.ReadAsArray(), picture)
+    assert draped.GetMetadataItem("DOMAIN", "TKS") == "CYLINDER"
