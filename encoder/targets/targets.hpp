@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which packets meet the target: candidates of coded heights and textures, exact ones among them,
-// and the best.
+// meetTarget() takes the coded heights and texture and returns the packets of both that meet the
+// target of the options. It compares them with candidates that are coded in other ways, which the
+// other functions of this file make: the first coding of a component is not always the best one for
+// the target.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A coded texture: its options, the lines of texels that are coded, and notes on how it was coded.
+// CodedTexture is a texture as the tracks and the header of a component. The functions of this file
+// make it in each way to code a texture, measure the errors of its prefixes, and note how it was
+// coded.
 #pragma once
 
 #include <cstdint>
