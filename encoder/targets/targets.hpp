@@ -30,9 +30,9 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture);
 
-// Candidates are the attempts at both components from which a target selects. The functions here
-// give candidates their curves, order their packets, and make the attempts that follow the first
-// one: lossless coding, and stored samples.
+// Candidates are the attempts at both components from which a target selects. withCurves() gives
+// them their curves and orderPackets() orders their packets; codeLossless() and storedIfShorter()
+// make the attempts that follow the first one.
 
 using HeightsCandidate = Candidate<CodedHeights>;
 using TextureCandidate = Candidate<CodedTexture>;

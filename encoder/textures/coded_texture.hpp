@@ -20,8 +20,8 @@
 namespace tetrakis::inline textures {
 
 // CodedTexture is a texture as a component of a stream: its tracks, and the header that describes
-// them. The functions here make such values in each way to code a texture, and measure the texels
-// that a decoder makes of a prefix. A value is not changed once it is made.
+// them. A value is not changed once it is made. codeTexture() and its siblings make it, and
+// squaresOf() measures the texels that a decoder makes of a prefix.
 
 struct CodedTexture {
   std::shared_ptr<const TextureSource> source;
