@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How coordinates on the ground are read: names of reference systems and of units of length, and
-// rasters that lie on one ground.
+// Coordinates on the ground are read in one way everywhere: canonicalUnit() and metresPerUnit()
+// take the name of a length and return ours and its metres, knownToBrowsers() takes the name of a
+// reference system, and liesOn() compares the places of two rasters.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +18,9 @@ namespace tetrakis::inline base {
 /// degrees, web Mercator, UTM. Streams in others take fitted longitudes and latitudes along.
 bool knownToBrowsers(const std::string& crs);
 
-// The functions here translate between names of lengths and metres, because files say "US survey
-// foot" and streams "us-ft". The feet are defined by the international yard and pound agreement of
-// 1959.
+// canonicalUnit(), metresPerUnit() and lengthName() translate between names of lengths and metres,
+// because files say "US survey foot" and streams "us-ft". The feet are defined by the international
+// yard and pound agreement of 1959.
 
 /// Metres between samples where nothing says how many: those of the global one-arc-second models.
 /// Encoders price height errors, and cameras stand, as if they were this far apart.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of a surface as receivers ask for them: of at most so many triangles, for a camera, with
-// voids.
+// budgetMesh(), screenMesh() and verticesBesideVoids() take a decoded surface and return a mesh of
+// at most a given number of triangles: on the map, for a camera, and where some samples are void.
 #pragma once
 
 #include <cstdint>

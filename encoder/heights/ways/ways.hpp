@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways to code heights within a bound or exactly, and the choice among them for a target.
+// A way takes quantised heights, or heights that are coded with loss, and returns coded heights
+// that are exact or keep an error. codeHeightsForTarget() chooses the ways for the target of the
+// options and keeps the shortest result, because no single way is the shortest for all terrains.
 #pragma once
 
 #include <cstdint>
