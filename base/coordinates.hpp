@@ -38,7 +38,7 @@ std::optional<double> metresPerUnit(std::string_view unit);
 std::string lengthName(double metres);
 
 // liesOn() and fineness() compare two rasters on one ground: whether one lies on the other, and how
-// much finer it is.
+// much finer it is. columnsRound() looks at one alone.
 
 /// A raster and its geotransform, as GDAL has it: six numbers, from columns and rows to x and y.
 struct PlacedRaster {
@@ -49,6 +49,17 @@ struct PlacedRaster {
 /// Whether all corners of a raster lie on the ground of another one, or beside it by less than a
 /// sample of that. Both have geotransforms of one reference system.
 bool liesOn(const PlacedRaster& ground, const PlacedRaster& raster);
+
+/// Whether the columns of a grid go round the Earth, so that the last one lies beside the first one.
+enum class ColumnsRound : uint8_t {
+  kNo,
+  kOnce,      ///< through 360 degrees
+  kRepeating  ///< through 360 degrees and one column more, which is the first one again
+};
+
+/// degrees: in the unit of the raster's x and y; 0 where x and y are no angles. Grids without a
+/// geotransform, with a gap, or that overlap by other than a column do not go round.
+ColumnsRound columnsRound(const PlacedRaster& raster, double degrees);
 
 /// How many samples of a raster lie along one of the ground that is under it, at least 1.
 double fineness(const PlacedRaster& ground, const PlacedRaster& raster);

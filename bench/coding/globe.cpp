@@ -103,8 +103,8 @@ struct AtError {
 };
 
 Result<AtError> atError(const Globe& globe, tks_domain domain, double error, uint64_t most) {
-  AtError found{most, {}};
-  for (uint64_t low = 0; found.bytes - low > found.bytes / 2000;) {
+  AtError found{most, {0, globe.jump()}};
+  for (uint64_t low = 0; found.bytes - low > 1 + found.bytes / 2000;) {
     const uint64_t middle = low + (found.bytes - low) / 2;
     const Result<Figures> figures = globe.figures(domain, middle);
     if (!figures.ok()) return figures.status();

@@ -47,7 +47,7 @@ std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image);
 CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> source,
                          Purpose purpose);
 
-/// Codes the texture as the target of the options asks for it. source: as above.
+/// Codes the texture as the target of the options asks for it. source: as codeTexture() takes it.
 CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
                                   std::shared_ptr<const TextureSource> source);
 

@@ -9,7 +9,6 @@
 #include "apps/doors/gdal/copied_voids.hpp"
 #include "apps/doors/gdal/ground_spacing.hpp"
 #include "apps/doors/gdal/source.hpp"
-#include "base/columns_round.hpp"
 #include "base/coordinates.hpp"
 
 namespace tetrakis::gdal {
@@ -65,7 +64,7 @@ tks_domain domainOf(const Place& place, const OGRSpatialReference* system, uint3
   if (!place.has_geotransform || system == nullptr || !system->IsGeographic())
     return TKS_DOMAIN_PLANE;
   const double degrees = system->GetAngularUnits() * (180 / std::numbers::pi);
-  return columnsRound(place.geotransform, degrees, width) == ColumnsRound::kOnce
+  return columnsRound({width, 1, place.geotransform}, degrees) == ColumnsRound::kOnce
              ? TKS_DOMAIN_CYLINDER
              : TKS_DOMAIN_PLANE;
 }

@@ -306,3 +306,8 @@ def test_grids_that_go_round_are_cylinders(tmp_path):
     draped = gdal.Open(f'TKS:"{name}":texture')
     np.testing.assert_array_equal(draped.ReadAsArray(), picture)
     assert draped.GetMetadataItem("DOMAIN", "TKS") == "CYLINDER"
+    for transform, expected in ((world["transform"], "CYLINDER"), ((0, 1, 0, 50, 0, -1), None)):
+        gdal.GetDriverByName("GTiff").CreateCopy(image, memory(picture, transform=transform))
+        copy(memory(heights, **world), name, "TEXTURE=" + image)
+        placed = gdal.Open(f'TKS:"{name}":texture')
+        assert placed.GetMetadataItem("DOMAIN", "TKS") == expected
