@@ -50,7 +50,7 @@ struct PlacedRaster {
 /// sample of that. Both have geotransforms of one reference system.
 bool liesOn(const PlacedRaster& ground, const PlacedRaster& raster);
 
-/// Whether the columns of a grid go round the Earth, so that the last one lies beside the first one.
+/// Whether the columns of a grid go round the Earth, so that the last one lies beside the first.
 enum class ColumnsRound : uint8_t {
   kNo,
   kOnce,      ///< through 360 degrees

@@ -42,8 +42,8 @@ GridUnit gridUnitOf(const std::string& crs);
 /// As the keys say, in the form of a text, or else the CRS.
 GridUnit gridUnitOf(const std::string& geo_keys, const std::string& crs);
 
-/// Whether the columns of a file go round the Earth, by its transform and the unit of its CRS. Files
-/// without a place, and maps, do not go round.
+/// Whether the columns of a file go round the Earth, by its transform and the unit of its CRS.
+/// Files without a place, and maps, do not go round.
 ColumnsRound columnsRound(const Georeference& place, uint32_t width);
 
 /// Of heights, as the stream states it, or else from their place, keys and CRS as far as these
