@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// More bytes of a stream that is open, and how finely those that are there tell.
+// tks_append() and its siblings give an open decoder more bytes of its stream, and others tell how
+// finely the bytes that are there show heights and texture.
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -13,7 +14,7 @@
 
 namespace tetrakis::inline api {
 
-// More bytes of a stream that is open: in their order, or from anywhere.
+// Bytes may come in their order, or from anywhere.
 
 void forget(tks_decoder& decoder) {
   decoder.remembers = false;

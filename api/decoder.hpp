@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A tks_decoder holds the bytes of a stream that the caller gave, their header, and the decoded
-// heights and tracks that later calls go on from. The functions here serve the files of this
-// folder.
+// heights and tracks that later calls go on from. The functions of this file serve all calls of
+// decoders.
 #pragma once
 
 #include <optional>

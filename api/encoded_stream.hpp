@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What callers of the encoder get: a buffer, a stream that keeps its promises, and the plans that
-// were weighed.
+// A finished stream leaves the encoder through prove(), which decodes it and refuses one that
+// breaks a promise, and giveBytes(), which hands its bytes to the caller; explain() tells the plans
+// that were weighed for it.
 #pragma once
 
 #include <cstdint>

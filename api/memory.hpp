@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much memory decoding takes, component by component, and whether callers allow it.
+// checkMemory() takes a call of the C interface and refuses it if decoding would take more memory
+// than the caller allows. HeightsBytes, textureBytes() and meshBytes() count the bytes from the
+// header, before anything is allocated.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +18,8 @@
 
 namespace tetrakis::inline api {
 
-// The functions here compute how many bytes of memory the planes and tracks of a component, heights
-// or texture, take while it is decoded.
+// trackBytes(), stateBytes() and PlanesBytes compute how many bytes of memory the tracks and planes
+// of a component, heights or texture, take while it is decoded.
 
 inline constexpr uint64_t kOnceBytes = 256 << 10;         // models, plans, lists of levels
 inline constexpr uint64_t kDrawnOnceBytes = 7 << 19;      // models of drawings and overlays
@@ -123,8 +125,8 @@ class HeightsBytes {
   bool corrected_;  ///< corrections, or all samples directly, are decoded
 };
 
-// The functions here bound the bytes that a call of a decoder allocates, from the header and before
-// the call allocates anything, and hold them against the limit.
+// checkBytes() and checkMemory() bound the bytes that a call of a decoder allocates, from the
+// header and before the call allocates anything, and hold them against the limit.
 //
 // Bounds follow what the rooms below keep at the same time: planes of 32-bit values, masks, the
 // state of one track a thread (codec/wavelet/region_decoder.hpp), a window's blocks. What meshes

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of the decoded surface, and meshes kept for many views, through the C interface.
+// The calls of the C interface that make meshes of the decoded surface, and those that keep a mesh
+// for many views.
 #include <algorithm>
 #include <array>
 #include <cmath>

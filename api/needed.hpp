@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which bytes of a stream a call needs, and which of them are missing.
+// A view needs only some tracks of a stream: neededTracks() lists them, and headerFor() and
+// heightTracksFor() take those that are there of a stream whose bytes have gaps. giveRanges() tells
+// callers what is missing.
 #pragma once
 
 #include <span>

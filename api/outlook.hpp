@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a camera looks at, as callers give it.
+// outlookOf() takes a camera, which takeCamera() has checked, and returns the ground that its
+// viewer sees or may see after a turn, so that the bytes for that ground can be fetched first.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Strips of a texture, and the memory that decoding a view of it takes.
+// textureStrips() cuts a view of a texture into strips, and textureBytes() counts the memory that
+// decoding them takes.
 #include "api/memory.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was decoded, in the form that callers want: samples, texels, meshes.
+// writeHeights(), writeTexels() and surfaceMesh() take what was decoded and write it in the form
+// that callers of the C interface want: samples, texels, triangles.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +16,9 @@
 
 namespace tetrakis::inline api {
 
-// The functions here write decoded heights and texels as the samples that the caller wants. A
-// component without any byte is the same everywhere: one sample is decoded and copied, so that its
-// planes take no memory.
+// writeHeights() and its siblings write decoded heights and texels as the samples that the caller
+// wants. A component without any byte is the same everywhere: one sample is decoded and copied, so
+// that its planes take no memory.
 
 /// out: as many samples of the stream's type, or floats, as there are decoded heights.
 void writeHeights(const tks_decoder& decoder, const DecodedHeights& decoded, void* out);

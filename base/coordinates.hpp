@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// How coordinates on the ground are read: names of reference systems and of units of length, and
-// rasters that lie on one ground.
+// Coordinates on the ground are read in one way everywhere: canonicalUnit() and metresPerUnit()
+// take the name of a length and return ours and its metres, knownToBrowsers() takes the name of a
+// reference system, and liesOn() compares the places of two rasters.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,9 +19,9 @@ namespace tetrakis::inline base {
 /// degrees, web Mercator, UTM. Streams in others take fitted longitudes and latitudes along.
 bool knownToBrowsers(const std::string& crs);
 
-// The functions here translate between names of lengths and metres, because files say "US survey
-// foot" and streams "us-ft". The feet are defined by the international yard and pound agreement of
-// 1959.
+// canonicalUnit(), metresPerUnit() and lengthName() translate between names of lengths and metres,
+// because files say "US survey foot" and streams "us-ft". The feet are defined by the international
+// yard and pound agreement of 1959.
 
 /// Metres between samples where nothing says how many: those of the global one-arc-second models.
 /// Encoders price height errors, and cameras stand, as if they were this far apart.
@@ -37,7 +39,7 @@ std::optional<double> metresPerUnit(std::string_view unit);
 std::string lengthName(double metres);
 
 // liesOn() and fineness() compare two rasters on one ground: whether one lies on the other, and how
-// much finer it is.
+// much finer it is. columnsRound() and edgeLatitudes() look at one alone.
 
 /// A raster and its geotransform, as GDAL has it: six numbers, from columns and rows to x and y.
 struct PlacedRaster {
@@ -48,6 +50,22 @@ struct PlacedRaster {
 /// Whether all corners of a raster lie on the ground of another one, or beside it by less than a
 /// sample of that. Both have geotransforms of one reference system.
 bool liesOn(const PlacedRaster& ground, const PlacedRaster& raster);
+
+/// Whether the columns of a grid go round the Earth, so that the last one lies beside the first.
+enum class ColumnsRound : uint8_t {
+  kNo,
+  kOnce,      ///< through 360 degrees
+  kRepeating  ///< through 360 degrees and one column more, which is the first one again
+};
+
+/// degrees: in the unit of the raster's x and y; 0 where x and y are no angles. Grids without a
+/// geotransform, with a gap, or that overlap by other than a column do not go round.
+ColumnsRound columnsRound(const PlacedRaster& raster, double degrees);
+
+/// The latitudes of the outer edges of the first row and of the last one, in degrees, as tks_heights
+/// takes them; degrees: as above. Both 0 where x and y are no angles, rows are no parallels, or y is
+/// no latitude.
+std::array<double, 2> edgeLatitudes(const PlacedRaster& raster, double degrees);
 
 /// How many samples of a raster lie along one of the ground that is under it, at least 1.
 double fineness(const PlacedRaster& ground, const PlacedRaster& raster);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A plane is a rectangle of samples, stored row by row. The types here describe planes that
-// somebody else owns: their size, their values, and which of their samples are marked.
+// A plane is a rectangle of samples, stored row by row. Extent, PlaneView and Mask describe planes
+// that somebody else owns: their size, their values, and which of their samples are marked.
 #pragma once
 
 #include <cassert>

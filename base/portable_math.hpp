@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions here are logarithms, powers and angles with the same bits on every machine, because
-// encoders make choices by them. The functions of C libraries differ in their last bit, from one
-// processor to the next even in one library.
+// The namespace portable holds logarithms, powers and angles with the same bits on every machine,
+// because encoders make choices by them. The functions of C libraries differ in their last bit,
+// from one processor to the next even in one library.
 #pragma once
 
 namespace tetrakis::inline base {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples by their types, and images of them as the texture codec takes them, with the value that
-// shows as white.
+// withSampleType() takes the C++ type of a tks_sample, so that code is written once for all types.
+// Texels is an image of such samples as the texture codec takes it, and findWhiteLevel() returns
+// the value of an image that pictures show as white.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Text that people read, made of what streams, files and computations hold: whether bytes are text,
-// how it is shown, and amounts of memory in words.
+// shownText() takes text of a stream or a file, which may hold anything, and returns text that is
+// safe to print; isUtf8() refuses what is no text, and describeBytes() puts amounts of memory into
+// words.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the C interface calls: to encode, to be told how far that is, to find undeclared voids, and
-// to fit positions.
+// encodeStream() turns checked heights, a texture or both into the bytes of a stream. Beside it
+// stand the other services of the encoder that api/ hands to callers: ToldProgress, which tells how
+// far an encoding is; findOutliers(), which finds undeclared voids; and fitPositions(), which makes
+// the longitudes and latitudes of a raster short enough for a header.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The colour planes of a texture, with bridges over what its mask leaves out.
+// colourPlanesOf() takes the channels of an image and returns the planes that the wavelet codes:
+// after tables and the colour transform, with values for texels that are hidden or drawn over, some
+// of which are bridged. Encoder only.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +17,9 @@
 
 namespace tetrakis::inline texture {
 
-// The functions here choose the texels that are hidden or drawn over and that the wavelet of a
+// chooseTextureBridges() chooses the texels that are hidden or drawn over and that the wavelet of a
 // texture nevertheless codes (codec/wavelet/morphology.hpp): thin lines and single holes would cut
-// its planes into pieces. Encoder only.
+// its planes into pieces.
 
 /// Which texels the wavelet goes over.
 struct TextureBridges {
@@ -46,9 +48,9 @@ TextureBridges textureBridges(Extent extent, Mask coded, uint8_t reach);
 /// Fills the bridged texels of all channels smoothly.
 ChannelPlanes withBridges(ChannelPlanes channels, const TextureBridges& bridges);
 
-// The functions here turn the channels of an image into the colour planes that the wavelet codes.
+// colourPlanesOf() turns the channels of an image into the colour planes that the wavelet codes.
 // Channels of few values become places in their tables, texels without coefficients take the values
-// that cost least, and shears turn the colours. Encoder only.
+// that cost least, and shears turn the colours.
 
 /// What is coded by wavelet, and how.
 struct WaveletCoding {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes textures, as their headers say how: wavelet coefficients, drawings, or texels as they are
-// stored.
+// decodeTexture() takes any prefix of the tracks of a texture and returns the texels of a view, as
+// the texture's header says: from wavelet coefficients behind a mask and an overlay (TexturePlan,
+// takeOpening()), from a drawing, or from stored samples.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encodes textures: wavelet coefficients, drawings, or texels as they are stored, whichever takes
-// the fewest bytes.
+// encodeTexture() takes an image and returns the tracks of a texture, by the coder that takes the
+// fewest bytes for its purpose: the wavelet, a drawing, or its samples as they are. Encoder only.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ uint64_t storedBytes(const Texels& texels);
 EncodedTexture encodeStoredTexture(const Texels& texels);
 
 // visualWeights() gives each band of each colour plane a weight, so that passes come in the order
-// in which an eye notices them. Encoder only.
+// in which an eye notices them.
 
 /// planes: 1 to 4, the last of an even number being alpha or a further colour, which is weighted
 /// like the first.

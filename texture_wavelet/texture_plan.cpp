@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bands of a texture, and the layers before its coefficients.
+// TexturePlan lists the bands of a texture, and takeOpening() decodes the layers before its
+// coefficients.
 #include "texture_wavelet/texture_decoder.hpp"
 
 #include <algorithm>

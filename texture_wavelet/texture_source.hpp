@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A texture to encode with what follows from it alone, how two attempts to code it are compared,
-// and the attempts that others have won over.
+// TextureSource holds an image to encode and the masks that follow from it alone, because an image
+// is often coded several times. showsBetter() compares two attempts, and a PassedTexture notes one
+// that lost. Encoder only.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +17,8 @@
 namespace tetrakis::inline texture {
 
 // A PassedTexture is an attempt to code a texture, or the estimate of one, that another attempt has
-// won over. encodeTexture() lists them for callers who want to know what was weighed; the functions
-// here do nothing where the list is null. Encoder only.
+// won over. encodeTexture() lists them for callers who want to know what was weighed; passOver()
+// and passOverExpected() do nothing where the list is null.
 
 enum class PassedFor : uint8_t {
   kExpectedLonger,  ///< an estimate says that it takes more bytes: it was not coded
@@ -88,7 +89,7 @@ struct TextureOptions {
 };
 
 // showsBetter() decides from the accounts of two encodings of an image, without decoding them,
-// which of them is better. Encoder only.
+// which of them is better.
 
 /// Bytes of all tracks, and of the tables in the header.
 uint64_t bytesOf(const EncodedTexture& encoded);

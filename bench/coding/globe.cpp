@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "apps/tools/files/files.hpp"
-#include "apps/tools/files/place/edge_latitudes.hpp"
+#include "apps/tools/files/place/ground_spacing.hpp"
 #include "base/samples.hpp"
 #include "bench/harness/arguments.hpp"
 #include "tetrakis/tetrakis.hpp"
@@ -124,8 +124,8 @@ struct AtError {
 };
 
 Result<AtError> atError(const Globe& globe, const Coding& coding, double error, uint64_t most) {
-  AtError found{most, {}};
-  for (uint64_t low = 0; found.bytes - low > found.bytes / 2000;) {
+  AtError found{most, {0, globe.jump()}};
+  for (uint64_t low = 0; found.bytes - low > 1 + found.bytes / 2000;) {
     const uint64_t middle = low + (found.bytes - low) / 2;
     const Result<Figures> figures = globe.figures(coding, middle);
     if (!figures.ok()) return figures.status();

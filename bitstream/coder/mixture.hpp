@@ -14,7 +14,7 @@
 
 namespace tetrakis::inline coder {
 
-/// Probabilities are multiples of 2^-12 here; logarithms of odds, of 2^-8, lie within kMostOdds.
+/// The largest logarithm of odds, in multiples of 2^-8. Probabilities are multiples of 2^-12.
 inline constexpr int kMostOdds = 2047;
 
 /// The probability of the odds: 4096 / (1 + e^(-odds / 256)), linear between multiples of 128.

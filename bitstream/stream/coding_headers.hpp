@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The structures here are the parts of a header that heights and textures share: the way in which
-// they are coded, the wavelet, spatial regions, and priorities over the ground (docs/FORMAT.md,
-// section 2).
+// WaveletHeader, RegionHeader and PriorityHeader are the parts of a header that heights and
+// textures share: the wavelet, spatial regions, and priorities over the ground; Coding says how a
+// component is coded (docs/FORMAT.md, section 2).
 #pragma once
 
 #include <array>

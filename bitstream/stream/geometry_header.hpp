@@ -214,10 +214,11 @@ struct GeometryLayers {
   }
 };
 
-// The functions here number the tracks that hold the corrections of heights. Corrections of a plane
-// in one track follow its coefficients. Corrections of a plane in regions are tracks of their own
-// behind the tracks of coefficients, one for each region of the finest levels, so that a window is
-// decoded without the corrections of other regions.
+// coefficientTracks(), correctionTracks() and correctionParts() number the tracks that hold the
+// corrections of heights. Corrections of a plane in one track follow its coefficients. Corrections
+// of a plane in regions are tracks of their own behind the tracks of coefficients, one for each
+// region of the finest levels, so that a window is decoded without the corrections of other
+// regions.
 
 /// How many tracks of coefficients there are.
 inline uint64_t coefficientTracks(const GeometryHeader& header) {

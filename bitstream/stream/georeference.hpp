@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where samples lie on the ground: the georeference of a stream, and the fitted longitudes and
-// latitudes of its samples.
+// Georeference says where heights and texture lie on the ground, in the reference system of their
+// files, and GroundPositions in longitude and latitude. Both are written into the header and read
+// from it; samples do not depend on them.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a header must meet beside the ranges of its fields: its checksum, and sense.
+// checkMeaning() refuses headers whose fields contradict each other, and crc32() computes their
+// checksum.
 #include "bitstream/stream/header.hpp"
 
 #include <array>

@@ -156,8 +156,8 @@ Result<PayloadCount> countPackets(std::span<const uint8_t> payload, size_t origi
                                   const TrackCounts& counts, PayloadPlace from = {});
 
 /// payload: the available bytes behind the header. Any prefix is legal; TKS_CORRUPT on a head that
-/// no encoder writes. Allocates in proportion to the payload, whatever `counts` says.
-/// packets: how many there are, if that is known.
+/// no encoder writes. Allocates in proportion to the payload, whatever `counts` says. packets: how
+/// many there are, if that is known.
 Result<Demultiplexed> demultiplex(std::span<const uint8_t> payload, size_t origin,
                                   const TrackCounts& counts, uint64_t packets = 0);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The packets of a stream: those that its index lists, and those that arrive in any order.
+// ScatteredPackets takes the bytes of a stream as they arrive, in any order, and returns the
+// beginning of each track. IndexedPackets tells it from the front index where each packet lies.
 #pragma once
 
 #include <array>

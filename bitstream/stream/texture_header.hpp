@@ -19,8 +19,7 @@ namespace tetrakis::inline stream {
 inline constexpr uint32_t kMaxTextureSide = 1u << 15;  ///< texels in a row or column
 
 /// These stand in the place of a number of bit-planes: the texture is drawn
-/// (codec/drawing/drawing_pass.hpp), or its samples are stored
-/// (bitstream/coder/byte_planes.hpp).
+/// (codec/drawing/drawing_pass.hpp), or its samples are stored (bitstream/coder/byte_planes.hpp).
 inline constexpr uint8_t kDrawnPlanes = 31;
 
 /// What is added to the priority of a colour plane at its finest levels, in 1/16 of a binary order

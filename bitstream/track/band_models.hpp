@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What predicts a coefficient of a band: the models of its decisions, the sums of its neighbours,
-// and hints from outside the track.
+// BandModels predict the decisions of a band's coefficients, and so save most of their bytes. Their
+// contexts are the sums of neighbouring magnitudes (localSums()) and hints from other bands
+// (RowHints), which both sides know.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A track is the codeword of one region of a plane: regions, tracks and the order of their passes.
+// A track is the codeword of one Region of a plane. regionsOf() divides a plane into regions, a
+// BandPlan describes each band of a track, and PassQueue gives the order of the passes over the
+// bands, so that any prefix of the codeword is worth its bytes.
 #pragma once
 
 #include <array>

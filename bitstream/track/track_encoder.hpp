@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions here encode the coefficients of a track, down to the last bit or to the bit from
-// which on bytes buy too little, and measure the error after every byte.
+// encodeTracks() encodes the coefficients of tracks, down to the last bit or to the bit from which
+// on bytes buy too little, and measures the error after every byte.
 #pragma once
 
 #include <array>

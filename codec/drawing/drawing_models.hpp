@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The models of a drawing: of the neighbours that a vertex may equal, which are made when they are
-// first met, and of the residuals of new values.
+// DrawingModels predict the decisions of a drawing: which of its neighbours a vertex equals, and
+// the index of its value. LazyModels makes a model when it is first asked, and codeResidual() codes
+// values that are new.
 #pragma once
 
 #include <algorithm>
@@ -73,7 +74,7 @@ int32_t codeResidual(ResidualModels<kClasses>& models, int32_t ours, Io& io) {
   return static_cast<int32_t>(io.evenBit(ours < 0) ? 0 - magnitude : magnitude);
 }
 
-// The models here hold the probabilities of the decisions of a drawing.
+// DrawingModels holds the probabilities of the decisions of a drawing.
 
 /// Models of one decision, from the most special to the most general. The first that has experience
 /// is asked, or the last; all learn. Quick, for the decisions of which there are most.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The values of a drawing: their list, and how the neighbours of a vertex rank them.
+// Candidates takes a vertex of a drawing and returns the values of its known neighbours, the
+// likeliest first. A value is known by its DrawnIndex in the list of the drawing's values, which
+// both sides build.
 #pragma once
 
 #include <algorithm>

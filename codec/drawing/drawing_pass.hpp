@@ -127,8 +127,8 @@ class DrawingPass {
   DrawingModels models_;
 };
 
-// DrawingDecoding is the decoder's side of the pass: it answers each decision of the pass
-// from a codeword.
+// DrawingDecoding is the decoder's side of the pass: it answers each decision of the pass from a
+// codeword.
 
 template <class Value>
 class DrawingDecoding {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions here decode a drawing's codeword once and tell from that what each of its prefixes
+// DrawingPrefixes decodes a drawing's codeword once and tells from that what each of its prefixes
 // shows. Encoders measure hundreds of prefixes; decoding each of them anew takes seconds, mostly
 // for fresh models.
 #pragma once

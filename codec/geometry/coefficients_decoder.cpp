@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights from coefficients, and where these are significant.
+// decodeCoefficients() turns the coefficients of a view into heights, and ShownSignificance marks
+// the vertices that have significant ones.
 #include "codec/geometry/heights_decoder.hpp"
 
 #include <algorithm>

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes heights: wavelet coefficients, or samples as they are stored.
+// decodeHeights() turns any prefix of the tracks of heights into the heights of a view, in steps
+// with corrections. decodeCoefficients() and decodeStoredHeights() do that for the two kinds of
+// tracks that have no part of their own: wavelet coefficients, and samples that are stored as they
+// are.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encodes heights: wavelet coefficients, or samples as they are stored; and finds the errors that
-// prefixes of corrections leave.
+// encodeCoefficients() and encodeStoredHeights() turn heights into tracks of wavelet coefficients
+// or into their samples as they are, which heights_decoder.hpp decodes; prefixesOfCorrections()
+// gives the heights behind prefixes of corrections.
 #pragma once
 
 #include <cstddef>

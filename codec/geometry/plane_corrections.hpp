@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Corrections in the decoder: how they are taken out of the tracks with the other layers, and what
-// they do to the heights of a plane.
+// takeApart() splits any prefix of the tracks of heights into the codewords of their layers, and
+// corrected() applies the corrections among them to decoded heights, region by region. Decoder
+// only; the layers in between are those of heights_decoder.hpp.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras over the ground: vectors, the frame in which cameras stand, the sky behind, and the
-// cameras that are used where callers have none.
+// A Camera looks at the ground from a place in its GroundFrame, which puts the samples of a grid
+// into metres. checkCamera() refuses cameras that see nothing, and presetCameras() and
+// unknownViewer() make cameras for callers that name none.
 #pragma once
 
 #include <array>
@@ -15,7 +16,7 @@
 
 namespace tetrakis::inline ground {
 
-// The functions here compute with vectors in space, for cameras and the renderer.
+// Vec3 is a vector in space, with which cameras and the renderer compute.
 
 using Vec3 = std::array<double, 3>;
 

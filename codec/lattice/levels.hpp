@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The levels of the 4-8 lattice, its rule at borders, and the neighbours of a vertex in its level.
+// levelsOf() takes the size of a grid and returns the levels of its 4-8 lattice, coarse to fine,
+// with the vertices that each one inserts; stencilOf() gives the coarser neighbours of a vertex.
+// Masks, drawings and meshes share them.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +16,8 @@
 
 namespace tetrakis::inline lattice {
 
-// The functions here count the squares and levels of the 4-8 subdivision along the sides of a grid,
-// under either of the two rules for its border.
+// depthOf(), centresAlong() and multiplesAlong() count the squares and levels of the 4-8
+// subdivision along the sides of a grid, under either of the two rules for its border.
 //
 // The subdivision of squares of side 2s inserts their centres, at odd multiples of s in x and y,
 // and the midpoints of their edges, at multiples of s of odd coordinate sum. Inside the grid these
@@ -64,9 +66,9 @@ inline uint32_t multiplesAlong(BorderRule rule, uint32_t size, uint32_t step) {
   return rule == BorderRule::kOverhanging ? (size - 2) / step + 2 : (size - 1) / step + 1;
 }
 
-// The levels of the 4-8 lattice over a W x H grid, clipped at its border. Masks
-// and drawings are coded in this order. Levels are counted from 1 here and in the thesis, because
-// the roots are level 0; meshes, whose roots are no level, count from 0.
+// Level is one of the levels of the 4-8 lattice over a W x H grid, clipped at its border. Masks and
+// drawings are coded in this order. Levels are counted from 1 in this file and in the thesis,
+// because the roots are level 0; meshes, whose roots are no level, count from 0.
 //
 // One 4-8 subdivision of squares of side 2s (s = 2^(depth-1) ... 1) inserts two levels
 // (thesis 3.2):

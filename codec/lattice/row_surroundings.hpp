@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The known vertices of the lattice as planes of bits, and what surrounds 64 vertices in a row.
+// RowSurroundings takes the vertices of the lattice that are known so far, which LatticePlanes
+// keeps as planes of bits, and returns the known neighbours of 64 vertices in a row at once,
+// because masks have wide areas in which all neighbours are alike.
 #pragma once
 
 #include <array>

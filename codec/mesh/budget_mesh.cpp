@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of the lattice with a budget of triangles, and with turned edges for a camera.
+// budgetMesh() and screenMesh() choose the vertices of a mesh within a budget of triangles, fit
+// their heights and, for a camera, turn edges.
 #include "codec/mesh/meshes.hpp"
 
 #include <algorithm>

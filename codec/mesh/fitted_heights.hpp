@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh's heights and edges, fitted to the surface.
+// FittedSequence takes a surface and returns meshes of it whose heights are the least squares over
+// all samples, which errs less than a mesh through samples does; fitMesh() fits one mesh, and
+// withTurnedEdges() turns its edges as well.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of a surface as receivers ask for them: of at most so many triangles, for a camera, with
-// voids.
+// budgetMesh(), screenMesh() and verticesBesideVoids() take a decoded surface and return a mesh of
+// at most a given number of triangles: on the map, for a camera, and where some samples are void.
 #pragma once
 
 #include <cstdint>
@@ -81,8 +81,8 @@ void leaveOutVoids(LatticeMesh& mesh, std::vector<float>& heights);
 /// A mesh of at most max_triangles > 0 triangles whose vertices are those of a 4-8 mesh, chosen
 /// among all samples by their weighted error and fitted, and whose edges are then turned
 /// (fitted_heights.hpp). Where samples are unknown it is that of verticesBesideVoids(), and
-/// triangles in voids are part of it. admits: as there. Fails with the errors of
-/// FittedSequence::makeFor().
+/// triangles in voids are part of it. admits: as verticesBesideVoids() takes it. Fails with the
+/// errors of FittedSequence::makeFor().
 Result<FittedMesh> screenMesh(const Lattice& lattice, const WeightedSurface& surface,
                               uint32_t max_triangles,
                               const std::function<Status(uint64_t)>& admits);

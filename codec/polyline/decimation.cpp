@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decimation: the knot that is worth least goes first (thesis 2.4, 2.5), without and with a tree.
+// udecimate(), udecimateGlobal(), cdecimate() and cglobal(): the knot that is worth least goes
+// first (thesis 2.4, 2.5), without and with a tree.
 #include <cstddef>
 #include <utility>
 

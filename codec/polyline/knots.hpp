@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The knots of a polyline: linked in their order, as a tree, and in the order of decimation.
+// LinkedKnots and KnotTree keep the knots of a curve that are left, in their order and as a
+// hierarchy, and decimateKnots() removes them one by one: what the algorithms of polylines.hpp are
+// made of.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Polylines that approximate a curve: the curve, counted operations, polylines of any size, and the
-// algorithms that find them.
+// Polylines approximate a curve with few of its knots. Each algorithm takes a Curve and returns
+// Polylines, one for each number of segments, so that profiles and the thesis's table 2.3 can
+// compare them by error and Operations.
 #pragma once
 
 #include <array>
@@ -102,15 +103,15 @@ struct Polylines {
   std::vector<uint32_t> knots(uint32_t segments) const;
 };
 
-/// Nested polylines with their errors. entry: as above, 1 for both ends.
+/// Nested polylines with their errors. entry: as in Polylines, 1 for both ends.
 Polylines nestedPolylines(const Curve& curve, std::vector<uint32_t> entry,
                           const Operations& operations);
 
 /// The error of the polyline over these knots, which begin and end with those of the curve.
 double errorOf(const Curve& curve, std::span<const uint32_t> knots);
 
-// The functions here are the algorithms of thesis chapter 2 that minimise the error D(J) over the
-// polylines J of C segments (2.2), and one more. All take a curve of at least two knots and give
+// The algorithms of thesis chapter 2 minimise the error D(J) over the polylines J of C segments
+// (2.2); udecimateGlobal() is one more. All take a curve of at least two knots and give
 // `Polylines`. Table 2.3 states their costs for n knots, m = n - 2 of them between the ends.
 //
 // The trees of 2.5.1 split the knots a … b at the knot (a + b) / 2, and so on. With n = 2^d + 1
@@ -130,8 +131,8 @@ Polylines urefine(const Curve& curve);
 Polylines udecimate(const Curve& curve);
 
 /// Not in the thesis: this removes the knot that adds least to the error of the whole polyline,
-/// knots that are gone included (the global error of 2.5.4, which the thesis has for
-/// trees alone). 5 m log m.
+/// knots that are gone included (the global error of 2.5.4, which the thesis has for trees alone).
+/// 5 m log m.
 Polylines udecimateGlobal(const Curve& curve);
 
 /// 2.5.2: inserts, of the knots whose parents in the tree are in, the one farthest from the

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refinement: the knot that is worth most comes first (thesis 2.4, 2.5), without and with a tree.
+// urefine() and crefine(): the knot that is worth most comes first (thesis 2.4, 2.5), without and
+// with a tree.
 #include <utility>
 
 #include "codec/polyline/knots.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bands of a plane with what their coefficients weigh.
+// PlaneLayout takes the pyramid of a plane and returns the bands of its tracks, each with the
+// weight of its errors (SynthesisNorms), by which bit-planes of all bands are put in one order.
 #pragma once
 
 #include <array>
@@ -43,7 +44,7 @@ class SynthesisNorms {
 };
 
 // PlaneLayout turns the subbands of a transformed plane into the bands of a track. Encoders gather
-// coefficients here; decoders put them back with codec/wavelet/synthesis/view_synthesis.hpp.
+// coefficients by it; decoders put them back with codec/wavelet/synthesis/view_synthesis.hpp.
 
 /// The classes of contexts that the bands of one plane use: levels 1, 2, 3, all coarser levels, LL.
 inline constexpr uint32_t kPlaneModels = 5;

@@ -24,7 +24,7 @@
 
 namespace tetrakis::inline wavelet {
 
-/// [i][area]: s[i] above.
+/// [i][area]: s[i] of the area, as the opening comment names it.
 using HeldStates = std::vector<std::vector<int32_t>>;
 
 /// What one level makes of the values of all areas.

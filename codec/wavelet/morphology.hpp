@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Openings and closings of masks, and the bridges that a closing adds to the samples that are
-// lifted.
+// liftedSamples() takes the mask of valid samples and returns the mask of those that are lifted:
+// the valid ones and the bridges over narrow voids, which a closing of the mask adds.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +37,7 @@ std::vector<uint8_t> closed(const std::vector<uint8_t>& marks, Extent plane, uin
 inline constexpr uint8_t kBridgeAll = 255;
 
 /// Returns the mask of the samples that are lifted: the closing of the valid ones by squares of
-/// that reach. Nothing: all are. reach: 0 bridges nothing,
-/// kBridgeAll everything.
+/// that reach. Nothing: all are. reach: 0 bridges nothing, kBridgeAll everything.
 SharedBits liftedSamples(const SharedBits& valid, uint8_t reach);
 std::vector<uint8_t> liftedSamples(const std::vector<uint8_t>& valid, Extent plane, uint8_t reach);
 

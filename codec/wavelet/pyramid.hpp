@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pyramid of the low bands of a plane, and the samples that have their values before.
+// Pyramid says where the bands of a transformed plane lie, and which of their coefficients exist.
+// It takes the size of the plane, the mask of its samples, and the HeldSamples whose values are
+// known before any coefficient.
 #pragma once
 
 #include <cstdint>

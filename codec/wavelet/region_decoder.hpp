@@ -38,7 +38,7 @@ struct TrackMemory {
   uint64_t bytes() const;
 };
 
-/// What run() below needs for the tracks of a component.
+/// What RegionDecoder::run() needs for the tracks of a component.
 struct TrackNeeds {
   Extent plane;
   int side_log2;    ///< of the regions; 0: there is one track

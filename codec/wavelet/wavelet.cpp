@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order of the levels.
+// forwardWavelet() and inverseWavelet() run the levels of the transform (level_transform.hpp), from
+// fine to coarse and back.
 #include "codec/wavelet/wavelet.hpp"
 
 #include <algorithm>

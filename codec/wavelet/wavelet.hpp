@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wavelet transform of a plane, what specifies it, and how the stream's header states that.
+// forwardWavelet() turns the samples of a plane into coefficients, and inverseWavelet() takes them
+// back, exactly if all coefficients are known. WaveletSpec says which transform it is, as specOf()
+// reads it from a stream's header.
 #pragma once
 
 #include <algorithm>
@@ -51,8 +53,8 @@ struct WaveletSpec {
   }
 };
 
-// specOf() and the other functions here turn the fields of a stream header about the wavelet into
-// the arguments of the transform.
+// specOf(), unroundedBits() and fractionBitsOf() turn the fields of a stream header about the
+// wavelet into the arguments of the transform, and withFractions() the values.
 
 inline WaveletSpec specOf(const WaveletHeader& header) {
   WaveletSpec spec;

@@ -188,7 +188,9 @@ std::vector<VectorCase> refusedLists() {
                            heights.parts.clear();
                          }),
           changedHeights("refused_stored_wavelet", "stored heights with a wavelet",
-                         [](HeaderParts& heights) { heights.fields[test::kDomainByte + 5] = 0; })};
+                         [](HeaderParts& heights) {
+                           heights.fields[test::codingByte(heights.fields, true)] = 0;
+                         })};
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coded heights: by the wavelet, directly, followed by corrections, in joined layers; the errors of
-// their prefixes, and notes on how they were coded.
+// CodedHeights is quantised heights as the tracks and the header of a component. The functions of
+// this file make it (from coefficients, as a drawing, or from stored samples, each with the layers
+// around it), append corrections to it, measure the errors of its prefixes, and note how it was
+// coded, so that the ways of encoder/heights/ways/ only have to choose.
 #pragma once
 
 #include <cstdint>

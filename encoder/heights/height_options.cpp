@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is settled before heights are quantised: the options of their coefficients, and their lines.
+// heightOptions() and heightLines() settle, from the options of an encoding, how the coefficients
+// of its heights are coded and which of their lines: both come before the heights are quantised.
 #include "encoder/heights/quantised_heights.hpp"
 
 #include <cassert>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights in steps, before they are coded: options, lines that are coded, steps, and the mask.
+// QuantisedHeights is the input heights in integer steps, with everything that is settled before
+// coefficients are coded: the lines that are coded, the options, base and step or a table of
+// values, and the place of the mask of valid samples. Every way to code heights starts from it.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is encoded, with its targets: samples, the lines of them that are coded, and regions.
+// EncodeInputs is the input of one encoding (heights, image, options, priorities) as all stages of
+// the encoder see it. The functions of this file derive from it what both components need alike:
+// the lines that are coded, the regions, and the bytes that are worth coding.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan of an encoder: what it has chosen, notes on what else there was, and both in words.
+// Plan states as a value how a component is coded. PlanNotes collects the plans that an encoding
+// has weighed, and filterWords(), layerWords() and predictorWords() say them in words, so that the
+// encoder can explain its choice to the caller.
 #pragma once
 
 #include <array>
@@ -121,7 +123,8 @@ auto notingLonger(const Inputs& inputs) {
   return [&inputs](const auto& lost) { note(inputs, *lost.coded, Verdict::kLonger, lost.need); };
 }
 
-// The functions here say parts of a plan in words, in which the C interface hands them out.
+// filterWords(), layerWords() and predictorWords() say parts of a plan in the words that the C
+// interface hands out.
 
 /// The filters of level 1, of level 2 and of all coarser ones: "six-tap, six-tap, quiet". Empty if
 /// the plan names none.

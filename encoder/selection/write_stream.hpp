@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The selected packets as a stream, with notes on them and the place that its header states.
+// writeStream() turns a Selection, the coded components with their packets in one order, into the
+// bytes of a stream. It makes the part of the header that says where the samples lie, and notes the
+// plans that the stream holds.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidates of heights and textures, their curves, and the bytes that a PSNR needs.
+// The candidates of both components get their curves, their packets in order, and the bytes that a
+// PSNR needs; lossless coding and stored samples make further candidates.
 #include "encoder/targets/targets.hpp"
 
 #include <algorithm>

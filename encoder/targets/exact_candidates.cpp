@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidates that end exact within a budget of bytes.
+// fewValues(), shortExactHeights(), exactHeights(), exactTexture() and exactWays() make the
+// candidates of one component that end exact within a budget of bytes.
 #include "encoder/targets/targets.hpp"
 
 #include <algorithm>

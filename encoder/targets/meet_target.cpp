@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The packets that meet a target, or that are worth as much as a bound.
+// meetTarget() selects the packets that the target of the options needs. Beside heights that keep a
+// largest error, for which nobody names a size, a texture gets the packets that are worth as much
+// as those of the heights.
 #include "encoder/targets/targets.hpp"
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which packets meet the target: candidates of coded heights and textures, exact ones among them,
-// and the best.
+// meetTarget() takes the coded heights and texture and returns the packets of both that meet the
+// target of the options. It compares them with candidates that are coded in other ways, which the
+// other functions of this file make: the first coding of a component is not always the best one for
+// the target.
 #pragma once
 
 #include <cstdint>
@@ -28,9 +30,9 @@ ComponentCurve curveOfHeights(const EncodeInputs& inputs, const CodedHeights& he
 
 ComponentCurve curveOfTexture(const EncodeInputs& inputs, const CodedTexture& texture);
 
-// Candidates are the attempts at both components from which a target selects. The functions here
-// give candidates their curves, order their packets, and make the attempts that follow the first
-// one: lossless coding, and stored samples.
+// Candidates are the attempts at both components from which a target selects. withCurves() gives
+// them their curves and orderPackets() orders their packets; codeLossless() and storedIfShorter()
+// make the attempts that follow the first one.
 
 using HeightsCandidate = Candidate<CodedHeights>;
 using TextureCandidate = Candidate<CodedTexture>;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A coded texture: its options, the lines of texels that are coded, and notes on how it was coded.
+// CodedTexture is a texture as the tracks and the header of a component. The functions of this file
+// make it in each way to code a texture, measure the errors of its prefixes, and note how it was
+// coded.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +20,8 @@
 namespace tetrakis::inline textures {
 
 // CodedTexture is a texture as a component of a stream: its tracks, and the header that describes
-// them. The functions here make such values in each way to code a texture, and measure the texels
-// that a decoder makes of a prefix. A value is not changed once it is made.
+// them. A value is not changed once it is made. codeTexture() and its siblings make it, and
+// squaresOf() measures the texels that a decoder makes of a prefix.
 
 struct CodedTexture {
   std::shared_ptr<const TextureSource> source;
@@ -45,7 +47,7 @@ std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image);
 CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> source,
                          Purpose purpose);
 
-/// Codes the texture as the target of the options asks for it. source: as above.
+/// Codes the texture as the target of the options asks for it. source: as codeTexture() takes it.
 CodedTexture codeTextureForTarget(const EncodeInputs& inputs,
                                   std::shared_ptr<const TextureSource> source);
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What receivers decode at some points of the curves, and show as meshes.
+// DecodedNodes decodes prefixes of both components, at points of their curves, into the surfaces
+// and texels that viewers will see of them. Errors of pictures are measured on these, because no
+// account of coefficients foretells what a mesh or a camera shows.
 #pragma once
 
 #include <cstddef>

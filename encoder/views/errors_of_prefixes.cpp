@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures of prefixes, and whether maps of priorities make them better.
+// PrefixErrors measures the pictures of prefixes of a selection, and mapsPay() compares the
+// pictures of a selection with maps of priorities to those of a selection without them.
 #include "encoder/views/pairs.hpp"
 
 #include <algorithm>

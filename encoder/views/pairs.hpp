@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of pictures for pairs of prefixes, of heights and of the texture: rendered or modelled.
+// pairErrorsOf() measures, in the cameras' pictures, the errors of pairs of a prefix of the heights
+// with a prefix of the texture. PrefixErrors does the same for prefixes of a whole selection;
+// mapsPay() judges maps of priorities by it.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The cameras of an encoder: what they look at, whether they see anything, and the priorities that
-// follow.
+// camerasOf(), checkCameras() and prioritiesOf() take the caller's heights and cameras and return
+// the cameras in metres on the ground, the refusal of cameras that see nothing, and the maps of the
+// coefficients that come first because the cameras see most of them.
 #pragma once
 
 #include <cstdint>

@@ -93,10 +93,24 @@ typedef enum tks_registration TKS_INT {
 
 /* What lies beside the columns at the ends of a raster. */
 typedef enum tks_domain TKS_INT {
-  TKS_DOMAIN_PLANE = 0,   /* nothing */
-  TKS_DOMAIN_CYLINDER = 1 /* the last column lies beside the first one, as on a globe: no seam is
-                             left between the two. Meshes are those of the plane */
+  TKS_DOMAIN_PLANE = 0,    /* nothing */
+  TKS_DOMAIN_CYLINDER = 1, /* the last column lies beside the first one, as on a globe: no seam is
+                              left between the two. Meshes are those of the plane */
+  TKS_DOMAIN_FOREST = 2    /* square patches whose sides are glued, as those of a cube: tks_forest */
 } tks_domain;
+
+/* A surface of square patches of (2^depth + 1) x (2^depth + 1) samples, of which neighbours share
+ * the samples of the sides that are glued. Its raster has 2^depth + 1 columns, and the patches one
+ * below the other. Side 4 p + 0 is the first row of patch p, 4 p + 1 its last column, 4 p + 2 its
+ * last row, 4 p + 3 its first column. Clockwise round one patch is counterclockwise round the other
+ * along a side: sample k of a first row or last column is sample 2^depth - k of another such side,
+ * and sample k of a last row or first column, and likewise the other way round. */
+#define TKS_BORDER UINT32_MAX /* in the place of a side: nothing is glued here */
+typedef struct tks_forest {
+  uint32_t depth;        /* 1 to 18 */
+  uint32_t patches;      /* patches * (2^depth + 1) is at most 2^20; 0: no forest */
+  const uint32_t* sides; /* 4 * patches: for each side the one that it is glued to, or TKS_BORDER */
+} tks_forest;
 
 /* A height field to encode: width x height samples, row by row, tightly packed, caller's memory.
  * The least size is 1 x 1. One column or row has no area: no mesh can be made of it, and no camera

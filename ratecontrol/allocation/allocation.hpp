@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The packets of two components in one order: the errors of pairs of prefixes, and what a packet
-// takes off them for each byte.
+// allocate() takes the packets of heights and texture with their curves and returns them in one
+// order, the packet first that takes most error off the picture for each byte. PairErrors tells the
+// error of the picture for any pair of prefixes, because the errors of heights and texture do not
+// add.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of pairs: between those of a grid, and corrected by measured ones.
+// PairErrors interpolates the errors of a grid of pairs, and correctedErrors() corrects those of a
+// model by measured ones.
 #include "ratecontrol/allocation/allocation.hpp"
 
 #include <algorithm>

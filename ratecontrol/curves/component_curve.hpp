@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the bytes of one component take off its errors: the hulls of its tracks, the order of their
-// passes, and the audited curve of the component.
+// curveOf() takes the tracks of a coded component and returns its packets in order, with the curve
+// of its error by bytes. On the way orderTracks() orders the passes of several tracks, audit()
+// corrects their accounts by decoded prefixes, and lowerHull() says where packets may end.
 #pragma once
 
 #include <cstddef>

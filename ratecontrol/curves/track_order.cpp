@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hulls of accounts, and the order of packets that follows from them.
+// lowerHull() and packetEnds() divide an account into packets, and orderTracks() orders those of
+// several tracks.
 #include "ratecontrol/curves/component_curve.hpp"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many bytes a target asks for, of a component and of its packets, and a candidate that has
-// them.
+// leastBytes() finds the bytes of a component that a target needs, and keepNeeded() and
+// keepWithinBudget() the packets that hold them, or that fit a budget. fewestBytes() chooses the
+// Candidate that needs the fewest. Nothing is decoded: callers say what suffices.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +20,9 @@
 
 namespace tetrakis::inline needs {
 
-// The functions here find the number of bytes of each component that a target needs, and keep the
-// packets that hold them. They decode nothing: the caller says whether a number of bytes suffices.
+// leastBytes() finds the number of bytes of each component that a target needs, and keepNeeded()
+// keeps the packets that hold them. They decode nothing: the caller says whether a number of bytes
+// suffices.
 
 /// Payload bytes of each component's packets, in their order.
 using Needs = std::array<uint64_t, kComponents>;
@@ -44,8 +46,8 @@ std::vector<Packet> keepNeeded(
 /// Bytes of the codewords that all packets hold.
 uint64_t payloadOf(std::span<const Packet> packets);
 
-// The functions here keep the packets of an order that fit in a budget of bytes, to which the heads
-// of packets count, and move packets so that one component ends within it.
+// keepWithinBudget() keeps the packets of an order that fit in a budget of bytes, to which the
+// heads of packets count, and endWithin() moves packets so that one component ends within it.
 
 /// Returns the bytes of all packets with their heads.
 uint64_t bytesOfPackets(std::span<const Packet> packets);

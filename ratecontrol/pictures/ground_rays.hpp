@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where rays meet the ground, by the highest ground of the blocks that they pass over.
+// GroundRays takes a height field and rays of a camera and returns where the rays meet the ground.
+// MaximumMipmap, the highest ground of blocks of cells, lets a ray skip all blocks below it.
 #pragma once
 
 #include <array>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of pictures: at the points of the screen, and along outlines.
+// PictureErrors takes a terrain with its cameras and returns how far the cameras' pictures of other
+// surfaces and textures are from those of the terrain: by ScreenPoints on the ground, by Outlines
+// where the ground ends before the sky.
 #pragma once
 
 #include <cstddef>
@@ -126,8 +128,8 @@ class ScreenPoints {
 };
 
 // PictureErrors measures how far the cameras' pictures of other surfaces and textures are from
-// those of the true terrain: inside the ground by points, at its end before the
-// sky by columns. The error of a picture is the sum of both.
+// those of the true terrain: inside the ground by points, at its end before the sky by columns. The
+// error of a picture is the sum of both.
 
 class PictureErrors {
  public:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A point of a camera's picture: the ground and the texels that it shows.
+// A PicturePoint is a place in a camera's picture; seenAt() returns the ground that it shows, and
+// colourOf() the colour of that ground in a ScreenTexture, as a renderer would filter it.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which bytes of a stream a receiver should fetch next for what it sees.
+// planFetch() takes the index of a stream, the bytes that are missing and what a viewer sees, and
+// returns the byte ranges that the receiver should fetch next, the most helpful first.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a camera sees of the ground.
+// sightOf() takes coarse heights and the eye of a viewer and returns for each point of the ground
+// the cost of an error there in the viewer's picture; a Sighting is that cost with its ground.
 #pragma once
 
 #include <array>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The packets of a stream by their tracks and places, and what their bytes are worth to a viewer.
+// placedPackets() takes the front index of a stream and what viewers see, and returns all packets,
+// each with its place in the stream and the worth of its bytes to the viewers, from the TrackCosts
+// of their sightings.
 #pragma once
 
 #include <algorithm>

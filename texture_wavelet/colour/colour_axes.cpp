@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Axes of colour, fitted to the details of an image.
+// sampleDetails() samples the details of an image, and fitAxes() turns the axes of colour until
+// these details take the fewest bits.
 #include "texture_wavelet/colour/colour_fit.hpp"
 
 #include <algorithm>

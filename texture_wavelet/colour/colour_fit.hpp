@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choice of the colour transform: axes of the details, fitted for all levels, for one level,
-// without loss, and for further channels.
+// fitColour() takes the channels of an image and returns the colour transform with which they take
+// the fewest bits: its axes are those of the details of the image. turnLevels() fits further shears
+// to single levels, chooseLosslessColour() and fitFurtherColour() fit what lossless images and a
+// fourth channel need. Encoder only.
 #pragma once
 
 #include <array>
@@ -16,7 +18,7 @@
 namespace tetrakis::inline colour {
 
 // sampleDetails() samples the orthonormal Haar details of an image at all scales, to which the axes
-// of colour are fitted. Encoder only.
+// of colour are fitted.
 
 using Colour = std::array<float, 3>;
 
@@ -31,8 +33,8 @@ struct ColourDetails {
   }
 };
 
-/// [i]: of level i + 1, some thousands at most. channels: 3 or more of that extent.
-/// Empty where the image has less than two rows or columns.
+/// [i]: of level i + 1, some thousands at most. channels: 3 or more of that extent. Empty where the
+/// image has less than two rows or columns.
 std::vector<ColourDetails> sampleDetails(std::span<const int32_t* const> channels, Extent extent);
 
 /// The magnitude that a tenth of all coefficients of the channels exceed: about the step at middle
@@ -42,9 +44,9 @@ double typicalStep(std::span<const ColourDetails> details);
 /// Estimated bits of all coefficients along one axis, a unit vector: log2(1 + |c| / step) each.
 double bitsAlong(const std::array<double, 3>& axis, const ColourDetails& details, double step);
 
-// The functions here find the axes of colour along which an image is cheapest to code: a
-// coefficient c at a step T costs about log2(1 + |c| / T) bits, and the axes are turned by small
-// rotations until the sum of these costs is least. Encoder only.
+// fitAxes() finds the axes of colour along which an image is cheapest to code: a coefficient c at a
+// step T costs about log2(1 + |c| / T) bits, and the axes are turned by small rotations until the
+// sum of these costs is least.
 
 /// Axes of colour that need the fewest bits: rows of rotations, luma first.
 struct ColourAxes {
@@ -57,7 +59,7 @@ struct ColourAxes {
 ColourAxes fitAxes(std::span<const int32_t* const> channels, Extent extent, Purpose purpose);
 
 // turnLevels() chooses the shears of the coefficients of each level, where they save more bits than
-// they take in the header. Encoder only.
+// they take in the header.
 
 /// A transform, and the bits that coefficients and header are estimated to take with it.
 struct TurnedLevels {
@@ -69,7 +71,7 @@ struct TurnedLevels {
 /// rows of axes.levels[i]. transform: has no shears of levels.
 TurnedLevels turnLevels(const ColourTransform& transform, const ColourAxes& axes, double step);
 
-// fitColour() fits the colour transform to the channels of an image. Encoder only.
+// fitColour() fits the colour transform to the channels of an image.
 
 /// Centres every channel on its mean and fits the shears of RGB to the image. channels: 1 to 4 of
 /// that many samples of at most 16 bits, as in forwardColour.
@@ -84,17 +86,17 @@ ColourTransform rotated(ColourTransform transform, const Matrix3& rotation);
 
 // chooseLosslessColour() chooses the colour transform of an image that is coded to the last bit. It
 // takes the axes of lossy streams where these cost about as few bytes as the cheapest ones, because
-// prefixes of a lossless stream are lossy. Encoder only.
+// prefixes of a lossless stream are lossy.
 
 /// A rotation that packs the energy is best at low rates; the last bits are noise, which it spreads
-/// over all planes. Takes the cheapest, by the residuals of a gradient predictor, of the
-/// fitted rotations, JPEG 2000's reversible transform about each channel, and
-/// none; but the colours of lossy streams, which are better for prefixes, where these cost about as
-/// little. channels: 1 to 4 of that extent, as in fitColour.
+/// over all planes. Takes the cheapest, by the residuals of a gradient predictor, of the fitted
+/// rotations, JPEG 2000's reversible transform about each channel, and none; but the colours of
+/// lossy streams, which are better for prefixes, where these cost about as little. channels: 1 to 4
+/// of that extent, as in fitColour.
 ColourTransform chooseLosslessColour(std::span<const int32_t* const> channels, Extent extent);
 
 // fitFurtherColour() finds how a further colour, such as near infrared, follows from the other
-// channels. Encoder only.
+// channels.
 
 /// ColourTransform::further_shears for channels of which the last, of 2 or 4, is a further colour.
 /// transform: that of the others.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures as drawings: their colours, what fills vertices that have not arrived, and the decoder.
+// decodeDrawn() and decodeOverlay() take any prefix of the codeword of a drawing and return its
+// texels. DrawnColours, the list of its colours, is shared with the encoder, and fillDrawn() gives
+// a colour to texels that have not arrived.
 #pragma once
 
 #include <algorithm>

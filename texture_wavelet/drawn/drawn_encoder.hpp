@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder's side of textures as drawings, and the errors of the codeword's prefixes.
+// encodeDrawn() and encodeOverlay() code an image of few colours, or what is drawn over a
+// photograph, as a drawing. DrawnError and prefixesOfDrawing() tell what prefixes of the drawing
+// show. Encoder only.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +20,7 @@
 namespace tetrakis::inline drawn {
 
 // DrawnError measures the squared error of an image of which only some texels are decoded, again
-// and again while their number grows. Encoder only.
+// and again while their number grows.
 
 /// Measures an image again and again while more of it becomes known.
 class DrawnError {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder's side of tables of the values of channels: which channels have few values, and the
-// codewords of their tables.
+// fewValuesOf() finds the channels of an image that use few values of their type, and makes the
+// tables of these values (channel_tables.hpp) whose places are coded instead; headerOf() codes the
+// tables. Encoder only.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@
 namespace tetrakis::inline tables {
 
 // fewValuesOf() finds the channels of an image that use few of the values of their type, and makes
-// tables of these values. Encoder only.
+// tables of these values.
 
 struct FewValues {
   ChannelTables tables;  ///< of the channels for which they save bits

@@ -2,6 +2,7 @@
 // A band of GDAL as heights.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "apps/doors/gdal/copied_raster.hpp"
 #include "apps/doors/gdal/copied_samples.hpp"
@@ -38,6 +39,7 @@ void takeFacts(const std::string& name, GDALDataset& dataset, CopiedHeights& cop
   std::copy_n(place.geotransform, 6, heights.geotransform);
   heights.has_geotransform = place.has_geotransform;
   heights.registration = place.registration;
+  heights.domain = domainOf(place, dataset.GetSpatialRef(), heights.width);
   setGroundSpacing(dataset.GetSpatialRef(), heights);
   copy.ground = WebGround::of(dataset, copy.crs.crs);
   heights.unit = copy.unit.c_str();
@@ -56,6 +58,15 @@ Place placeOf(GDALDataset& dataset) {
     if (EQUAL(text, GDALMD_AOP_POINT)) place.registration = TKS_REGISTRATION_POINT;
   }
   return place;
+}
+
+tks_domain domainOf(const Place& place, const OGRSpatialReference* system, uint32_t width) {
+  if (!place.has_geotransform || system == nullptr || !system->IsGeographic())
+    return TKS_DOMAIN_PLANE;
+  const double degrees = system->GetAngularUnits() * (180 / std::numbers::pi);
+  return columnsRound({width, 1, place.geotransform}, degrees) == ColumnsRound::kOnce
+             ? TKS_DOMAIN_CYLINDER
+             : TKS_DOMAIN_PLANE;
 }
 
 std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset& dataset,

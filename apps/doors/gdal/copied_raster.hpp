@@ -84,4 +84,7 @@ struct Place {
 };
 Place placeOf(GDALDataset& dataset);
 
+/// A cylinder if the columns of a geographic grid go round the Earth. system: null if unknown.
+tks_domain domainOf(const Place& place, const OGRSpatialReference* system, uint32_t width);
+
 }  // namespace tetrakis::gdal

@@ -135,6 +135,7 @@ std::unique_ptr<CopiedTexture> copyTexels(const std::string& name, GDALDataset& 
   std::copy_n(place.geotransform, 6, image.geotransform);
   image.has_geotransform = place.has_geotransform;
   image.registration = place.registration;
+  image.domain = domainOf(place, dataset.GetSpatialRef(), image.width);
   image.crs = copy->crs.crs.c_str();
   copy->ground = WebGround::of(dataset, copy->crs.crs);
   image.data = copy->texels.data();
@@ -203,7 +204,10 @@ std::unique_ptr<CopiedTexture> copyTexture(const std::string& name, const std::s
     warn("has a nodata value beside its last band, which is not applied and not kept");
   if (liesBeside(*dataset, heights))
     warn("lies beside the ground of the heights, which get its border");
-  return copyTexels(name, *dataset, Nodata::kAsAlpha);
+  std::unique_ptr<CopiedTexture> copy = copyTexels(name, *dataset, Nodata::kAsAlpha);
+  if (copy && dataset->GetSpatialRef() == nullptr)  // its place is in the CRS of the heights
+    copy->image.domain = domainOf(placeOf(*dataset), heights.GetSpatialRef(), copy->image.width);
+  return copy;
 }
 
 std::unique_ptr<CopiedTexture> copyPicture(const std::string& name, GDALDataset& dataset) {

@@ -119,6 +119,21 @@ std::optional<Parts> withWhiteLevel(Parts parts, const std::string& name,
   return parts;
 }
 
+/// On the domain that was asked for, or else on that of their columns, a texture without a place on
+/// that of the heights.
+Parts onDomain(Parts parts, const CopySettings& settings) {
+  if (parts.heights) {
+    tks_heights& heights = parts.heights->heights;
+    heights.domain = settings.domain.value_or(heights.domain);
+  }
+  if (parts.texture) {
+    tks_image& image = parts.texture->image;
+    if (parts.heights && !image.has_geotransform) image.domain = parts.heights->heights.domain;
+    image.domain = settings.domain.value_or(image.domain);
+  }
+  return parts;
+}
+
 /// A picture alone. Nothing after a reported error.
 std::optional<Parts> readPicture(const std::string& name, GDALDataset& source,
                                  const CopySettings& settings) {
@@ -132,7 +147,7 @@ std::optional<Parts> readPicture(const std::string& name, GDALDataset& source,
   Parts parts;
   parts.texture = copyPicture(name, source);
   if (!parts.texture) return std::nullopt;
-  return withWhiteLevel(std::move(parts), name, settings);
+  return withWhiteLevel(onDomain(std::move(parts), settings), name, settings);
 }
 
 /// Nothing after a reported error.
@@ -144,7 +159,7 @@ std::optional<Parts> readParts(const std::string& name, GDALDataset& source, boo
   if (!parts.heights) return std::nullopt;
   if (!settings.texture.empty()) parts.texture = copyTexture(name, settings.texture, source);
   if (!settings.texture.empty() && !parts.texture) return std::nullopt;
-  return withWhiteLevel(std::move(parts), name, settings);
+  return withWhiteLevel(onDomain(std::move(parts), settings), name, settings);
 }
 
 bool encode(const std::string& name, const Parts& parts, CopySettings settings, Watch watch,

@@ -38,6 +38,8 @@ void Dataset::tellStream() {
   if (info.triangles > 0) tell("TRIANGLES", std::to_string(info.triangles));
   tell("INDEX", wordOf(info.index));
   if (source_->regionSide() != 0) tell("BLOCKSIZE", std::to_string(source_->regionSide()));
+  if ((isHeights() ? info.domain : info.texture_domain) == TKS_DOMAIN_CYLINDER)
+    tell("DOMAIN", "CYLINDER");
   if (!isHeights()) {
     if (info.texture_white_level < UINT16_MAX && info.texture_sample == TKS_U16)
       tell("WHITE_LEVEL", std::to_string(info.texture_white_level));

@@ -41,6 +41,9 @@ const char* const kCreationOptions =
     "piece, for windows; regions are of 256, unless BLOCKSIZE is given. Default: WINDOWS for "
     "lossless files in regions, else NO'>"
     "<Value>NO</Value><Value>YES</Value><Value>WINDOWS</Value></Option>"
+    "<Option name='DOMAIN' type='string-select' default='AUTO' description='CYLINDER: the last "
+    "column lies beside the first one, and no seam is seen between them; AUTO: of geographic grids "
+    "of 360 degrees'><Value>AUTO</Value><Value>PLANE</Value><Value>CYLINDER</Value></Option>"
     "<Option name='NUM_THREADS' type='string' description='Threads of encoding: a number, or "
     "ALL_CPUS' default='1'/>"
     "</CreationOptionList>";
@@ -169,6 +172,16 @@ std::optional<tks_index> indexKind(Options& options) {
   return std::nullopt;
 }
 
+/// Nothing if the columns are to say it, or after a refusal.
+std::optional<tks_domain> domainGiven(Options& options) {
+  const char* const given = options.text("DOMAIN");
+  if (given == nullptr || EQUAL(given, "AUTO")) return std::nullopt;
+  if (EQUAL(given, "PLANE")) return TKS_DOMAIN_PLANE;
+  if (EQUAL(given, "CYLINDER")) return TKS_DOMAIN_CYLINDER;
+  options.refuse(std::string("DOMAIN=") + given + " is none of AUTO, PLANE and CYLINDER.");
+  return std::nullopt;
+}
+
 /// What is to be kept of the samples.
 void takeTarget(Options& options, CopySettings& settings) {
   tks_encode_options& encode = settings.encode;
@@ -218,6 +231,7 @@ std::optional<CopySettings> copySettings(const std::string& name, CSLConstList o
   if (settings.index == TKS_INDEX_WINDOWS && encode.regions == kNoRegions)
     given.refuse("INDEX=WINDOWS lays out regions, and BLOCKSIZE=NONE says that there are none.");
   encode.threads = given.threads();
+  settings.domain = domainGiven(given);
   settings.texture = textureName(given);
   const uint64_t white = given.count("WHITE_LEVEL", "value of UInt16 above 0");
   settings.white_level = static_cast<uint32_t>(std::min<uint64_t>(white, UINT32_MAX));

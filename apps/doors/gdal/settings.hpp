@@ -21,7 +21,8 @@ struct CopySettings {
   double max_z_error = 0;     ///< in samples; 0: none
   std::string texture;        ///< a dataset; "": none
   std::optional<tks_index> index;
-  uint32_t white_level = 0;  ///< of a texture; 0: as its dataset says, or found
+  std::optional<tks_domain> domain;  ///< nothing: as the columns say
+  uint32_t white_level = 0;          ///< of a texture; 0: as its dataset says, or found
 };
 
 /// Nothing after a reported error.

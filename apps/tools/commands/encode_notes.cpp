@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "apps/tools/files/file_bytes.hpp"
-#include "apps/tools/files/place/columns_round.hpp"
 #include "apps/tools/files/place/crs_units.hpp"
+#include "apps/tools/files/place/ground_spacing.hpp"
 #include "apps/tools/files/place/texture_place.hpp"
 #include "apps/tools/files/text.hpp"
 #include "apps/tools/files/void_samples.hpp"

@@ -50,6 +50,7 @@ tks_heights heightsOf(Numbers& numbers, const char* const* texts, const void* da
   numbers.take(h.has_geotransform);
   numbers.take(h.geotransform);
   numbers.take(h.registration);
+  numbers.take(h.domain);
   h.unit = texts[0];
   h.vertical_datum = texts[1];
   h.crs = texts[2];
@@ -82,6 +83,7 @@ tks_image imageOf(Numbers& numbers, const char* const* texts, const void* data) 
   numbers.take(image.has_geotransform);
   numbers.take(image.geotransform);
   numbers.take(image.registration);
+  numbers.take(image.domain);
   numbers.take(image.opaque);
   numbers.take(image.white_level);
   image.crs = texts[5];
@@ -96,10 +98,10 @@ extern "C" {
 /// What the numbers of web_encode() are, by the names that JavaScript gives them.
 const char* web_encode_names() {
   return "width height sample scale offset step spacingX spacingY hasNodata nodata "
-         "hasGeotransform g0 g1 g2 g3 g4 g5 registration "
+         "hasGeotransform g0 g1 g2 g3 g4 g5 registration domain "
          "textureWidth textureHeight textureChannels textureSample "
-         "textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration textureOpaque "
-         "textureWhiteLevel "
+         "textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration textureDomain "
+         "textureOpaque textureWhiteLevel "
          "bytes psnr maxError lossless triangles regions index weights";
 }
 

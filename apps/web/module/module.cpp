@@ -66,6 +66,7 @@ tks_status web_open(const uint8_t* data, size_t size, double max_memory, tks_dec
   NUMBER(g4, geotransform[4])                              \
   NUMBER(g5, geotransform[5])                              \
   NUMBER(registration, registration)                       \
+  NUMBER(domain, domain)                                   \
   NUMBER(textureHasGeotransform, texture_has_geotransform) \
   NUMBER(t0, texture_geotransform[0])                      \
   NUMBER(t1, texture_geotransform[1])                      \
@@ -74,6 +75,7 @@ tks_status web_open(const uint8_t* data, size_t size, double max_memory, tks_dec
   NUMBER(t4, texture_geotransform[4])                      \
   NUMBER(t5, texture_geotransform[5])                      \
   NUMBER(textureRegistration, texture_registration)        \
+  NUMBER(textureDomain, texture_domain)                    \
   NUMBER(textureOpaque, texture_opaque)                    \
   NUMBER(textureWhiteLevel, texture_white_level)           \
   NUMBER(voidsKnown, voids_known)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-import type {OpenOptions} from './index.js';
+import type {Domain, OpenOptions} from './index.js';
 
-export {TksError} from './index.js';
+export {Domain, TksError} from './index.js';
 
 export type Samples =
   | Uint8Array | Int8Array | Uint16Array | Int16Array | Uint32Array | Int32Array | Float32Array;
@@ -26,6 +26,8 @@ export interface HeightsInput {
   /** As GDAL's. */
   geotransform?: ArrayLike<number>;
   registration?: Registration;
+  /** Default: "plane". */
+  domain?: Domain;
   verticalDatum?: string;
   description?: string;
   geoKeys?: string;
@@ -45,6 +47,8 @@ export interface TextureInput {
   crs?: string;
   geotransform?: ArrayLike<number>;
   registration?: Registration;
+  /** Default: "plane". */
+  domain?: Domain;
   geoKeys?: string;
 }
 

@@ -3,7 +3,8 @@
 // another stream than was asked for.
 import {TksError} from './error.js';
 
-const RASTER = ['data', 'width', 'height', 'crs', 'geotransform', 'registration', 'geoKeys'];
+const RASTER = ['data', 'width', 'height', 'crs', 'geotransform', 'registration', 'geoKeys',
+  'domain'];
 const HEIGHTS = [...RASTER, 'nodata', 'unit', 'spacing', 'scale', 'offset', 'step',
   'verticalDatum', 'description'];
 const TEXTURE = [...RASTER, 'channels', 'opaque', 'whiteLevel'];

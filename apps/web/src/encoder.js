@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calls the encoder's WebAssembly module. Nothing here waits: it runs in a worker as well.
 import {TksError} from './error.js';
-import {Instance, MESSAGE_BYTES, SAMPLES, failureOf} from './instance.js';
+import {DOMAINS, Instance, MESSAGE_BYTES, SAMPLES, failureOf} from './instance.js';
 
 export const EXHAUSTED = 'The encoder ran out of memory: a page has 4 GB at most.';
 
@@ -65,6 +65,7 @@ function heightsFields(heights) {
     width, height, sample, scale, offset, step, spacingX, spacingY,
     ...nodataFields(nodata),
     registration: oneOf(REGISTRATIONS, heights.registration, 'registration'),
+    domain: oneOf(DOMAINS, heights.domain, 'domain'),
     ...placed(heights.geotransform, 'hasGeotransform', 'g'),
   };
 }
@@ -93,6 +94,7 @@ function textureFields(texture) {
     textureOpaque: Number(texture.opaque ?? false),
     textureWhiteLevel: whiteLevelOf(texture),
     textureRegistration: oneOf(REGISTRATIONS, texture.registration, 'registration'),
+    textureDomain: oneOf(DOMAINS, texture.domain, 'domain'),
     ...placed(texture.geotransform, 'textureHasGeotransform', 't'),
   };
 }

@@ -83,6 +83,9 @@ export interface RefineOptions extends FrameOptions {
   after?: number;
 }
 
+/** Of a cylinder the last column lies beside the first one, as on a globe. */
+export type Domain = 'plane' | 'cylinder';
+
 export interface TerrainInfo {
   formatVersion: number;
   headerBytes: number;
@@ -123,6 +126,8 @@ export interface TerrainInfo {
   geotransform: number[];
   textureHasGeotransform: boolean;
   textureGeotransform: number[];
+  domain: Domain;
+  textureDomain: Domain;
   unit: string;
   verticalDatum: string;
   crs: string;

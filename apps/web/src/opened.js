@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stream that the decoder's module has open: what it holds, and the calls that decode its parts.
 import {TksError} from './error.js';
-import {MESSAGE_BYTES, SAMPLES} from './instance.js';
+import {DOMAINS, MESSAGE_BYTES, SAMPLES} from './instance.js';
 
 /** Magic, version, profile, level and a varint: these tell how many bytes the header takes. */
 const MOST_BEFORE_BODY = 17;
@@ -121,6 +121,7 @@ export class Opened {
       if (/^(h|textureH)as[A-Z]|^(lossless|textureOpaque|voidsKnown)$/.test(name))
         info[name] = info[name] !== 0;
     }
+    for (const name of ['domain', 'textureDomain']) info[name] = DOMAINS[info[name]];
     const gather = (letter) =>
       Array.from({length: 6}, (_, i) => {
         const value = info[letter + i];

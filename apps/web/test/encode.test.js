@@ -87,6 +87,19 @@ test('an ImageData is a texture', async () => {
   assert.equal(info.textureChannels, 4);
 });
 
+test('columns that go round are coded as a cylinder', async () => {
+  const {heights} = terrainOf(16);
+  const texture = {data: Uint8Array.from({length: 30}, (_, i) => i * 7), width: 6, height: 5};
+  for (const domain of ['plane', 'cylinder']) {
+    const stream = await encode({heights: {...heights, domain}, texture: {...texture, domain}});
+    const {info} = await open(stream);
+    assert.equal(info.domain, domain);
+    assert.equal(info.textureDomain, domain);
+    assert.deepEqual(await samplesOf(stream), {heights: heights.data, texture: texture.data});
+  }
+  await assert.rejects(encode({heights: {...heights, domain: 'ball'}}), /domain/);
+});
+
 test('a further colour is no alpha', async () => {
   const data = Uint8Array.from({length: 4 * 30}, (_, i) => (i * 7) % 200);
   for (const opaque of [false, true]) {

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cuts: how many bits of the coefficients are sent, where corrections code the rest.
+// A *cut* ends the coefficients of heights after some bytes; corrections behind it code the rest.
+// CorrectedCut, chooseExactCut(), chooseFacetCut() and boundWays() take heights in steps and return
+// where to cut, if at all, so that coefficients and corrections take the fewest bytes together: for
+// a largest error, for exact steps and for facets. Encoder only.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +23,8 @@
 namespace tetrakis::inline coding_choice {
 
 // CorrectedCut finds where to cut the coefficients of a track so that they and the corrections
-// behind them take the fewest bytes. The cut leaves errors, and the corrections bring these below a
-// largest error.
+// behind them take the fewest bytes. The cut leaves errors, and correct() computes the corrections
+// that bring these below a largest error.
 
 /// The multiple of 2 * largest + 1 nearest to q.
 int32_t nearestMultiple(int64_t q, int64_t largest);
@@ -95,7 +98,7 @@ class CorrectedCut {
 /// 0.3 steps would have to code the noise of rounding; coarser cuts make corrections dear.
 inline constexpr double kExactRmse = 0.3, kBoundedRmse = 0.45;
 
-/// The mean squared error of such a cut.
+/// The mean squared error, in squared steps, of a cut at this RMSE.
 inline double usualCut(int32_t largest) {
   const double rmse = largest == 0 ? kExactRmse : kBoundedRmse * largest;
   return rmse * rmse;
@@ -158,8 +161,8 @@ struct BoundWays {
 
 /// Says which ways to try. largest: the error allowed, in steps. wavelet: that of coefficients that
 /// will be cut. Both ways are worth trying for planes of at most 1025 * 1025 samples, which takes
-/// some twenty times as long as coding them. For larger planes both ways are tried on typical parts
-/// here, and the way that takes fewer bytes there is the one to try for the whole plane.
+/// some twenty times as long as coding them. Of larger planes typical parts are coded in both ways,
+/// and the way that takes fewer bytes for the parts is the one to try for the whole plane.
 BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
                     int32_t largest);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where to cut coefficients behind which corrections restore every sample, as they are or as
-// facets.
+// chooseExactCut() and chooseFacetCut() find the cut of coefficients behind which corrections
+// restore every sample, from its steps or as part of a facet.
 #include "codec/geometry/coding_choice/cuts.hpp"
 
 #include <algorithm>

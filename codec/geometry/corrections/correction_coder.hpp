@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How corrections are coded, for both sides: one correction, and all of a plane.
+// CorrectionCoder codes one correction and codeCorrections() all corrections of a plane, from hints
+// of the caller, once for both sides: encoder and decoder differ only in their Io.
 #pragma once
 
 #include <algorithm>

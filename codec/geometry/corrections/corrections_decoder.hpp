@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The decoder's side of corrections, of steps (correction_coder.hpp) and of exact values
-// (exact_corrections.hpp), and the hints that both sides take from significant coefficients.
+// decodeCorrections() and decodeExactSteps() turn a codeword and hints into the corrections of
+// steps (correction_coder.hpp) and into exact steps (exact_corrections.hpp), row by row.
+// activityHints() makes the hints, which both sides take from the significant coefficients.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder's side of corrections, of steps (correction_coder.hpp) and of exact values
-// (exact_corrections.hpp), region by region.
+// encodeCorrections() and encodeExactSteps() turn the corrections of steps (correction_coder.hpp)
+// and exact steps (exact_corrections.hpp) into a codeword, which corrections_decoder.hpp decodes;
+// encodeParts() does so for each region of a plane.
 #pragma once
 
 #include <bit>

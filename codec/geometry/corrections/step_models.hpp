@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What foretells a correction: the exact steps nearby, and the models that make contexts of them.
+// StepModels tells how likely each answer to a question about an exact correction
+// (exact_corrections.hpp) is, from the exact steps nearby, which ExactRows keeps.
 #pragma once
 
 #include <algorithm>
@@ -96,7 +97,7 @@ class ExactRows {
   std::array<Row, 3> rows_;  ///< this row and those above it
 };
 
-// The models here answer questions about a correction. Each question asks whether a sample has one
+// StepModels answers questions about a correction. Each question asks whether a sample has one
 // certain step or lies beyond it, so that exact steps nearby answer it as well as the decoded
 // height does. Several models, each with contexts of its own, answer together
 // (bitstream/coder/mixture.hpp): by how well errors were foretold, by which neighbours are alike,

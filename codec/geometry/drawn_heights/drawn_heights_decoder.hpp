@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights as a drawing: how steps are predicted and coded, the surface between the drawn ones, and
-// the decoder.
+// decodeDrawnHeights() turns a codeword of heights that are coded as a drawing into their steps.
+// DrawnSteps, the list of their values, and DrawnSurface, which fills the vertices that have not
+// arrived, are shared with the encoder.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder's side of heights as a drawing: what one would cost, its codeword, and the errors of
-// the codeword's prefixes.
+// encodeDrawnHeights() codes heights in steps as a drawing. estimateDrawing() foretells how many
+// bytes the drawing takes, and prefixesOfDrawing() gives the heights that its prefixes show.
 #pragma once
 
 #include <cstdint>

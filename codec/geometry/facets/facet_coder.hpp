@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coder here restores the samples of facets, row by row. Each prediction of a sample
-// (facet_rows.hpp) is asked for, one after the other: is the sample the float nearest to it, or one
-// of the next two on either side? If none is right, the sample lies beyond an edge. Then its
-// difference from the decoded height, to which its forecast error is added
+// FacetCoder codes the samples of facets behind decoded heights, row by row, once for both sides.
+// Each prediction of a sample (facet_rows.hpp) is asked for, one after the other: is the sample the
+// float nearest to it, or one of the next two on either side? If none is right, the sample lies
+// beyond an edge. Then its difference from the decoded height, to which its forecast error is added
 // (codec/geometry/corrections/error_forecast.hpp), is coded.
 //
 // A sample is known better than its float says, if a prediction was right: facets lie where their
@@ -227,7 +227,7 @@ void codeFacets(const FacetedHeights& faceted, Io& io, const ExactSample& exact,
   }
 }
 
-// This file restores samples of facets from a codeword and decoded heights.
+// restoreFacets() restores samples of facets from a codeword and decoded heights.
 
 /// The heights with the samples restored, row by row, as far as they are decided; meshes pass
 /// through these as well. decoded: first rows of what encodeFacets() coded, whole, without

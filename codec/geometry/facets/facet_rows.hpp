@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facets in rows of samples: floats as whole multiples of a unit, and the ways in which a facet
-// goes on from the samples before.
+// FacetRows predicts the next float of a surface of facets from the floats before it, in whole
+// multiples of a unit (FacetUnit), so that both sides make the same predictions on every machine.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +15,8 @@
 
 namespace tetrakis::inline facets {
 
-// The functions here turn floats into whole multiples of a unit, so that their sums are exact and
-// the same on every machine. Digits of a float below the unit are cut off.
+// FacetUnit turns floats into whole multiples of a unit, so that their sums are exact and the same
+// on every machine. Digits of a float below the unit are cut off.
 
 /// Places between a float and the middle of two.
 inline constexpr size_t kFloatPlaces = 8;

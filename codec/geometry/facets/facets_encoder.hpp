@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The encoder's side of facets: how much of a surface they make up, and their codeword.
+// findFacets() tells how much of a surface consists of facets, and encodeFacets() codes its samples
+// as parts of them, behind decoded heights. restoreFacets() (facet_coder.hpp) takes that back.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,7 @@
 
 namespace tetrakis::inline facets {
 
-// The functions here measure how much of a surface consists of facets (facet_rows.hpp), so that an
+// findFacets() measures how much of a surface consists of facets (facet_rows.hpp), so that an
 // encoder tries them only where they may pay.
 
 struct FacetShare {
@@ -24,7 +25,8 @@ struct FacetShare {
 /// By bands of rows that are spread over the plane. heights: floats.
 FacetShare findFacets(const tks_heights& heights, Mask valid);
 
-// This file codes the difference between decoded heights and samples of facets (facet_coder.hpp).
+// encodeFacets() codes the difference between decoded heights and samples of facets
+// (facet_coder.hpp).
 
 /// The codeword that leads from decoded heights to the samples of a part, whatever these are.
 /// samples: floats. steps: the heights in whole steps, and which of them are valid. header: base

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions here find the flat areas of heights in steps, and code them (flat_pass.hpp).
+// FlatFinder finds the flat areas of heights in steps, encodeFlatAreas() codes the chosen ones
+// (flat_pass.hpp), and sampleParts() gives the parts of the plane on which they are chosen.
 #pragma once
 
 #include <cstdint>
@@ -52,9 +53,8 @@ class FlatFinder {
 /// valid: the samples that are not void. There are areas.
 std::vector<uint8_t> encodeFlatAreas(const FlatAreas& areas, Extent plane, Mask valid);
 
-// The functions here choose parts of a plane in which flat areas and other heights meet. The
-// encoder decides on these parts which flat areas save bytes, as they stand for the rest of the
-// plane.
+// sampleParts() chooses parts of a plane in which flat areas and other heights meet. The encoder
+// decides on these parts which flat areas save bytes, as they stand for the rest of the plane.
 
 struct SampledPart {
   Window window;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights in steps: which of them exist, how they are quantised, the errors of that, and the steps
-// of bridges.
+// HeightSteps is heights of any sample type as integer steps, with the mask of the valid ones. The
+// functions of this file find the valid samples, restore samples, measure the errors of steps, and
+// choose the voids that are bridged: all that an encoder does with steps once base and step are
+// known.
 #pragma once
 
 #include <algorithm>
@@ -33,8 +35,8 @@ struct SampleRange {
 };
 SampleRange rangeOf(const tks_heights& heights, Mask valid);
 
-// HeightSteps holds heights of any sample type as integer steps: sample = base + q * step. The
-// functions compute the corrections that restore samples which their steps do not show.
+// HeightSteps holds heights of any sample type as integer steps: sample = base + q * step.
+// sampleCorrections() computes the corrections that restore samples which their steps do not show.
 
 /// Returns the size of a height field of the C interface.
 inline Extent extentOf(const tks_heights& heights) {
@@ -67,7 +69,8 @@ std::vector<int32_t> decodedSteps(const HeightSteps& steps, const GeometryHeader
 /// The corrections that restore the samples.
 std::vector<int32_t> sampleCorrections(const tks_heights& heights, const HeightSteps& steps);
 
-// The functions here measure how far samples that come back from steps are from the true ones.
+// errorsOf() and squaresOfSamples() measure how far samples that come back from steps are from the
+// true ones.
 
 /// Largest distance between a valid sample and the sample that its step restores, and the sum of
 /// the squared distances; in sample units.
@@ -92,8 +95,8 @@ double squaresOfSamples(const tks_heights& truth, const DecodedHeights& decoded,
                         const std::vector<uint8_t>& valid, const HeightSteps& scale,
                         const SquareSum& sum);
 
-// The functions here choose and mark the bridged voids of heights in steps
-// (codec/wavelet/morphology.hpp).
+// withBridges() marks the bridged voids of heights in steps (codec/wavelet/morphology.hpp), and
+// withBridgesFor() chooses them.
 
 /// The steps with bridges of the given reach over voids; 0: without any.
 HeightSteps withBridges(HeightSteps steps, Extent plane, uint8_t reach);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps that hold some of the samples, or nearly hold all, and the bits that heights take with
+// fewerBitsByOtherSteps() tries steps that show only some of the samples, nearGrid() finds steps
+// that nearly show all, and bitsOfSteps() and exactBits() estimate the bits that heights take with
 // them.
 #include "codec/geometry/quantiser/step_choice.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choice of the step: the widest that keeps the promised error, or a grid on or near which the
-// samples lie.
+// toSteps() turns samples of any type into integer steps: it chooses base and step for the error
+// that the target allows. nearGrid() and fewerBitsByOtherSteps() offer other steps, which show the
+// samples nearly, or some of them, in fewer bits. Encoder only.
 #pragma once
 
 #include <cmath>
@@ -17,7 +18,7 @@
 
 namespace tetrakis::inline quantiser {
 
-// The functions here estimate the number of bits that heights take to the last bit. Encoder only.
+// bitsOfSteps() and exactBits() estimate the number of bits that heights take to the last bit.
 
 /// Corrections of samples: how many are not 0, and the bits that their magnitudes take.
 struct Exceptions {
@@ -46,7 +47,7 @@ double exactBits(const tks_heights& heights, const HeightSteps& steps);
 
 // nearGrid() finds the common unit near whose multiples floats lie, though not on them: whole
 // metres that a program has shifted by a rounding of its own, feet that were written with three
-// decimals. Within a largest error the multiples will do. Encoder only.
+// decimals. Within a largest error the multiples will do.
 
 /// The widest common unit, beyond 2 * error, that has a multiple within the error of every valid
 /// sample. heights: of floats.
@@ -81,7 +82,7 @@ Result<HeightSteps> toSteps(const tks_heights& heights, const StepNeeds& needs);
 // Files that join several sources have samples of whole metres, or decimetres, beside any others: a
 // step that shows all samples codes bits that the whole ones do not have. A coarser step shows the
 // whole ones, and corrections restore the others. Floats that are smooth to their last bits, which
-// no step shows, take fewer bits as coefficients of a finer step than as corrections. Encoder only.
+// no step shows, take fewer bits as coefficients of a finer step than as corrections.
 
 /// found: the steps of toSteps(), with corrections behind them where they are not exact. Returns
 /// these steps, or coarser or finer ones that by the estimate clearly take fewer bits.

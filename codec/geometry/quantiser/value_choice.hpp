@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choice of a table of values instead of steps: its gaps, the table, and what stands in for
-// it while bytes of it are missing.
+// fewerBits() takes heights in steps and returns them as places in a table of their values, where
+// that saves bits; chooseStandIn() chooses the polyline that stands for the table while bytes of it
+// are missing. Encoder only.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +15,7 @@
 namespace tetrakis::inline quantiser {
 
 // ValueGaps estimates how the gaps between the values of a table harm prefixes: a prefix misses the
-// place of a value by a few, and then errs by the gaps there. Encoder only.
+// place of a value by a few, and then errs by the gaps there.
 
 class ValueGaps {
  public:
@@ -41,8 +42,7 @@ class ValueGaps {
   double usual_ = 0;  ///< the median gap
 };
 
-// fewerBits() decides whether a table of values takes fewer bits than multiples of a step. Encoder
-// only.
+// fewerBits() decides whether a table of values takes fewer bits than multiples of a step.
 
 /// multiples: the steps of toSteps() for the heights, with corrections behind them where they are
 /// not exact. Returns these, or places in a table of values. A few rare values may be missing in

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// This file codes the corrections of samples that have a relative step (relative_pass.hpp).
+// findRelativeStep() finds the relative step of samples that have one, and encodeRelative() codes
+// the corrections that restore these samples behind decoded heights (relative_pass.hpp).
 #pragma once
 
 #include <cstdint>

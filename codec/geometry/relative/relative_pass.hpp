@@ -178,10 +178,10 @@ class KnownMultiples {
   std::vector<int64_t> above_, here_, twice_above_;  ///< with margins at the left and the right
 };
 
-// codeRelativeRows() walks over samples that have a relative step, for
-// both sides: row by row, two corrections for each sample that exists.
+// codeRelativeRows() walks over samples that have a relative step, for both sides: row by row, two
+// corrections for each sample that exists.
 
-/// What such samples are restored from.
+/// What samples with a relative step are restored from.
 struct RelativeHeights {
   const GeometryHeader& header;  ///< base and step
   const RelativeSteps& relative;
@@ -234,7 +234,7 @@ void codeRelativeRows(const RelativeHeights& of, Io& io, const ExactSample& exac
   }
 }
 
-// This file restores samples that have a relative step from a codeword and decoded heights.
+// restoreRelative() restores samples that have a relative step from a codeword and decoded heights.
 
 /// The heights with the samples restored, row by row, as far as they are decided; meshes pass
 /// through these as well. decoded: first rows of what encodeRelative() coded, whole, without

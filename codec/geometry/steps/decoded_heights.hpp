@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decoded heights in steps, and the samples of the file that they stand for.
+// DecodedHeights are heights in steps as a decoder knows them, and fromSteps() turns them into
+// samples of the file's type.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// From steps to values and back: base + q * step, by integers where it can be.
+// restore() computes the sample base + q * step of a step q, and inSteps() the step and the
+// correction that stand for a sample that is known otherwise; both with the same bits on every
+// machine, by integers where these suffice (IntegerScale).
 #pragma once
 
 #include <algorithm>

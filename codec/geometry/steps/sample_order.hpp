@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions here turn samples into 32-bit words. The order of the words is the order of the
-// samples, and neighbouring words are neighbouring samples. Corrections that restore samples bit
-// for bit are differences of such words, modulo 2^32.
+// orderOf() turns samples into 32-bit words, and fromOrder() turns these back. The order of the
+// words is the order of the samples, and neighbouring words are neighbouring samples. Corrections
+// that restore samples bit for bit are differences of such words, modulo 2^32.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples count in *units* here: 64-bit integers times a power of two, of which a step (a relative
-// step, or the step of the header) has 2^30 to 2^31. Multiples of the step and planes through
-// samples are sums of units, so that every machine makes the same contexts of them. A unit is a
-// 2^30th of the step, far below what the rounding of a float leaves where the step is worth its
-// bytes.
+// StepUnits, and StepGrid above it, count samples in *units*: 64-bit integers times a power of two,
+// of which a step (a relative step, or the step of the header) has 2^30 to 2^31. Multiples of the
+// step and planes through samples are sums of units, so that every machine makes the same contexts
+// of them. A unit is a 2^30th of the step, far below what the rounding of a float leaves where the
+// step is worth its bytes.
 //
 //   kFar   2^59       samples beyond are clamped; planes through three samples stay below 2^62
 //   kWide  2^62 - 1   the base and samples beside it: differences of two have 64 bits

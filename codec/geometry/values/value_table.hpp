@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tables of the values that heights have, where these are few: steps then number the values.
+// ValueTable holds the values of heights that have few of them, so that steps are places in the
+// table. decodeValueTable() and encodeValueTable() take the table from its codeword and back, and
+// StandIn replaces it while bytes of it are missing.
 #pragma once
 
 #include <algorithm>

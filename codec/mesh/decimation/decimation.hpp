@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The orders in which vertices leave a mesh.
+// decimate() takes a surface and returns a MeshSequence, the order in which its vertices enter
+// meshes of more and more triangles. It joins two orders: generalDecimation(), which is best and
+// slow, and saturatedOrder(), which is fast.
 #pragma once
 
 #include <cstdint>
@@ -71,11 +73,10 @@ class MeshSequence {
   std::vector<double> squared_errors_;
 };
 
-/// Orders all vertices by general decimation. The coarsest meshes of the
-/// order, those of up to 4096 triangles and of no more than one for each 8 samples, pass through
-/// the corners of the hull of the meshes within them (closure/closure.hpp). Fails with the errors
-/// of Lattice::make, and with TKS_USAGE for weights that are not one for each sample, negative or
-/// not finite.
+/// Orders all vertices by general decimation. The coarsest meshes of the order, those of up to 4096
+/// triangles and of no more than one for each 8 samples, pass through the corners of the hull of
+/// the meshes within them (closure/closure.hpp). Fails with the errors of Lattice::make, and with
+/// TKS_USAGE for weights that are not one for each sample, negative or not finite.
 Result<MeshSequence> decimate(const SurfaceView& surface);
 
 }  // namespace tetrakis::inline decimation

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the removal of merging domains costs and saves: of the complete ones, and while vertices are
-// removed.
+// MergingDomains tells at any time of a decimation what the removal of a vertex with all of its
+// remaining descendants costs and saves, from the gains and costs of single vertices.
 #pragma once
 
 #include <cstdint>

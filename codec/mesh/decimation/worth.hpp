@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What vertices cost and what they are worth.
+// Worth is the error and the cost of a vertex in a mesh, from which slopeOf() computes the slope
+// that orders decimation; VertexCosts gives the cost, in triangles or in another unit.
 #pragma once
 
 #include <cassert>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moments of the samples in triangles against fitted planes.
+// FittedMoments, momentsOf() and squaredErrorOf() sum the samples in triangles against the planes
+// through fitted heights.
 #include "codec/mesh/fitting/fitting.hpp"
 
 #include <algorithm>

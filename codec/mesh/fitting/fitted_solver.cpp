@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least squares of all heights of a mesh, within the range of the surface.
+// fitHeights() and fittedCorrections() solve the least squares of all heights of a mesh, and
+// withinRange() keeps the heights within the range of the surface.
 #include "codec/mesh/fitting/fitting.hpp"
 
 #include <algorithm>

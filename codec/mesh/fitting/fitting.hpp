@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights that fit the surface best: of one triangle, of all by their moments, and within the range
-// that the surface has.
+// fitHeights() takes a mesh of a surface and moves the heights of its vertices to the least squares
+// over all samples. FittedMoments and momentsOf() sum the samples of its triangles for that, and
+// withinRange() limits the result.
 #pragma once
 
 #include <array>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What inserting a vertex gains: moments of the errors in triangles, and sums of these.
+// vertexGains() takes a surface and returns for each vertex of its lattice the squared error that
+// inserting the vertex removes, on which all choices of vertices rest. It sums TriangleMoments
+// bottom-up, and clampedEnergy() where the lattice reaches over the grid.
 #pragma once
 
 #include <array>
@@ -96,7 +98,7 @@ inline TriangleMoments mergeFinest(const CornerWeights& weight, double delta) {
 }
 
 // clampedEnergy() sums the squared error of a triangle with any corners on the grid. Clamping makes
-// triangles of such shapes, to which the recursion of gains.hpp does not apply.
+// triangles of such shapes, to which the recursion of TriangleMoments does not apply.
 
 /// The weighted squared residual of one sample, whole; 0 where it lies outside the triangle.
 double clampedError(const SurfaceView& surface, const std::array<GridPoint, 3>& corners,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes of places in a quadtree, differences between the indices of neighbours, and the way from
-// one triangle to the next.
+// Location codes number the nodes of a forest of quadtrees (QuadtreeShape). IndexDifferences and
+// Traversal go from a node to its neighbours by adding to its code, so that no code is taken apart
+// on the way (thesis 4.3 to 4.6).
 #pragma once
 
 #include <array>

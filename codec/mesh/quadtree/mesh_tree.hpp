@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh as a tree, and the part of it that a view shows.
+// MeshTree keeps a mesh in a quadtree and returns the part of it that a camera sees, in time that
+// follows that part and not the mesh. ViewRaster tells which nodes of the quadtree the camera may
+// see.
 #pragma once
 
 #include <array>

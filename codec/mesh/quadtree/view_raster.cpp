@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground that a view sees, as a polygon and as spans of nodes.
+// viewFootprint() takes a camera to the polygon of ground that it sees, and ViewRaster the polygon
+// to spans of nodes in each level.
 #include <algorithm>
 #include <cassert>
 #include <cmath>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a camera sees of the surface, and what samples weigh for it.
+// screenWeights() takes a surface and the cameras that look at it and returns the weight of each
+// sample in their pictures, by which meshes err where nobody sees it. SurfacePicture draws what a
+// camera sees for that.
 #pragma once
 
 #include <array>

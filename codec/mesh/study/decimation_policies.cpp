@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Orders of single vertices by fixed slopes, by any error.
+// localErrors(), restrictedDecimation() and refinement() order single vertices by fixed slopes, for
+// errors of any kind, and decimate() chooses among such policies.
 #include "codec/mesh/study/study.hpp"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What orders of decimation are compared with: other policies, and the best mesh of any size.
+// decimate() with a policy, and MeshHull with the best meshes of all, take a surface and return the
+// orders of vertices with which the thesis compares general decimation. Only tests and bench/ link
+// this folder.
 #pragma once
 
 #include <cstdint>

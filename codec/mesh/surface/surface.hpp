@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces that meshes approximate: as they are given, with weights, coarser, and with voids.
+// A surface is the height field that meshes approximate: SurfaceView as the caller gives it, with
+// weights if there are any; WeightedSurface with unknown samples; CoarseSurface with every 2^k-th
+// sample, because meshes of few triangles need no more.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Triangles of the lattice: around a vertex, one by one, the samples in each, and a mesh of them.
+// meshOf() takes a closed set of vertices of the lattice and returns the triangles of their mesh.
+// LatticeTriangle, TriangleSamples and Octagon are the shapes that all computations on such meshes
+// walk over: triangles and their halves, the samples in them, and merging domains.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which voids an encoder bridges, and with what it fills them.
+// chooseBridges() takes a plane with voids and returns the reach of the bridges that save bytes,
+// and bridged() fills the bridged voids with values that take few bytes. Encoder only.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The choice of the filter, and of how reconstructed coefficients are rounded.
+// chooseWavelet() takes a plane and the purpose of its stream and returns the filters that suit it;
+// roundedBytes() returns the prefix from which on decoders round. Both stand in the stream's
+// header, so that decoders need not know how they were chosen. Encoder only.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +14,8 @@
 
 namespace tetrakis::inline choice {
 
-// The functions here choose the filters that suit a plane. The choice stands in the stream header,
-// so that decoders need not know how it was made. Encoder only.
+// chooseWavelet() chooses the filters that suit a plane, chooseLosslessWavelet() those of an image
+// that is coded to the last bit.
 
 /// What a plane is coded for.
 enum class Purpose : uint8_t {
@@ -61,7 +63,7 @@ double losslessBits(const PlaneView<const int32_t>& plane, int bits);
 
 // roundedSquares() and roundedBytes() choose the prefix from which on decoders round while they
 // invert the transform of a lossless stream (docs/FORMAT.md, section 7). Near the last bit rounding
-// takes the roundings of the encoder back; before, it adds errors of its own. Encoder only.
+// takes the roundings of the encoder back; before, it adds errors of its own.
 
 /// The squares that coefficients may still be off by for the inverse to be better with roundings
 /// than without; 0: none. Measured on typical parts of the plane. wavelet: without fraction bits.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a plane's coefficients cost, and which of two planes costs less.
+// costOf() estimates the bits that the coefficients of a plane take without coding them, and
+// ComparedSteps tells by such costs which of two ways to code a plane takes fewer. Encoder only.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,7 @@ struct PlaneCost {
 PlaneCost costOf(const PlaneLayout& layout, std::span<const int32_t> coefficients, double step);
 
 // ComparedSteps compares two ways to code one plane, at the step of the target and at coarser
-// steps, because every prefix of a stream is a stream. Encoder only.
+// steps, because every prefix of a stream is a stream.
 
 /// What a plane costs that is coded one way, with a step.
 using CostAtStep = std::function<PlaneCost(double)>;

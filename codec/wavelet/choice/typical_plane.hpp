@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The typical parts of a plane, and what coding the plane costs as far as they tell.
+// typicalParts() chooses the parts of a plane that stand for all of it, and TypicalPlane estimates
+// the cost of the plane from them, because trying a choice on a whole plane would take too long.
+// Encoder only.
 #pragma once
 
 #include <cstddef>
@@ -58,7 +60,7 @@ PlanePart partOf(const PlaneView<const int32_t>& plane, const HeldSamples& held,
 size_t markedIn(Extent plane, const Mask& mask);
 
 // TypicalPlane estimates the cost of coding a plane from typical parts of it, under the filters
-// that suit the plane. Encoder only.
+// that suit the plane.
 
 class TypicalPlane {
  public:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lifts the rows and columns of planes: of whole ones, of those with voids, and both directions
-// jointly.
+// Lifting turns the rows and columns of a plane into low and high halves and back, in place:
+// liftColumns() and RowLifting where all samples exist, liftMaskedColumns() and MaskedRowLifting
+// beside voids, JointLifting rows and columns in one go.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The weights of the filters, and the scalar kernel.
+// The weights of the filters, which liftingFilter() hands out, and liftStepScalar(), which
+// specifies the kernel.
 #include "codec/wavelet/lifting/lifting_kernel.hpp"
 
 #include <type_traits>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The filters, and the kernel that lifts lines with them.
+// liftingFilter() gives the filters of the menu as lists of lifting steps, and liftStep() does one
+// step of many signals at once: the only place where samples are weighed and rounded.
 #pragma once
 
 #include <array>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The functions here name the samples that each lifting step reads and changes, whether these are
-// values or marks of existence. A signal has two samples or more. It is mirrored about its first
-// and its last sample, or it is a ring, whose last sample lies beside its first one.
+// forEachRowStep(), forEachStep() and Halves name the samples that each lifting step reads and
+// changes, whether these are values or marks of existence. A signal has two samples or more. It is
+// mirrored about its first and its last sample, or it is a ring, whose last sample lies beside its
+// first one.
 //
 // On a ring of n samples both halves have ceil(n / 2) places, and the neighbours of a place are
 // counted round it. Where n is odd the last high place holds no sample: steps change nothing there,

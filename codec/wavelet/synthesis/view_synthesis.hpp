@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Samples from coefficients: of a whole plane, of a window, and of whichever a view asks for.
+// ViewSynthesis takes the coefficients that a view needs and returns the samples of the view. It
+// does so as PlaneSynthesis for a whole plane or one of its levels, and as WindowSynthesis for a
+// window, whose cost follows its size.
 #pragma once
 
 #include <cstdint>

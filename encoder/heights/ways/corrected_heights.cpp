@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coefficients cut where an error is reached, and corrections behind the cut.
+// codeCorrected() cuts coefficients where an error is reached and appends corrections of the
+// samples that are still off; cutAt() and codeUpTo() make the cut alone.
 #include "encoder/heights/ways/ways.hpp"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The branches for the targets, and exact heights beside those that are not.
+// codeHeightsForTarget() branches by the target of the options; exactHeightsFor() makes exact
+// heights for the targets that allow errors, to be compared with the others.
 #include "encoder/heights/ways/ways.hpp"
 
 #include <cassert>

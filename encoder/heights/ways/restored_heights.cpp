@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights whose samples are restored behind a cut: from coarse steps, as facets, from relative
-// steps.
+// codeRestored(), codeFacets() and codeRelative() cut the coefficients of heights and append
+// corrections that restore every sample: from coarse steps, from facets, from multiples of a
+// relative step.
 #include "encoder/heights/ways/ways.hpp"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ways to code heights within a bound or exactly, and the choice among them for a target.
+// A way takes quantised heights, or heights that are coded with loss, and returns coded heights
+// that are exact or keep an error. codeHeightsForTarget() chooses the ways for the target of the
+// options and keeps the shortest result, because no single way is the shortest for all terrains.
 #pragma once
 
 #include <cstdint>
@@ -144,11 +146,10 @@ std::shared_ptr<const CodedHeights> codeLosslessHeights(
 // steps, that the options allow. It tries two ways and keeps the one of fewer bytes:
 //
 //   round     heights become multiples of 2 e + 1 steps (floats of twice the bound) and are coded
-//             to the last bit. This is best where the error wanted is near the noise of the
-//             heights.
+//             to the last bit. This is best where e is near the noise of the heights.
 //   correct   the coefficients are cut, and what then is off by more than e gets a correction in
-//             multiples of 2 e + 1. This is best above: at 5 m on mountains
-//             it takes half the bytes of rounding.
+//             multiples of 2 e + 1. This is best where e is larger than the noise: with 5 m
+//             on mountains it takes half the bytes of rounding.
 //
 // Cutting so late that nothing is off by more than e takes up to twice the bytes of either.
 

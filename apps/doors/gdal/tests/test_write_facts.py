@@ -2,7 +2,6 @@
 """What CreateCopy keeps beside samples: place, reference system, nodata values, masks, metadata."""
 
 import json
-import struct
 import subprocess
 
 import numpy as np
@@ -31,10 +30,15 @@ def test_geotransforms_are_kept(tmp_path, transform):
     assert copy(terrain(20, 30), tmp_path / "b.tks").GetGeoTransform(can_return_null=True) is None
 
 
+def facts_of(name):
+    """What the command line tells of a stream."""
+    told = subprocess.run([TETRAKIS, "info", "--json", name], capture_output=True, check=True)
+    return json.loads(told.stdout)
+
+
 def fitted(name):
     """The bytes of the longitudes and latitudes that a stream takes along: heights, texture."""
-    told = subprocess.run([TETRAKIS, "info", "--json", name], capture_output=True, check=True)
-    facts = json.loads(told.stdout)
+    facts = facts_of(name)
     parts = [facts[part] or {} for part in ("heights", "texture")]
     return [part.get("position_bytes") or 0 for part in parts]
 
@@ -79,23 +83,6 @@ def test_reference_systems_are_kept(tmp_path, crs):
         assert b"CRS[" not in name.read_bytes()  # a code is enough
 
 
-def spacing_of(stream):
-    """Of a stream whose heights have a scale of 1 and an offset of 0 (FORMAT.md, Metadata). A
-    number is its length, and its bytes without zeros in front. Without a place there are none."""
-    at = stream.find(b"\x02\xf0\x3f\x00") + 4
-    if at < 4:
-        return [0, 0]
-
-    def number():
-        nonlocal at
-        size = stream[at]
-        held = stream[at + 1 : at + 1 + size]
-        at += 1 + size
-        return struct.unpack("<d", held.rjust(8, b"\0"))[0]
-
-    return [number(), number()]
-
-
 @pytest.mark.parametrize(
     "crs, place, metres",
     [
@@ -119,9 +106,9 @@ def test_spacing_is_in_metres_of_the_ground(tmp_path, crs, place, metres):
     step = 1 if crs is None or "longlat" not in crs else 1e-4
     transform = (place[0] - 15 * 7 * step, 7 * step, 0, place[1] + 10 * 9 * step, 0, -9 * step)
     copy(memory(terrain(20, 30), transform=transform, **facts), tmp_path / "a.tks")
-    np.testing.assert_allclose(
-        spacing_of((tmp_path / "a.tks").read_bytes()), np.multiply(metres, step), rtol=2e-4
-    )
+    heights = facts_of(tmp_path / "a.tks")["heights"]
+    spacing = [heights["spacing_x"] or 0, heights["spacing_y"] or 0]
+    np.testing.assert_allclose(spacing, np.multiply(metres, step), rtol=2e-4)
 
 
 def test_epoch_goes_beside(tmp_path):
@@ -291,3 +278,36 @@ def test_texts_become_utf8(tmp_path):
     band = first_band(gdal.Open(str(tmp_path / "a.tks")))
     assert band.GetUnitType().strip() == "m²"
     assert band.GetDescription() == "Hö he"
+
+
+def test_grids_that_go_round_are_cylinders(tmp_path):
+    """Geographic grids of 360 degrees, of any origin, and pictures on them; no others."""
+    heights, picture = terrain(20, 72, "i2"), terrain(20, 72, "u1")
+
+    def domain(array, *options, **facts):
+        dataset = copy(memory(array, **facts), tmp_path / "a.tks", *options)
+        np.testing.assert_array_equal(dataset.ReadAsArray(), array)
+        return dataset.GetMetadataItem("DOMAIN", "TKS")
+
+    world = {"transform": (-180, 5, 0, 50, 0, -5), "crs": "EPSG:4326"}
+    assert domain(heights, **world) == "CYLINDER"
+    assert domain(heights, transform=(0, 5, 0, -50, 0, 5), crs="EPSG:4326") == "CYLINDER"
+    assert domain(heights, "DOMAIN=PLANE", **world) is None
+    assert domain(heights, transform=(-180, 4.99, 0, 50, 0, -5), crs="EPSG:4326") is None
+    assert domain(heights, transform=(-180, 5, 0, 50, 0, -5), crs="EPSG:3857") is None
+    assert domain(heights) is None
+    assert domain(heights, "DOMAIN=CYLINDER") == "CYLINDER"
+    refused(lambda: domain(heights, "DOMAIN=BALL", **world), "DOMAIN=BALL")
+
+    image = str(tmp_path / "image.tif")
+    gdal.GetDriverByName("GTiff").CreateCopy(image, memory(picture))
+    name = tmp_path / "b.tks"
+    copy(memory(heights, **world), name, "TEXTURE=" + image)
+    draped = gdal.Open(f'TKS:"{name}":texture')
+    np.testing.assert_array_equal(draped.ReadAsArray(), picture)
+    assert draped.GetMetadataItem("DOMAIN", "TKS") == "CYLINDER"
+    for transform, expected in ((world["transform"], "CYLINDER"), ((0, 1, 0, 50, 0, -1), None)):
+        gdal.GetDriverByName("GTiff").CreateCopy(image, memory(picture, transform=transform))
+        copy(memory(heights, **world), name, "TEXTURE=" + image)
+        placed = gdal.Open(f'TKS:"{name}":texture')
+        assert placed.GetMetadataItem("DOMAIN", "TKS") == expected

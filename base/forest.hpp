@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Forest is a surface of square patches whose sides are glued: a globe on a cube, a torus, a grid
+// of squares (L. Balmelli, thesis, sections 3.2.2 and 4.6). It says which samples of which patches
+// are one, and which sample lies where a line leaves a patch.
+//
+// A patch has (2^depth + 1)^2 samples. The raster of a forest holds the patches one below the other.
+// Sides and corners are numbered clockwise, patch by patch, y pointing down:
+//
+//   side    4 patch + 0 north, 1 east, 2 south, 3 west      north and south run eastwards, east and
+//   corner  4 patch + 0 nw, 1 ne, 2 se, 3 sw                west southwards
+//
+// Two sides that are glued run in opposite directions round their patches, so that the surface has
+// two faces: where both run clockwise, or both do not, sample k of one side is sample n - k of the
+// other.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/plane.hpp"
+
+namespace tetrakis::inline base {
+
+class Forest {
+ public:
+  static constexpr uint32_t kBorder = UINT32_MAX;  ///< in the place of a side: none is glued here
+  static constexpr uint32_t kSides = 4;
+  static constexpr int kMostDepth = 18;
+
+  /// A sample of a patch, or of what lies around it.
+  struct Place {
+    uint32_t patch;
+    int64_t x, y;
+    bool operator==(const Place&) const = default;
+  };
+
+  /// Whether sides, four a patch, name each other or none, and no side itself.
+  static bool isSound(std::span<const uint32_t> sides);
+
+  /// sides: for each side the one that it is glued to, or kBorder; isSound().
+  Forest(int depth, std::vector<uint32_t> sides);
+
+  int depth() const { return depth_; }
+  uint32_t patches() const { return static_cast<uint32_t>(sides_.size() / kSides); }
+  const std::vector<uint32_t>& sides() const { return sides_; }
+  /// The samples along a side of a patch.
+  uint32_t side() const { return (uint32_t{1} << depth_) + 1; }
+  Extent raster() const { return {side(), side() * patches()}; }
+  bool operator==(const Forest& other) const {
+    return depth_ == other.depth_ && sides_ == other.sides_;
+  }
+
+  /// The functions below see patches of (n + 1)^2 samples, with n even: those of a level.
+
+  /// The sample where a line leaves a patch: straight across a glued side; mirrored at a border. A
+  /// place that lies beyond a corner, where other than four patches meet, is mirrored in y. No
+  /// patch is left twice in one direction: places farther than n are mirrored there.
+  Place locate(int64_t n, Place place) const;
+
+  /// Of the samples that are one with this sample of a patch the one that is coded: on a side that
+  /// of the lower side, at a corner that of the lowest corner.
+  Place owner(int64_t n, const Place& sample) const;
+
+  /// Calls visit(sample, owner) for all samples of sides that others own.
+  template <class Visit>
+  void forEachShared(int64_t n, const Visit& visit) const {
+    for (uint32_t patch = 0; patch < patches(); ++patch) {
+      const auto see = [&](int64_t x, int64_t y) {
+        const Place sample{patch, x, y}, owned = owner(n, sample);
+        if (!(owned == sample)) visit(sample, owned);
+      };
+      for (int64_t k = 0; k <= n; ++k) {
+        see(k, 0);
+        see(k, n);
+      }
+      for (int64_t k = 1; k < n; ++k) {
+        see(0, k);
+        see(n, k);
+      }
+    }
+  }
+
+ private:
+  void joinCorners();
+  /// The place at that depth behind a side, `along` counted as the side runs.
+  Place across(int64_t n, uint32_t side, int64_t along, int64_t depth) const;
+
+  int depth_;
+  std::vector<uint32_t> sides_;
+  std::vector<uint32_t> corner_owners_;  ///< for each corner the lowest one at the same place
+  std::vector<uint8_t> straight_;        ///< 1 for each corner where four patches meet
+};
+
+using SharedForest = std::shared_ptr<const Forest>;
+
+/// Of two that are both there, or not.
+inline bool sameForest(const SharedForest& a, const SharedForest& b) {
+  return a == b || (a != nullptr && b != nullptr && *a == *b);
+}
+
+/// Gives samples of a raster that others own the values of those. n: as of Forest.
+template <class T>
+void shareOwned(const Forest& forest, std::span<T> raster, uint32_t n) {
+  const size_t width = size_t{n} + 1;
+  const auto at = [&](const Forest::Place& place) -> T& {
+    return raster[(place.patch * width + static_cast<size_t>(place.y)) * width +
+                  static_cast<size_t>(place.x)];
+  };
+  forest.forEachShared(n, [&](const Forest::Place& sample, const Forest::Place& owner) {
+    at(sample) = at(owner);
+  });
+}
+
+/// Marks the samples of a raster that no other one owns.
+std::vector<uint8_t> ownedSamples(const Forest& forest);
+
+}  // namespace tetrakis::inline base
