@@ -38,15 +38,22 @@ double sineOf(double latitude) {
   return portable::sin(std::clamp(latitude, -90.0, 90.0) * std::numbers::pi / 180);
 }
 
-/// Rows that one tile reaches over, the share of all rows that they are, and the area of a sample
-/// of them beside that of a mean sample of the grid.
+/// Rows that one tile reaches over, the share of all rows that they are, the area of a sample of
+/// them beside that of a mean sample of the grid, and how many bit-planes earlier it comes than one
+/// of the largest, at most 0.
 struct TileRow {
   double share, area;
-
-  /// A bit-plane takes three quarters off squared errors: a sample of four times the mean area
-  /// comes one bit-plane earlier.
-  double priority() const { return std::round(portable::log2(area) / 2); }
+  double priority = 0;
 };
+
+/// A bit-plane takes three quarters off squared errors: a sample of a quarter of the largest area
+/// comes one bit-plane later. Rounded so, samples beyond 60 degrees are the first that do; counted
+/// from the mean area, 71 degrees, a globe takes 0.6 to 1 % more bytes.
+void prioritise(std::vector<TileRow>& rows) {
+  double largest = 0;
+  for (const TileRow& row : rows) largest = std::max(largest, row.area);
+  for (TileRow& row : rows) row.priority = std::round(portable::log2(row.area / largest) / 2);
+}
 
 /// The area between two parallels goes as the difference of the sines of their latitudes. Empty
 /// where the rows have none.
@@ -66,6 +73,7 @@ std::vector<TileRow> tileRowsOf(const tks_heights& heights, int tile_log2) {
     const double area = (sine_at(end) - sine_at(begin)) / all / share;
     rows.push_back({share, std::max(area, kLeastArea)});
   }
+  prioritise(rows);
   return rows;
 }
 
@@ -75,23 +83,20 @@ std::vector<TileRow> tileRowsOf(const tks_heights& heights, int tile_log2) {
 double gainOf(const std::vector<TileRow>& rows) {
   double error = 0, earlier = 0;
   for (const TileRow& row : rows) {
-    error += row.share * row.area * portable::exp2(-2 * row.priority());
-    earlier += row.share * row.priority();
+    error += row.share * row.area * portable::exp2(-2 * row.priority);
+    earlier += row.share * row.priority;
   }
   return 1 / (error * portable::exp2(2 * earlier));
 }
 
 /// The top kPriorities, of which the lowest is 0.
 std::vector<uint8_t> tiersOf(const std::vector<TileRow>& rows) {
-  double least = INFINITY, most = -INFINITY;
-  for (const TileRow& row : rows) {
-    least = std::min(least, row.priority());
-    most = std::max(most, row.priority());
-  }
-  least = std::max(least, most - (double{kPriorities} - 1));
+  double least = 0;
+  for (const TileRow& row : rows) least = std::min(least, row.priority);
+  least = std::max(least, 1 - double{kPriorities});
   std::vector<uint8_t> tiers;
   for (const TileRow& row : rows)
-    tiers.push_back(static_cast<uint8_t>(std::max(row.priority() - least, 0.0)));
+    tiers.push_back(static_cast<uint8_t>(std::max(row.priority - least, 0.0)));
   return tiers;
 }
 
