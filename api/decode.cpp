@@ -37,6 +37,10 @@ Status wrongIndex() {
   return {TKS_CORRUPT, "Corrupt stream: its index does not describe its packets."};
 }
 
+Status noMesh() {
+  return {TKS_UNSUPPORTED, "No mesh is made of heights on a forest yet; decode their samples."};
+}
+
 Status noHeights() {
   return {TKS_USAGE, "The stream holds no heights."};
 }

@@ -10,6 +10,7 @@
 
 #include "api/encoded_stream.hpp"
 #include "api/guarded.hpp"
+#include "base/forest.hpp"
 #include "base/samples.hpp"
 #include "base/shown_text.hpp"
 #include "base/watch.hpp"
@@ -45,7 +46,7 @@ Status checkPlace(const std::string& whose, const T& raster) {
   if (raster.registration < TKS_REGISTRATION_UNKNOWN ||
       raster.registration > TKS_REGISTRATION_POINT)
     return misuse("The registration of the " + whose + " is unknown.");
-  if (raster.domain < TKS_DOMAIN_PLANE || raster.domain > TKS_DOMAIN_CYLINDER)
+  if (raster.domain < TKS_DOMAIN_PLANE || raster.domain > TKS_DOMAIN_FOREST)
     return misuse("The domain of the " + whose + " is unknown.");
   if (raster.positions != nullptr) {
     const auto* const first = reinterpret_cast<const char*>(raster.positions);
@@ -56,6 +57,35 @@ Status checkPlace(const std::string& whose, const T& raster) {
   std::copy_n(raster.geotransform, transform.size(), transform.begin());
   if (!raster.has_geotransform || isSound(transform)) return {};
   return misuse("The geotransform of the " + whose + " must be six numbers within +-2^512.");
+}
+
+/// Whether the samples that patches share are the same in each.
+bool sharesSamples(const tks_heights& h, const Forest& forest) {
+  const size_t bytes = tks_sample_bytes(h.sample), n = forest.side() - 1;
+  const auto* const samples = static_cast<const std::byte*>(h.data);
+  const auto at = [&](const Forest::Place& place) {
+    const size_t row = place.patch * (n + 1) + static_cast<size_t>(place.y);
+    return samples + (row * h.width + static_cast<size_t>(place.x)) * bytes;
+  };
+  bool equal = true;
+  forest.forEachShared(static_cast<int64_t>(n), [&](const auto& sample, const auto& owner) {
+    equal = equal && std::memcmp(at(sample), at(owner), bytes) == 0;
+  });
+  return equal;
+}
+
+Status checkForest(const tks_heights& h) {
+  if (h.domain != TKS_DOMAIN_FOREST) return {};
+  const auto [depth, patches, sides] = h.forest;
+  const uint64_t side = (uint64_t{1} << std::min(depth, 32u)) + 1;
+  if (depth < 1 || depth > Forest::kMostDepth || patches < 1 || sides == nullptr ||
+      h.width != side || h.height != patches * side)
+    return misuse("The heights are not the raster of their forest.");
+  if (!Forest::isSound({sides, size_t{Forest::kSides} * patches}))
+    return misuse("The sides of the forest are not glued in pairs.");
+  if (!sharesSamples(h, *forestOf(h)))
+    return misuse("The patches of the forest have different samples where they share one.");
+  return {};
 }
 
 Status checkHeights(const tks_heights& h) {
@@ -73,6 +103,11 @@ Status checkHeights(const tks_heights& h) {
     return misuse("Step and spacing of the heights must be finite and not negative.");
   }
   if (Status place = checkPlace("heights", h); !place.ok()) return place;
+  if (Status forest = checkForest(h); !forest.ok()) return forest;
+  if (h.grid_width > kMaxSide || h.grid_height > kMaxSide ||
+      (h.grid_width > 0) != (h.grid_height > 0) ||
+      (h.grid_width > 0 && h.domain != TKS_DOMAIN_FOREST))
+    return misuse("Only heights on a forest are made of a grid, of 1 to 1048576 columns and rows.");
   return checkTexts("heights", {h.unit, h.vertical_datum, h.crs, h.description, h.geo_keys});
 }
 
@@ -88,6 +123,7 @@ Status checkImage(const tks_image& i) {
   const uint32_t largest = largestTexel(i.sample);
   if (i.white_level > largest || (i.sample == TKS_U8 && i.white_level % largest != 0))
     return misuse("The white level of a texture is 255 of 8 bits, and 1 to 65535 of 16.");
+  if (i.domain == TKS_DOMAIN_FOREST) return misuse("A texture lies on no forest.");
   if (Status place = checkPlace("texture", i); !place.ok()) return place;
   return checkTexts("texture", {i.crs, i.geo_keys});
 }
@@ -123,6 +159,16 @@ Status checkWindows(const tks_encode_options& o, bool has_texture) {
       "a shorter stream would lack whole regions.");
 }
 
+/// What cannot be had of heights on a forest.
+Status checkOnForest(const tks_encode_options& o, bool has_texture) {
+  if (has_texture) return misuse("Heights on a forest have no texture.");
+  if (o.triangles > 0 || o.camera_count > 0)
+    return misuse("Heights on a forest have no budget of triangles and no cameras.");
+  if (o.regions > 1 || o.index == TKS_INDEX_WINDOWS)
+    return misuse("Heights on a forest have no regions.");
+  return {};
+}
+
 /// The caller's structs as this library knows them, checked.
 struct Arguments {
   tks_heights heights;
@@ -150,6 +196,8 @@ Status takeArguments(const tks_heights* heights, const tks_image* image,
   if (status.ok()) status = checkOptions(out.options, heights != nullptr);
   if (status.ok()) status = checkWindows(out.options, image != nullptr);
   if (status.ok() && heights != nullptr) status = takeHeights(*heights, out.heights);
+  if (status.ok() && heights != nullptr && out.heights.domain == TKS_DOMAIN_FOREST)
+    status = checkOnForest(out.options, image != nullptr);
   if (status.ok() && image != nullptr) status = takeImage(*image, out.image);
   if (status.ok() && image != nullptr && out.image.white_level == 0)
     out.image.white_level = findWhiteLevel(out.image);

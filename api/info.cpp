@@ -142,6 +142,7 @@ bool voidsAreKnown(const tks_decoder& decoder) {
 /// Of either component.
 template <class Header>
 tks_domain domainOf(const Header& header) {
+  if (header.wavelet.forest != nullptr) return TKS_DOMAIN_FOREST;
   return header.wavelet.ring ? TKS_DOMAIN_CYLINDER : TKS_DOMAIN_PLANE;
 }
 
@@ -166,6 +167,11 @@ void fillHeights(const tks_decoder& decoder, tks_info& info) {
   info.has_nodata = header.layers.has_nodata;
   info.nodata = header.layers.nodata;
   info.domain = domainOf(geometry);
+  info.grid_width = header.grid.width;
+  info.grid_height = header.grid.height;
+  if (const SharedForest& forest = geometry.wavelet.forest; forest != nullptr)
+    info.forest = {static_cast<uint32_t>(forest->depth()), forest->patches(),
+                   forest->sides().data()};
 }
 
 void fillTexture(const tks_decoder& decoder, tks_info& info) {

@@ -163,6 +163,7 @@ Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32
     return Status(TKS_USAGE, "Meshes are made of the heights of level 0; ask for few triangles.");
   const StreamHeader& header = decoder.parsed.header;
   if (!header.geometry) return noHeights();
+  if (header.geometry->wavelet.forest != nullptr) return noMesh();
   Result<Lattice> lattice =
       Lattice::make(header.geometry->shown().width, header.geometry->shown().height);
   if (!lattice.ok()) return lattice.status();

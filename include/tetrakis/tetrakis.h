@@ -155,6 +155,12 @@ typedef struct tks_heights {
                                      that do not know the CRS; NULL: none */
   size_t positions_size;          /* in bytes */
   tks_domain domain;              /* 0: a plane */
+  tks_forest forest;              /* with TKS_DOMAIN_FOREST: the heights are its raster. Samples
+                                     that are shared must be equal bit for bit, and there are no
+                                     voids, else TKS_USAGE */
+  uint32_t grid_width, grid_height; /* heights on a forest that were resampled from a grid: columns
+                                     and rows of the grid, whose place the georeference is then;
+                                     0: none */
 } tks_heights;
 
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed.
@@ -523,6 +529,8 @@ typedef struct tks_info {
   size_t texture_positions_size;
   tks_domain domain;            /* of the heights */
   tks_domain texture_domain;
+  tks_forest forest;            /* with TKS_DOMAIN_FOREST; owned by the decoder */
+  uint32_t grid_width, grid_height; /* as in tks_heights */
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
