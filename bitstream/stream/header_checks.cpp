@@ -132,8 +132,6 @@ Status checkPriorities(const StreamHeader& header) {
 Status checkForests(const StreamHeader& header) {
   const auto sound = [](const auto& c) {
     if (!c || c->wavelet.forest == nullptr) return true;
-    for (const uint8_t filter : c->wavelet.filters)
-      if (filter == 2 || filter == 5) return false;
     return c->regions.side_log2 == 0 && c->repeats.none();
   };
   const GeometryLayers& layers = header.layers;

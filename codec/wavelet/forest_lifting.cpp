@@ -35,7 +35,7 @@ ForestLifting::ForestLifting(const WaveletSpec& spec, const Pyramid& pyramid, in
       margin_(marginOf(id_)),
       width_(n_ + 1 + 2 * margin_),
       patches_(size_t{forest_.patches()} * width_ * width_) {
-  assert(liftsJointly(id_) && n_ % 2 == 0);
+  assert(n_ % 2 == 0);
   findCopies();
 }
 
@@ -75,12 +75,18 @@ void ForestLifting::copyAll(const std::vector<Copy>& copies) {
   for (const auto& [to, from] : copies) patches_[to] = patches_[from];
 }
 
-void ForestLifting::step(JointStep step) {
+void ForestLifting::lift(size_t round) {
+  for (const JointStep each : JointLifting::steps(direction_))
+    if (each != JointStep::kHalves) step(round, each);
+}
+
+void ForestLifting::step(size_t round, JointStep step) {
   copyAll(around_);
   const size_t samples = size_t{width_} * width_;
+  const bool doubled = doubled_ && round + 1 == jointRounds(id_);
   parallelFor(threads_, forest_.patches(), [&](size_t patch) {
     const JointBlock block{patches_.data() + patch * samples, width_, {width_, width_},
-                           Ends::kMirrored, doubled_};
+                           Ends::kMirrored, doubled, round};
     JointLifting(block, id_, direction_, wide_).run(step, margin_, margin_ + n_ + 1);
   });
   copyAll(shared_);
@@ -106,8 +112,8 @@ void ForestLifting::run(std::span<int32_t> values) {
   const bool analyses = direction_ == Direction::kAnalysis;
   forEachSample(values, !analyses, [](int32_t from, int32_t& to) { to = from; });
   copyAll(shared_);  // what is not owned has no coefficient
-  for (const JointStep each : JointLifting::steps(direction_))
-    if (each != JointStep::kHalves) step(each);
+  const size_t rounds = jointRounds(id_);
+  for (size_t i = 0; i < rounds; ++i) lift(analyses ? i : rounds - 1 - i);
   forEachSample(values, analyses, [](int32_t& to, int32_t from) { to = from; });
 }
 

@@ -40,7 +40,8 @@ class ForestLifting {
   size_t indexOf(uint32_t patch, int64_t x, int64_t y) const;
   void findCopies();
   void copyAll(const std::vector<Copy>& copies);
-  void step(JointStep step);
+  void lift(size_t round);
+  void step(size_t round, JointStep step);
   /// Calls move(value of the raster, value here) for all samples of the patches. halved: even
   /// columns come first in the raster.
   template <class Move>

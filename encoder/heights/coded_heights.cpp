@@ -149,9 +149,7 @@ bool CodedHeights::restoresSamples() const {
 
 WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose) {
   const HeightSteps& steps = heights.steps;
-  const WaveletHeader chosen =
-      chooseWavelet(steps.lifting(extentOf(*heights.samples)), steps.range_bits, purpose);
-  return heights.forest != nullptr ? onForest(chosen, heights.forest) : chosen;
+  return chooseWavelet(steps.lifting(extentOf(*heights.samples)), steps.range_bits, purpose);
 }
 
 std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
@@ -171,7 +169,8 @@ CodedHeights tryHeights(std::shared_ptr<const QuantisedHeights> quantised,
   FlatChoice choice =
       chooseFlatAreas(steps.lifting(extentOf(*quantised->samples)), quantised->mayBeFlat(),
                       {steps.range_bits, target.purpose, target.bytes, target.mean_square,
-                       options.threads, target.purpose == Purpose::kLossy, quantised->forest});
+                       options.threads, target.purpose == Purpose::kLossy,
+                       quantised->forest != nullptr});
   if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
   HeightLayers layers = layersAround(*quantised, std::move(choice), options.priorities);
   layers.mask_room = target.mask_room;

@@ -193,11 +193,9 @@ class FlatTrials {
 
 FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, Mask valid,
                            const HeightPurpose& purpose) {
-  if (purpose.forest != nullptr) {
-    const WaveletHeader wavelet = chooseWavelet(heights, purpose.range_bits, purpose.purpose,
-                                                rateOf(heights, purpose));
-    return {{}, onForest(wavelet, purpose.forest)};
-  }
+  if (purpose.free)
+    return {{}, chooseWavelet(heights, purpose.range_bits, purpose.purpose,
+                              rateOf(heights, purpose))};
   return FlatTrials(heights, valid, purpose).choose();
 }
 

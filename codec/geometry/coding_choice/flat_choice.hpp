@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include "base/forest.hpp"
 #include "base/plane.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
 #include "codec/geometry/heights_encoder.hpp"
@@ -38,7 +37,7 @@ struct HeightPurpose {
   double mean_square = 0;       ///< > 0: the error wanted, in squared steps
   uint32_t threads = 1;         ///< nothing depends on them
   bool seen = false;            ///< heights of prefixes are shown without corrections
-  SharedForest forest = {};     ///< that the heights are the raster of, without flat areas
+  bool free = false;            ///< no samples may be held: there are no flat areas
 };
 
 struct FlatChoice {

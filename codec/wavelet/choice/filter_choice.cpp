@@ -245,13 +245,6 @@ WaveletHeader withShortReach(WaveletHeader chosen) {
   return chosen;
 }
 
-WaveletHeader onForest(WaveletHeader chosen, const SharedForest& forest) {
-  for (uint8_t& filter : chosen.filters)
-    if (!liftsJointly(static_cast<FilterId>(filter))) filter = kL;
-  chosen.forest = forest;
-  return chosen;
-}
-
 WaveletHeader withoutFraction(WaveletHeader lossy) {
   lossy.bits = static_cast<uint8_t>(lossy.bits - lossy.fraction_bits);
   lossy.fraction_bits = 0;

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <span>
 
-#include "base/forest.hpp"
 #include "base/plane.hpp"
 #include "bitstream/stream/coding_headers.hpp"
 #include "bitstream/track/track_encoder.hpp"
@@ -55,9 +54,6 @@ bool suitsSmoothGround(const WaveletHeader& chosen);
 /// shortest. Each level doubles what its filter reaches, so that they pull in most of the regions
 /// around a window, and hold few of the bytes.
 WaveletHeader withShortReach(WaveletHeader chosen);
-
-/// A choice for the raster of a forest, whose filters lift jointly.
-WaveletHeader onForest(WaveletHeader chosen, const SharedForest& forest);
 
 /// The filters of a lossy choice, for the last bit.
 WaveletHeader withoutFraction(WaveletHeader lossy);
