@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Streams of heights on forests: what comes back, what patches share, and what is refused.
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "base/forest.hpp"
 #include "tests/support/stream_fixture.hpp"
@@ -128,6 +131,97 @@ TEST(ForestStream, KeepsConstantsAsTheyAre) {
     const Bytes bytes = encodeHeights(surface.heights(), budget(400));
     Stream stream(bytes);
     EXPECT_EQ(decoded(stream), surface.samples) << shape.name;
+  }
+}
+
+/// How often each pair of vertices is an edge, and whether it runs both ways equally often.
+struct Edges {
+  std::map<std::pair<uint32_t, uint32_t>, int> balance, count;
+
+  explicit Edges(const tks_mesh& mesh) {
+    for (uint32_t t = 0; t < mesh.triangle_count; ++t) {
+      const uint32_t* const corner = mesh.triangles + 3 * size_t{t};
+      for (int k = 0; k < 3; ++k) add(corner[k], corner[(k + 1) % 3]);
+    }
+  }
+  void add(uint32_t a, uint32_t b) {
+    const auto key = std::minmax(a, b);
+    balance[key] += a < b ? 1 : -1;
+    ++count[key];
+  }
+  /// Edges that have a triangle on one side alone.
+  size_t open() const {
+    return static_cast<size_t>(std::count_if(balance.begin(), balance.end(), [](const auto& edge) {
+      return edge.second != 0 && edge.first.first != edge.first.second;
+    }));
+  }
+};
+
+/// V - E + F.
+int64_t characteristic(const tks_mesh& mesh, const Edges& edges) {
+  return int64_t{mesh.vertex_count} - static_cast<int64_t>(edges.count.size()) +
+         mesh.triangle_count;
+}
+
+TEST(ForestStream, MakesClosedMeshesOfAnyNumberOfTriangles) {
+  for (const Shape& shape : shapes()) {
+    const Surface surface(shape, 5);
+    const bool is_closed =
+        std::count(shape.sides.begin(), shape.sides.end(), kNone) == 0;
+    const Bytes bytes = encodeHeights(surface.heights(), budget(1800));
+    Stream stream(bytes);
+    uint32_t before = 0;
+    for (uint32_t triangles = 1; triangles < 5000; triangles += 1 + triangles / 3) {
+      tks_mesh mesh = {};
+      ASSERT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_BUDGET, triangles, &mesh), TKS_OK);
+      const uint32_t base = 2 * surface.forest.patches();
+      EXPECT_LE(mesh.triangle_count, std::max(triangles, base)) << shape.name;
+      EXPECT_GE(mesh.triangle_count, before) << shape.name;
+      before = mesh.triangle_count;
+      const Edges edges(mesh);
+      if (is_closed) {
+        EXPECT_EQ(edges.open(), 0u) << shape.name << ", " << triangles;
+      }
+      tks_free_mesh(&mesh);
+    }
+  }
+}
+
+TEST(ForestStream, KeepsTheTopologyOfItsSurface) {
+  const std::vector<std::pair<size_t, int64_t>> characteristics = {{0, 2}, {1, 0}, {2, 1}, {4, 0}};
+  for (const auto& [which, expected] : characteristics) {
+    const Shape& shape = shapes()[which];
+    const Surface surface(shape, 4);
+    const Bytes bytes = encodeHeights(surface.heights(), budget(1500));
+    for (size_t cut = bytes.size() / 4; cut <= bytes.size(); cut += 1 + cut / 8) {
+      Stream stream(Prefix(bytes).first(cut));
+      for (const uint32_t triangles : {200u, 400u, 0u}) {
+        tks_mesh mesh = {};
+        ASSERT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_BUDGET, triangles, &mesh), TKS_OK);
+        if (mesh.triangle_count > 150) {
+          EXPECT_EQ(characteristic(mesh, Edges(mesh)), expected)
+              << shape.name << ", " << triangles << " triangles of " << cut << " bytes";
+        }
+        tks_free_mesh(&mesh);
+      }
+    }
+  }
+}
+
+TEST(ForestStream, MakesTheCodedMeshOfWhatHasArrived) {
+  for (const Shape& shape : shapes()) {
+    const Surface surface(shape, 5);
+    const Bytes bytes = encodeHeights(surface.heights(), budget(1200));
+    uint32_t before = 0;
+    for (size_t cut = bytes.size() / 3; cut <= bytes.size(); cut += 1 + cut / 8) {
+      Stream stream(Prefix(bytes).first(cut));
+      tks_mesh mesh = {};
+      ASSERT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_CODED, 0, &mesh), TKS_OK);
+      EXPECT_GE(mesh.triangle_count, before) << shape.name;
+      before = mesh.triangle_count;
+      tks_free_mesh(&mesh);
+    }
+    EXPECT_GT(before, 4 * surface.forest.patches()) << shape.name;
   }
 }
 
