@@ -153,7 +153,7 @@ int levelFedBy(uint64_t bytes, uint64_t samples, int first) {
 
 int fedLevel(const tks_decoder& decoder, Component component, const auto& header) {
   if (isComplete(decoder)) return 0;
-  int fed = coarsestLevel(header.shown());
+  int fed = header.wavelet.forest == nullptr ? coarsestLevel(header.shown()) : 0;
   const auto regions = regionsOf(header.width, header.height, header.regions.side_log2);
   const auto& tracks = decoder.packets.payload.codewords[static_cast<size_t>(component)];
   for (const auto& [number, bytes] : tracks) {

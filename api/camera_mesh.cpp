@@ -71,6 +71,7 @@ class ScreenMeshCall {
   Status run(const tks_screen* given, tks_mesh& out) {
     const StreamHeader& header = decoder_.parsed.header;
     if (!header.geometry) return noHeights();
+    if (header.geometry->wavelet.forest != nullptr) return noMesh();
     if (max_triangles_ == 0) return {TKS_USAGE, "A mesh for the screen takes a triangle or more."};
     if (decoder_.heights_level > 0)
       return {TKS_USAGE, "Meshes are made of the heights of level 0; ask for few triangles."};

@@ -37,6 +37,10 @@ Status wrongIndex() {
   return {TKS_CORRUPT, "Corrupt stream: its index does not describe its packets."};
 }
 
+Status noMesh() {
+  return {TKS_UNSUPPORTED, "Heights on a forest have meshes of tks_decode_mesh alone."};
+}
+
 Status noHeights() {
   return {TKS_USAGE, "The stream holds no heights."};
 }

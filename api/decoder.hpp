@@ -75,6 +75,8 @@ void forget(tks_decoder& decoder);
 /// TKS_CORRUPT or TKS_USAGE, with their sentences.
 Status wrongIndex();
 Status noHeights();
+/// Of calls that make meshes of planes alone.
+Status noMesh();
 
 /// Of a decoder that is_lost.
 Status lost();
@@ -97,9 +99,10 @@ struct SurfaceScale {
 };
 SurfaceScale surfaceScale(const StreamHeader& header, const DecodedGeometry& geometry);
 
-/// The coarsest level of the heights or the texture of a header; 0 where there are none.
+/// The coarsest level of the heights or the texture of a header; 0 where there are none, and on
+/// forests.
 inline int coarsestLevelOf(const auto& component) {
-  return component ? coarsestLevel(component->shown()) : 0;
+  return component && component->wavelet.forest == nullptr ? coarsestLevel(component->shown()) : 0;
 }
 
 /// Runs f and keeps its sentence in the decoder. When memory ends, so does what the decoder

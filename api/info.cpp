@@ -142,7 +142,13 @@ bool voidsAreKnown(const tks_decoder& decoder) {
 /// Of either component.
 template <class Header>
 tks_domain domainOf(const Header& header) {
+  if (header.wavelet.forest != nullptr) return TKS_DOMAIN_FOREST;
   return header.wavelet.ring ? TKS_DOMAIN_CYLINDER : TKS_DOMAIN_PLANE;
+}
+
+tks_forest forestOf(const SharedForest& forest) {
+  if (forest == nullptr) return {};
+  return {static_cast<uint32_t>(forest->depth()), forest->patches(), forest->sides().data()};
 }
 
 void fillHeights(const tks_decoder& decoder, tks_info& info) {
@@ -166,6 +172,9 @@ void fillHeights(const tks_decoder& decoder, tks_info& info) {
   info.has_nodata = header.layers.has_nodata;
   info.nodata = header.layers.nodata;
   info.domain = domainOf(geometry);
+  info.grid_width = header.grid.width;
+  info.grid_height = header.grid.height;
+  info.forest = forestOf(geometry.wavelet.forest);
 }
 
 void fillTexture(const tks_decoder& decoder, tks_info& info) {
@@ -184,6 +193,7 @@ void fillTexture(const tks_decoder& decoder, tks_info& info) {
   info.texture_drawn = codingOf(texture);
   info.texture_sample = static_cast<tks_sample>(texture.sample);
   info.texture_domain = domainOf(texture);
+  info.texture_forest = forestOf(texture.wavelet.forest);
 }
 
 void fillMetadata(const tks_decoder& decoder, tks_info& info) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 
+#include "base/forest.hpp"
 #include "bitstream/track/track.hpp"
 
 namespace tetrakis::inline stream {
@@ -39,7 +40,8 @@ struct WaveletHeader {
   /// Where there are no fraction bits, the inverse rounds from the moment on when all tracks
   /// together have so many bytes of coefficients.
   uint64_t rounded_bytes = 0;
-  bool ring = false;  ///< what the domain says: the last column lies beside the first one
+  bool ring = false;         ///< what the domain says: the last column lies beside the first one
+  SharedForest forest = {};  ///< likewise: the raster is that of a forest
 
   /// planes: bit-planes of the coefficients.
   template <class V>

@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "base/forest.hpp"
 #include "bitstream/stream/header.hpp"
 
 namespace tetrakis::inline stream {
@@ -18,12 +20,20 @@ namespace tetrakis::inline stream {
 inline constexpr uint64_t kComponentPart = 0;  ///< the kind of a part of the body
 inline constexpr size_t kMostListed = 16;      ///< components
 
+/// The domain of a component with samples of that extent.
+inline Domain domainOf(const WaveletHeader& wavelet, Extent extent) {
+  const uint8_t kind = wavelet.forest != nullptr ? Domain::kForest
+                       : wavelet.ring            ? Domain::kCylinder
+                                                 : Domain::kGrid;
+  return {kind, extent, wavelet.forest};
+}
+
 /// Of a component that is known, as its header says it.
 inline ListedComponent listed(const StreamHeader& header, Component component) {
   const bool heights = component == Component::kGeometry;
   const auto fill = [&](const auto& of, uint8_t kind) {
-    const uint8_t domain = of.wavelet.ring ? Domain::kCylinder : Domain::kGrid;
-    return ListedComponent{component, kind, {domain, of.shown()}, of.regions.side_log2, ""};
+    return ListedComponent{component, kind, domainOf(of.wavelet, of.shown()),
+                           of.regions.side_log2, ""};
   };
   return heights ? fill(*header.geometry, ListedComponent::kHeights)
                  : fill(*header.texture, ListedComponent::kColours);
@@ -56,6 +66,40 @@ inline Component roleOf(const ListedComponent& one, const StreamHeader& before) 
   return Component::kOther;
 }
 
+/// Each side names the one that it is glued to, unless that has named it before.
+template <class V>
+void visitForest(V& v, Domain& domain) {
+  uint64_t depth = 0, patches = 0;
+  std::vector<uint32_t> sides;
+  if constexpr (!V::kReads) {
+    depth = static_cast<uint64_t>(domain.forest->depth());
+    patches = domain.forest->patches();
+    sides = domain.forest->sides();
+  }
+  v.u8("depth", depth, 1, Forest::kMostDepth);
+  if (!v.ok()) return;
+  v.varint("patches", patches, 1, kMaxSide / ((uint64_t{1} << depth) + 1));
+  if (!v.ok()) return;
+  const auto count = static_cast<uint32_t>(Forest::kSides * patches);
+  if constexpr (V::kReads) sides.assign(count, Forest::kBorder);
+  for (uint32_t i = 0; i < count && v.ok(); ++i) {
+    if (sides[i] < i) continue;
+    uint32_t glue = sides[i] == Forest::kBorder ? 0 : sides[i] - i;
+    v.varint("glue", glue, 0, count - 1u - i);
+    if (!v.ok() || glue == 0) continue;
+    if constexpr (V::kReads) {
+      v.require("glue", sides[i + glue] == Forest::kBorder);
+      sides[i] = i + glue;
+      sides[i + glue] = i;
+    }
+  }
+  if constexpr (V::kReads) {
+    if (!v.ok()) return;
+    domain.forest = std::make_shared<const Forest>(static_cast<int>(depth), std::move(sides));
+    domain.grid = domain.forest->raster();
+  }
+}
+
 /// known: the domains of the components before, which a new one joins.
 template <class V>
 void visitDomain(V& v, std::vector<Domain>& known, Domain& domain) {
@@ -68,7 +112,10 @@ void visitDomain(V& v, std::vector<Domain>& known, Domain& domain) {
     return;
   }
   v.u8("domain_kind", domain.kind, 0, UINT8_MAX);
-  if (domain.isKnown()) {
+  if (domain.kind == Domain::kForest) {
+    visitForest(v, domain);
+    if (!v.ok()) return;
+  } else if (domain.isKnown()) {
     v.varint("width", domain.grid.width, 1, kMaxSide);
     v.varint("height", domain.grid.height, 1, kMaxSide);
   } else if constexpr (V::kReads) {
@@ -79,11 +126,14 @@ void visitDomain(V& v, std::vector<Domain>& known, Domain& domain) {
 
 template <class V>
 void visitKnown(V& v, StreamHeader& header, const ListedComponent& one) {
-  const bool ring = one.domain.kind == Domain::kCylinder;
+  const auto takeDomain = [&](WaveletHeader& wavelet) {
+    wavelet.ring = one.domain.kind == Domain::kCylinder;
+    wavelet.forest = one.domain.forest;
+  };
   if (one.component == Component::kGeometry) {
     if (!header.geometry) header.geometry.emplace();
     header.geometry->regions.side_log2 = one.region_log2;
-    header.geometry->wavelet.ring = ring;
+    takeDomain(header.geometry->wavelet);
     header.geometry->visit(v, one.domain.grid);
     header.layers.visit(v);
     header.geometry->visitBound(v);
@@ -91,7 +141,7 @@ void visitKnown(V& v, StreamHeader& header, const ListedComponent& one) {
   } else {
     if (!header.texture) header.texture.emplace();
     header.texture->regions.side_log2 = one.region_log2;
-    header.texture->wavelet.ring = ring;
+    takeDomain(header.texture->wavelet);
     header.texture->visit(v, one.domain.grid);
   }
 }

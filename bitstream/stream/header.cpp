@@ -25,7 +25,8 @@ enum BodyPart : uint64_t {
   kPlaceOfTexture = 69,
   kIndex = 70,
   kHeightPositions = 71,
-  kTexturePositions = 72
+  kTexturePositions = 72,
+  kSourceGrid = 73
 };
 
 constexpr size_t kFixedBytes = kMagic.size() + 3;  // magic, version, profile, level
@@ -89,6 +90,10 @@ void visitBody(V& v, StreamHeader& header) {
   };
   positions(kHeightPositions, header.height_positions);
   positions(kTexturePositions, header.texture_positions);
+  v.part(kSourceGrid, header.grid.samples() > 0, [&](auto& part) {
+    part.varint("grid_width", header.grid.width, 1, kMaxSide);
+    part.varint("grid_height", header.grid.height, 1, kMaxSide);
+  });
   v.endParts(header.later_parts);
 }
 

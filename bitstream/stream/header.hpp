@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "base/forest.hpp"
+#include "base/plane.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/georeference.hpp"
 #include "bitstream/stream/packet.hpp"
@@ -56,13 +58,18 @@ struct Metadata {
 struct Domain {
   static constexpr uint8_t kGrid = 0;
   static constexpr uint8_t kCylinder = 1;  ///< a grid whose last column lies beside its first one
+  static constexpr uint8_t kForest = 2;    ///< patches, in a raster one below the other
 
-  uint8_t kind = kGrid;  ///< others are not known: components on them are passed over
-  Extent grid = {0, 0};  ///< of a grid or a cylinder: columns and rows
-  uint64_t number = 0;   ///< of others, which are told apart by it: as it was read
+  uint8_t kind = kGrid;         ///< others are not known: components on them are passed over
+  Extent grid = {0, 0};         ///< of those that are known: columns and rows
+  SharedForest forest = {};     ///< of a forest alone
+  uint64_t number = 0;          ///< of others, which are told apart by it: as it was read
 
-  bool isKnown() const { return kind <= kCylinder; }
-  bool operator==(const Domain&) const = default;
+  bool isKnown() const { return kind <= kForest; }
+  bool operator==(const Domain& other) const {
+    return kind == other.kind && grid == other.grid && number == other.number &&
+           sameForest(forest, other.forest);
+  }
 };
 
 /// What every component of the header's list begins with, whoever knows its kind.
@@ -94,6 +101,8 @@ struct StreamHeader {
   std::vector<IndexEntry> index;  ///< of all packets, ahead of time
   /// GroundPositions as bytes; empty: none. No status depends on them.
   std::string height_positions, texture_positions;
+  /// The grid that heights on a forest were resampled from; no samples: none.
+  Extent grid = {0, 0};
   std::string later_parts;  ///< of kinds that are not known and inform, as they were read
   /// In the stream's order: of a header that was read. Of one that is made heights come before the
   /// texture, unless their order is stated here.

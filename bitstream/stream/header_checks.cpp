@@ -128,6 +128,27 @@ Status checkPriorities(const StreamHeader& header) {
   return {TKS_CORRUPT, "Corrupt stream: its map of priorities has more than 65536 tiles."};
 }
 
+/// The tools that may stand on a forest (docs/FORMAT.md, section 2).
+Status checkForests(const StreamHeader& header) {
+  const auto sound = [](const auto& c) {
+    if (!c || c->wavelet.forest == nullptr) return true;
+    return c->regions.side_log2 == 0 && c->repeats.none();
+  };
+  const GeometryLayers& layers = header.layers;
+  bool all = sound(header.geometry) && sound(header.texture);
+  if (header.geometry && header.geometry->wavelet.forest != nullptr) {
+    const bool lifts_all = layers.late_mask && layers.lifted_bytes == 0;
+    all &= layers.flat_bytes == 0 && layers.bridge == 0 &&
+           (layers.validity_bytes == 0 || header.geometry->direct() || lifts_all);
+  }
+  if (header.texture && header.texture->wavelet.forest != nullptr)
+    all &= !header.texture->hidden && header.texture->overlay_bytes == 0 &&
+           header.texture->bridge == 0;
+  if (all) return {};
+  return {TKS_CORRUPT, "Corrupt stream: a forest has regions, repeated lines, flat areas or voids "
+                       "that are not lifted."};
+}
+
 /// A decoder may lack what it takes for the components of a later version.
 Status checkComponents(const StreamHeader& header) {
   if (header.geometry || header.texture) return {};
@@ -143,6 +164,7 @@ Status checkComponents(const StreamHeader& header) {
 Status checkMeaning(const StreamHeader& header) {
   if (Status components = checkComponents(header); !components.ok()) return components;
   if (Status layers = checkLayers(header); !layers.ok()) return layers;
+  if (Status forests = checkForests(header); !forests.ok()) return forests;
   if (Status direct = checkDirect(header); !direct.ok()) return direct;
   if (Status priorities = checkPriorities(header); !priorities.ok()) return priorities;
   return checkTexture(header);

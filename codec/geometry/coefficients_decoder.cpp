@@ -92,7 +92,8 @@ std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart
 /// The layout of the plane. Held samples outlive it. memory: null, or that of earlier calls.
 PlaneLayout layoutOf(const GeometryHeader& header, const SharedBits& lifted, HeldSamples flat,
                      TrackMemory* memory) {
-  PlaneLayout layout(specOf(header.wavelet), Pyramid(lifted, header.extent(), flat),
+  const WaveletSpec spec = specOf(header.wavelet);
+  PlaneLayout layout(spec, pyramidOf(spec, lifted, header.extent(), flat),
                      priorityMapOf(header.priorities, header.extent()),
                      memory != nullptr ? memory->norms : std::nullopt);
   if (memory != nullptr) memory->norms = layout.norms();

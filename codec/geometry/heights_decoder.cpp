@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "base/forest.hpp"
 #include "bitstream/coder/adaptive_bit.hpp"
 #include "codec/geometry/drawn_heights/drawn_heights_decoder.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
@@ -108,6 +109,7 @@ bool holdsValid(const SharedBits& valid, const Window& window) {
 
 DecodedView decodedViewOf(const TakenLayers& taken, const SharedBits& valid, const View& asked) {
   const bool corrected = asked.level == 0 && taken.isCorrected();
+  if (taken.header.wavelet.forest != nullptr) return {{}, corrected};
   if (!asked.window) return {asked, corrected};
   const View all = correctedView(taken.header, taken.stated, asked);
   if (!corrected || !holdsValid(valid, *asked.window) ||
@@ -162,11 +164,30 @@ DecodedHeights decodeTaken(const TakenLayers& taken, DecodedView& view,
   return corrected(std::move(decoded), taken, view.view, context.threads);
 }
 
+/// A forest is decoded as a whole: lines go on in other patches.
+View wholeIfForest(const GeometryHeader& header, const View& view) {
+  return header.wavelet.forest != nullptr ? View{} : view;
+}
+
+/// Samples that several patches share become what they are in the patch that owns them.
+void share(const GeometryHeader& header, DecodedHeights& decoded) {
+  const SharedForest& forest = header.wavelet.forest;
+  if (forest == nullptr) return;
+  const auto shareAll = [&](auto& values) {
+    if (!values.empty()) shareOwned(*forest, std::span(values), forest->side() - 1);
+  };
+  shareAll(decoded.geometry.heights);
+  shareAll(decoded.geometry.valid);
+  shareAll(decoded.geometry.significant);
+  shareAll(decoded.corrections);
+}
+
 /// Decodes a view of the coded lines; a window is cut out of the decoded part.
 DecodedHeights decodeLines(const TakenLayers& taken, const View& view,
                            const DecodeContext<HeightsMemory>& context) {
-  DecodedView all{view};
+  DecodedView all{wholeIfForest(taken.header, view)};
   DecodedHeights decoded = decodeTaken(taken, all, context);
+  share(taken.header, decoded);
   const Extent plane = taken.header.extent();
   if (!view.window || all.view.extentIn(plane) == view.extentIn(plane)) return decoded;
   const Window& window = *view.window;
@@ -194,7 +215,7 @@ std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const Geo
 
 View decodedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view) {
   if (header.direct()) return {};
-  return correctedView(header, layers, view);
+  return correctedView(header, layers, wholeIfForest(header, view));
 }
 
 DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers& layers,

@@ -57,8 +57,11 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
   const FlatAreas& flat = options.flat == nullptr ? kNone : *options.flat;
   const PriorityMap& priorities = options.priorities == nullptr ? kAlike : *options.priorities;
   const std::vector<int32_t> areas = withFractions(flat.heights, wavelet.fraction_bits);
+  const WaveletSpec spec = specOf(wavelet);
+  const Extent extent = heights.extent();
   const PlaneLayout layout(
-      specOf(wavelet), Pyramid(heights.extent(), heights.valid, {flat.numbers, areas}), priorities);
+      spec, pyramidOf(spec, sharedBits(heights.valid, extent), extent, {flat.numbers, areas}),
+      priorities);
   Transformed of{layout, transformed(heights, wavelet, layout, options.threads),
                  options.share * portable::exp2(-2 * wavelet.fraction_bits), worthOf(priorities)};
   const std::vector<Region> regions = regionsOf(heights.width, heights.height, options.region_log2);

@@ -30,6 +30,11 @@ std::array<int, 2> siblingsOf(std::span<const BandPart> parts, size_t index,
   return siblings;
 }
 
+bool isParent(const Subband& of, const Subband& subband) {
+  return of.patch == subband.patch && of.level == subband.level + 1 &&
+         of.orientation == subband.orientation;
+}
+
 /// A row of the coefficients of a part.
 struct Coefficients {
   const Subband& subband;
@@ -99,9 +104,9 @@ std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int fir
       band.key_floor = priority;
     band.models = models + modelsOf(subband);
     const size_t parent = i - kBandsPerLevel;  // LL is nobody's
-    const bool has_parent = i >= kBandsPerLevel &&
-                            subbands()[parts[parent].subband].orientation != Orientation::kLL &&
-                            !parts[parent].shape().empty();
+    const bool has_parent =
+        i >= kBandsPerLevel && isParent(subbands()[parts[parent].subband], subband) &&
+        !parts[parent].shape().empty();
     if (has_parent) band.parent = first + static_cast<int>(parent);
     if (band.orientation != Orientation::kLL)
       band.siblings = siblingsOf(parts, i, band.orientation, first);

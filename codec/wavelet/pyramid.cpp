@@ -18,24 +18,49 @@ LowBand split(const LowBand& whole) {
   };
   split_side(low.extent.width, low.splits_x);
   split_side(low.extent.height, low.splits_y);
+  low.patch_rows = low.extent.height;
   return low;
 }
 
 }  // namespace
 
 Pyramid::Pyramid(SharedBits valid, Extent plane, HeldSamples held)
-    : valid_(std::move(valid)), held_(held), lows_{{plane, 0, 0}} {
+    : valid_(std::move(valid)), held_(held), lows_{{plane, plane.height, 0, 0}} {
   assert(plane.samples() > 0);
   assert(allExist() || valid_->extent() == plane);
   assert(held.none() || held.numbers.size() == plane.samples());
+  splitAll();
+  addSubbands();
+  assert(subbands_.size() == kBandsPerLevel * static_cast<size_t>(levels()) + 1);
+}
+
+Pyramid::Pyramid(const Forest& forest)
+    : valid_(sharedBits(ownedSamples(forest), forest.raster())),
+      lows_{{{forest.side(), forest.side()}, forest.side(), 0, 0}} {
+  splitAll();
+  addSubbands();
+  const size_t of_patch = subbands_.size();
+  for (uint32_t patch = 1; patch < forest.patches(); ++patch) {
+    for (size_t i = 0; i < of_patch; ++i) {
+      Subband& subband = subbands_.emplace_back(subbands_[i]);
+      subband.patch = patch;
+      subband.patch_row = patch * forest.side();
+    }
+  }
+  for (LowBand& low : lows_) low.extent.height *= forest.patches();
+}
+
+void Pyramid::splitAll() {
   while (std::max(lows_.back().extent.width, lows_.back().extent.height) > kSmallestSide)
     lows_.push_back(split(lows_.back()));
   assert(levels() <= kMaxLevels);
+}
+
+void Pyramid::addSubbands() {
   const LowBand& coarsest = lows_.back();
   subbands_.push_back({levels(), Orientation::kLL, coarsest.extent.width, coarsest.extent.height, 0,
                        0, coarsest.splits_x, coarsest.splits_y});
   for (int level = levels(); level >= 1; --level) addSubbands(level);
-  assert(subbands_.size() == kBandsPerLevel * static_cast<size_t>(levels()) + 1);
 }
 
 void Pyramid::addSubbands(int level) {
@@ -55,6 +80,7 @@ void Pyramid::addSubbands(int level) {
 
 std::span<const Subband> Pyramid::subbandsOf(int level) const {
   assert(level >= 0 && level <= levels());
+  if (level == 0) return subbands_;
   return std::span(subbands_).first(kBandsPerLevel * static_cast<size_t>(levels() - level) + 1);
 }
 

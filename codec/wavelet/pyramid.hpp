@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/bit_plane.hpp"
+#include "base/forest.hpp"
 #include "base/plane.hpp"
 #include "base/view.hpp"
 #include "bitstream/track/band.hpp"
@@ -53,6 +54,8 @@ struct Subband {
   uint32_t width = 0, height = 0;  ///< in coefficients
   uint32_t x = 0, y = 0;           ///< column and row of the plane that the first coefficient is in
   int splits_x = 0, splits_y = 0;  ///< how often each direction was split down to this band
+  uint32_t patch = 0;              ///< of a forest, that the band belongs to
+  uint32_t patch_row = 0;          ///< the row of the plane that the patch begins in; y counts from it
 
   bool isHighX() const {
     return orientation == Orientation::kHL || orientation == Orientation::kHH;
@@ -62,7 +65,8 @@ struct Subband {
   }
 
   /// The row of the plane that a row of the band lies in.
-  uint32_t planeRow(uint32_t row) const { return y + (row << splits_y); }
+  uint32_t planeRow(uint32_t row) const { return patch_row + patchRow(row); }
+  uint32_t patchRow(uint32_t row) const { return y + (row << splits_y); }
   /// The column of the sample that a column of the band belongs to.
   uint32_t sampleColumn(uint32_t column) const {
     return (column << splits_x) + (isHighX() ? uint32_t{1} << (splits_x - 1) : 0);
@@ -72,6 +76,7 @@ struct Subband {
 /// The low band that is left after so many levels.
 struct LowBand {
   Extent extent;
+  uint32_t patch_rows;  ///< of each patch of a forest; else all rows
   int splits_x = 0, splits_y = 0;  ///< how often each direction was split; at most once a level
 };
 
@@ -82,6 +87,9 @@ class Pyramid {
       : Pyramid(sharedBits(valid, plane), plane, held) {}
   /// The same, of marks that are there as bits.
   Pyramid(SharedBits valid, Extent plane, HeldSamples held = {});
+  /// The raster of a forest: each patch has a pyramid of its own, in which the samples exist that
+  /// it owns.
+  explicit Pyramid(const Forest& forest);
 
   Extent plane() const { return lows_.front().extent; }
   bool allExist() const { return valid_ == nullptr; }
@@ -100,16 +108,17 @@ class Pyramid {
   bool splitsY(int level) const { return low(level).splits_y > low(level - 1).splits_y; }
 
   /// LL, then HL, LH and HH of the coarsest level, and so on to level 1: 3 * levels() + 1 bands,
-  /// some of them empty. Together they fill the plane.
+  /// some of them empty. Those of a forest follow patch by patch. Together they fill the plane.
   const std::vector<Subband>& subbands() const { return subbands_; }
-  /// The first of these bands, which fill the low band of a level.
+  /// The first of these bands, which fill the low band of a level. Of a forest: of level 0.
   std::span<const Subband> subbandsOf(int level) const;
 
   /// The index of the first coefficient of a row of a subband among the values of the low band of a
   /// level, which holds that subband.
   size_t indexOf(const Subband& subband, uint32_t row, int level = 0) const {
     const LowBand& band = low(level);
-    return size_t{subband.planeRow(row) >> band.splits_y} * band.extent.width + subband.x;
+    const size_t patch_row = size_t{subband.patch} * band.patch_rows;
+    return (patch_row + (subband.patchRow(row) >> band.splits_y)) * band.extent.width + subband.x;
   }
 
   /// Which samples exist of a rectangle of the low band of a level, laid out like the values that
@@ -118,6 +127,8 @@ class Pyramid {
   std::vector<uint8_t> splitMask(int level, const Window& block) const;
 
  private:
+  void splitAll();
+  void addSubbands();
   void addSubbands(int level);
 
   SharedBits valid_;

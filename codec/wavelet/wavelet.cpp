@@ -8,6 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/forest.hpp"
+#include "codec/wavelet/forest_lifting.hpp"
 #include "codec/wavelet/held_lifting.hpp"
 #include "codec/wavelet/level_transform.hpp"
 
@@ -52,6 +54,11 @@ class Levels {
 
 void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
                     uint32_t threads) {
+  if (spec.forest != nullptr) {
+    for (int level = 1; level <= pyramid.levels(); ++level)
+      ForestLifting(spec, pyramid, level, Direction::kAnalysis, threads).run(values);
+    return;
+  }
   const Levels levels(spec, pyramid);
   for (int level = 1; level <= pyramid.levels(); ++level) {
     levels.run(LevelTransform(spec, level, Direction::kAnalysis, threads), level,
@@ -61,6 +68,12 @@ void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<i
 
 void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
                     const InverseOptions& options) {
+  if (spec.forest != nullptr) {
+    assert(options.level == 0);
+    for (int level = pyramid.levels(); level > 0; --level)
+      ForestLifting(spec, pyramid, level, Direction::kSynthesis, options.threads).run(values);
+    return shareOwned(*spec.forest, values, spec.forest->side() - 1);
+  }
   const Levels levels(spec, pyramid);
   for (int split = pyramid.levels(); split > options.level; --split) {
     levels.run(LevelTransform(spec, split, Direction::kSynthesis, options.threads), split,

@@ -9,8 +9,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "base/forest.hpp"
 #include "bitstream/stream/coding_headers.hpp"
 #include "codec/wavelet/lifting/lifting.hpp"
 #include "codec/wavelet/lifting/lifting_kernel.hpp"
@@ -28,6 +30,7 @@ struct WaveletSpec {
   int bits = 0;                              ///< of a sample, fraction included
   int first_doubled = 3;  ///< the low band is doubled after this level and the next two; 0: never
   bool ring = false;      ///< the last column of the plane lies beside its first one
+  SharedForest forest = {};  ///< the plane is the raster of a forest; every level is lifted jointly
 
   static constexpr int kDoubled = 3;  ///< levels that double their low bands
   static constexpr int kNarrowLevels = 3;
@@ -53,6 +56,13 @@ struct WaveletSpec {
   }
 };
 
+/// The pyramid of a plane: of its forest, or of a grid whose lifted samples are marked.
+inline Pyramid pyramidOf(const WaveletSpec& spec, SharedBits lifted, Extent plane,
+                         HeldSamples held = {}) {
+  if (spec.forest != nullptr) return Pyramid(*spec.forest);
+  return {std::move(lifted), plane, held};
+}
+
 // specOf(), unroundedBits() and fractionBitsOf() turn the fields of a stream header about the
 // wavelet into the arguments of the transform, and withFractions() the values.
 
@@ -64,6 +74,7 @@ inline WaveletSpec specOf(const WaveletHeader& header) {
   spec.bits = header.bits;
   spec.first_doubled = header.first_doubled;
   spec.ring = header.ring;
+  spec.forest = header.forest;
   return spec;
 }
 

@@ -15,7 +15,8 @@ CoefficientOptions heightOptions(const EncodeInputs& inputs) {
   const tks_encode_options& options = inputs.options;
   const Extent extent = extentOf(*inputs.heights);
   const bool large = extent.samples() > kOneRegionHeights;
-  const RegionChoice regions = chooseRegions(options, extent, large);
+  const bool whole = inputs.heights->domain == TKS_DOMAIN_FOREST;
+  const RegionChoice regions = whole ? RegionChoice() : chooseRegions(options, extent, large);
   const Priorities* const priorities = inputs.priorities;
   const bool some_first = priorities != nullptr && !priorities->heights.empty();
   return {.limit = limitOf(inputs),
@@ -35,7 +36,7 @@ bool hasVoids(const tks_heights& heights) {
 }  // namespace
 
 CodedLines heightLines(const EncodeInputs& inputs) {
-  if (inputs.heights == nullptr) return {};
+  if (inputs.heights == nullptr || inputs.heights->domain == TKS_DOMAIN_FOREST) return {};
   const tks_heights& heights = *inputs.heights;
   // Beside a texture cameras look at the coded heights: two lines have an area, one has none.
   const uint32_t least = inputs.image == nullptr ? 1 : 2;

@@ -135,7 +135,9 @@ HeightLayers layersAround(const QuantisedHeights& heights, FlatChoice choice,
       .wavelet = choice.wavelet,
       .priorities = priorities != nullptr ? headerOf(*priorities) : PriorityHeader(),
       .flat = std::move(choice.flat)};
-  layers.wavelet.ring = headerOf(heights).wavelet.ring;
+  const WaveletHeader domain = headerOf(heights).wavelet;
+  layers.wavelet.ring = domain.ring;
+  layers.wavelet.forest = domain.forest;
   layers.stated.flat_bytes = layers.flat.codeword.size();
   layers.stated.flat_areas = static_cast<uint32_t>(layers.flat.areas.heights.size());
   if (heights.late.none()) return layers;

@@ -109,7 +109,8 @@ QuantisedHeights withoutTable(const EncodeInputs& inputs, HeightSteps steps, Bri
           .layers = std::move(layers),
           .validity = std::move(validity),
           .late = std::move(late),
-          .shown_by = inputs.shownBy()};
+          .shown_by = inputs.shownBy(),
+          .forest = forestOf(samples)};
 }
 
 /// The heights with the table of their values, if they have one.
@@ -131,6 +132,8 @@ Result<std::shared_ptr<const QuantisedHeights>> quantise(const EncodeInputs& inp
   assert(inputs.heights != nullptr);
   Result<ChosenSteps> chosen = chooseSteps(inputs, table);
   if (!chosen.ok()) return chosen.status();
+  if (inputs.heights->domain == TKS_DOMAIN_FOREST && !chosen->steps.valid.empty())
+    return Status(TKS_USAGE, "Heights on a forest have no voids; fill them first.");
   const BridgeTarget bridges = bridgeTarget(inputs, chosen->steps);
   QuantisedHeights heights = withTable(withoutTable(inputs, std::move(chosen->steps), bridges));
   if (chosen->restore && !heights.steps.exact) {
@@ -239,6 +242,7 @@ GeometryHeader headerOf(const QuantisedHeights& heights) {
   header.base = heights.steps.base;
   header.step = heights.steps.step;
   header.wavelet.ring = heights.samples->domain == TKS_DOMAIN_CYLINDER;
+  header.wavelet.forest = heights.forest;
   return header;
 }
 

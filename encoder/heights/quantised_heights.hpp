@@ -105,6 +105,7 @@ struct QuantisedHeights {
   /// outlives this.
   std::span<const uint32_t> shown_by = {};
   double without_table = 0;  ///< squared error, in steps, of complete coefficients without it
+  SharedForest forest = {};  ///< that the samples are the raster of; null: of none
 
   /// Corrections restore every sample.
   bool restored() const { return layers.restoresSamples(); }

@@ -104,6 +104,7 @@ std::vector<uint8_t> tiersOf(const std::vector<TileRow>& rows) {
 
 PriorityMap areaPriorities(const EncodeInputs& inputs) {
   const tks_heights& heights = *inputs.heights;
+  if (heights.domain == TKS_DOMAIN_FOREST) return {};  // its raster has no parallels
   const Extent extent{heights.width, heights.height};
   PriorityMap map = tilesOver(extent);
   const std::vector<TileRow> rows = tileRowsOf(heights, map.tile_log2);

@@ -114,6 +114,16 @@ struct EncodeInputs {
   }
 };
 
+/// The forest that a raster lies on (tks_heights, tks_image), or null.
+template <class Raster>
+SharedForest forestOf(const Raster& raster) {
+  if (raster.domain != TKS_DOMAIN_FOREST) return nullptr;
+  const tks_forest& given = raster.forest;
+  return std::make_shared<const Forest>(
+      static_cast<int>(given.depth),
+      std::vector<uint32_t>(given.sides, given.sides + size_t{Forest::kSides} * given.patches));
+}
+
 /// The purpose of a component that has no reason for another one.
 Purpose purposeOf(const EncodeInputs& inputs);
 

@@ -113,6 +113,8 @@ StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
     if (inputs.texel_lines != nullptr) header.texture->repeats = inputs.texel_lines->repeats;
   }
   header.georeference = georeferenceOf(inputs.allHeights(), inputs.allTexels());
+  if (inputs.heights != nullptr)
+    header.grid = {inputs.allHeights()->grid_width, inputs.allHeights()->grid_height};
   header.height_positions = positionsOf(inputs.allHeights());
   header.texture_positions = positionsOf(inputs.allTexels());
   if (options.index != 0) header.index = indexOf(selection.packets, trackCounts(header));

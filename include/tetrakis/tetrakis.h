@@ -164,6 +164,12 @@ typedef struct tks_heights {
   tks_domain domain;              /* 0: a plane */
   double first_latitude;          /* in degrees, of the outer edges of the first row and of the */
   double last_latitude;           /* last row of a geographic grid; both 0: unknown */
+  tks_forest forest;              /* with TKS_DOMAIN_FOREST: the heights are its raster. Samples
+                                     that are shared must be equal bit for bit, and there are no
+                                     voids, else TKS_USAGE */
+  uint32_t grid_width, grid_height; /* heights on a forest that were resampled from a grid: columns
+                                     and rows of the grid, whose place the georeference is then;
+                                     0: none */
 } tks_heights;
 
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed.
@@ -193,6 +199,8 @@ typedef struct tks_image {
   const uint8_t* positions;      /* of tks_fit_positions; NULL: none but those of the heights */
   size_t positions_size;
   tks_domain domain;             /* 0: a plane, whatever the heights are */
+  tks_forest forest;             /* with TKS_DOMAIN_FOREST, as of heights; beside heights on a forest
+                                    of as many patches, whose sides are glued alike */
 } tks_image;
 
 /* The white level of a texture is the value that pictures show as white; what lies above it is as
@@ -532,6 +540,9 @@ typedef struct tks_info {
   size_t texture_positions_size;
   tks_domain domain;            /* of the heights */
   tks_domain texture_domain;
+  tks_forest forest;            /* with TKS_DOMAIN_FOREST; owned by the decoder */
+  tks_forest texture_forest;    /* likewise */
+  uint32_t grid_width, grid_height; /* as in tks_heights */
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);

@@ -173,7 +173,8 @@ class FlatTrials {
   WaveletHeader waveletBeside(const FlatAreas& areas) const {
     WaveletHeader header = chooseWavelet(heights_, areas.held(), purpose_.range_bits,
                                          purpose_.purpose, rateOf(heights_, purpose_));
-    if (header.first_doubled > 0) header.first_doubled = WaveletSpec().first_doubled;
+    if (header.first_doubled > 0)
+      header.first_doubled = static_cast<uint8_t>(WaveletSpec().first_doubled);
     return header;
   }
 
@@ -192,6 +193,9 @@ class FlatTrials {
 
 FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, Mask valid,
                            const HeightPurpose& purpose) {
+  if (purpose.free)
+    return {{}, chooseWavelet(heights, purpose.range_bits, purpose.purpose,
+                              rateOf(heights, purpose))};
   return FlatTrials(heights, valid, purpose).choose();
 }
 

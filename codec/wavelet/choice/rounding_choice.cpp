@@ -116,6 +116,7 @@ double roundedSquares(const PlaneView<const int32_t>& plane, const HeldSamples& 
                       const WaveletHeader& wavelet) {
   WaveletHeader of_part = wavelet;
   of_part.ring = false;
+  of_part.forest = nullptr;
   std::vector<std::unique_ptr<CodedPart>> parts;
   for (PlanePart& cut : typicalPartsOf(std::span(&plane, 1), held, kPartSide)) {
     auto part = std::make_unique<CodedPart>(std::move(cut), of_part);

@@ -20,6 +20,10 @@ bool liftsJointly(FilterId id) {
   return liftingFilter(id).steps.size() == 2;
 }
 
+size_t jointRounds(FilterId id) {
+  return liftingFilter(id).steps.size() / 2;
+}
+
 std::array<JointStep, 4> JointLifting::steps(Direction direction) {
   using enum JointStep;
   if (direction == Direction::kAnalysis) return {kHalves, kCentres, kSides, kCorners};
@@ -32,7 +36,8 @@ JointLifting::JointLifting(const JointBlock& block, FilterId id, Direction direc
       direction_(direction),
       wide_(wide),
       halves_(block.extent.width, block.ends) {
-  assert(liftsJointly(id) && block.extent.width >= 2 && block.extent.height >= 2);
+  assert(block.round < jointRounds(id));
+  assert(block.extent.width >= 2 && block.extent.height >= 2);
 }
 
 void JointLifting::run(JointStep step, uint32_t first_row, uint32_t end_row) {
@@ -106,7 +111,8 @@ std::span<int32_t> JointLifting::half(uint32_t row, bool high) const {
 }
 
 LiftingRule JointLifting::ruleOf(bool predicts, int places, Direction direction) const {
-  return {filter_.steps[predicts ? 0 : 1], filter_.shift - kJointPlaces + places, direction, wide_};
+  const size_t step = 2 * block_.round + (predicts ? 0 : 1);
+  return {filter_.steps[step], filter_.shift - kJointPlaces + places, direction, wide_};
 }
 
 /// What the halves hold has so many binary places.

@@ -117,8 +117,12 @@ class MaskedRowLifting {
 
 inline constexpr int kJointPlaces = 4;
 
-/// Whether a filter has the two steps that joint lifting is made of.
+/// Whether a filter has no more than the two steps that joint lifting is made of.
 bool liftsJointly(FilterId id);
+
+/// A filter of more steps lifts in so many rounds, two steps in each: steps along rows and steps
+/// along columns could change places, but for their roundings.
+size_t jointRounds(FilterId id);
 
 /// What is split: rows at equal distances, even ones low and odd ones high. In the transform the
 /// low half of each row lies before the high half.
@@ -128,6 +132,7 @@ struct JointBlock {
   Extent extent;  ///< two samples or more in each direction
   Ends ends;      ///< of the rows
   bool doubled;   ///< a becomes 2 a + [2 (...)]: coarser levels then round half as much
+  size_t round = 0;  ///< of the filter's; a is doubled in the last one
 };
 
 /// What analysis does, in this order; synthesis does it backwards.

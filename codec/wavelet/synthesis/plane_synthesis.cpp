@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "bitstream/track/reconstruction.hpp"
+#include "codec/wavelet/forest_lifting.hpp"
 #include "codec/wavelet/level_transform.hpp"
 
 namespace tetrakis::inline synthesis {
@@ -16,6 +17,7 @@ PlaneSynthesis::PlaneSynthesis(const WaveletSpec& spec, const Pyramid& pyramid, 
 /// The mask of what the finest level puts together; of each row or column that is lifted, its
 /// halves and their masks, on every thread.
 uint64_t PlaneSynthesis::workBytes(uint32_t threads, bool masked) const {
+  if (spec_.forest != nullptr) return ForestLifting::bytesOf(*spec_.forest);
   return (masked ? coefficients() : 0) +
          kLiftingBytes * pyramid_->plane().width * std::max(threads, 1u);
 }

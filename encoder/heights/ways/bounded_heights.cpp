@@ -60,7 +60,8 @@ Candidate<CodedHeights> codeRounded(const Bound& bound, HeightSteps steps) {
                            .layers = quantised.layers,
                            .validity = quantised.validity,
                            .late = quantised.late,
-                           .shown_by = quantised.shown_by};
+                           .shown_by = quantised.shown_by,
+                           .forest = quantised.forest};
   if (!rounded.steps.exact) rounded.left = rounded.squaresOf(rounded.steps);
   return {
       codeEveryStep(bound.inputs, std::make_shared<const QuantisedHeights>(std::move(rounded)))};

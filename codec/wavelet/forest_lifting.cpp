@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/wavelet/forest_lifting.hpp"
+
+#include <cassert>
+
+#include "base/forest.hpp"
+#include "base/parallel.hpp"
+
+namespace tetrakis::inline wavelet {
+
+namespace {
+
+/// How far steps of any filter read, made even, so that even places stay even.
+constexpr uint32_t kWidestMargin = 2 * kMaxPairs;
+
+uint32_t marginOf(FilterId id) {
+  size_t pairs = 1;
+  for (const LiftingStep& step : liftingFilter(id).steps) pairs = std::max(pairs, step.pairs);
+  return static_cast<uint32_t>(2 * pairs);
+}
+
+}  // namespace
+
+ForestLifting::ForestLifting(const WaveletSpec& spec, const Pyramid& pyramid, int level,
+                             Direction direction, uint32_t threads)
+    : forest_(*spec.forest),
+      pyramid_(pyramid),
+      level_(level),
+      id_(spec.filter(level)),
+      direction_(direction),
+      doubled_(spec.doubles(level)),
+      wide_(spec.jointlyWide(level)),
+      threads_(threads),
+      n_(pyramid.low(level - 1).extent.width - 1),
+      margin_(marginOf(id_)),
+      width_(n_ + 1 + 2 * margin_),
+      patches_(size_t{forest_.patches()} * width_ * width_) {
+  assert(n_ % 2 == 0);
+  findCopies();
+}
+
+uint64_t ForestLifting::bytesOf(const Forest& forest) {
+  const uint64_t width = forest.side() + 2 * kWidestMargin;
+  const uint64_t around = 4 * kWidestMargin * width, shared = 4 * width;
+  return forest.patches() *
+         (width * width * sizeof(int32_t) + 2 * (around + shared) * sizeof(Copy));
+}
+
+size_t ForestLifting::indexOf(uint32_t patch, int64_t x, int64_t y) const {
+  const auto column = static_cast<size_t>(x + margin_), row = static_cast<size_t>(y + margin_);
+  const size_t lows = (width_ + 1) / 2;
+  return (size_t{patch} * width_ + row) * width_ + column / 2 + (column % 2 != 0 ? lows : 0);
+}
+
+void ForestLifting::findCopies() {
+  const auto place = [&](const Forest::Place& of) { return indexOf(of.patch, of.x, of.y); };
+  const int64_t n = n_, margin = margin_;
+  for (uint32_t patch = 0; patch < forest_.patches(); ++patch) {
+    const auto see = [&](int64_t x, int64_t y) {
+      around_.push_back({indexOf(patch, x, y), place(forest_.locate(n, {patch, x, y}))});
+    };
+    for (int64_t y = -margin; y <= n + margin; ++y) {
+      const bool inside = y >= 0 && y <= n;
+      for (int64_t x = -margin; x < 0; ++x) see(x, y);
+      for (int64_t x = 0; x <= n && !inside; ++x) see(x, y);
+      for (int64_t x = n + 1; x <= n + margin; ++x) see(x, y);
+    }
+  }
+  forest_.forEachShared(n, [&](const Forest::Place& sample, const Forest::Place& owner) {
+    shared_.push_back({place(sample), place(owner)});
+  });
+}
+
+void ForestLifting::copyAll(const std::vector<Copy>& copies) {
+  for (const auto& [to, from] : copies) patches_[to] = patches_[from];
+}
+
+void ForestLifting::lift(size_t round) {
+  for (const JointStep each : JointLifting::steps(direction_))
+    if (each != JointStep::kHalves) step(round, each);
+}
+
+void ForestLifting::step(size_t round, JointStep step) {
+  copyAll(around_);
+  const size_t samples = size_t{width_} * width_;
+  const bool doubled = doubled_ && round + 1 == jointRounds(id_);
+  parallelFor(threads_, forest_.patches(), [&](size_t patch) {
+    const JointBlock block{patches_.data() + patch * samples, width_, {width_, width_},
+                           Ends::kMirrored, doubled, round};
+    JointLifting(block, id_, direction_, wide_).run(step, margin_, margin_ + n_ + 1);
+  });
+  copyAll(shared_);
+}
+
+template <class Move>
+void ForestLifting::forEachSample(std::span<int32_t> values, bool halved, const Move& move) {
+  const size_t lows = n_ / 2 + 1, width = pyramid_.plane().width;
+  for (uint32_t patch = 0; patch < forest_.patches(); ++patch) {
+    for (size_t y = 0; y <= n_; ++y) {
+      int32_t* const row =
+          values.data() + (size_t{patch} * forest_.side() + (y << (level_ - 1))) * width;
+      int32_t* const here = patches_.data() + indexOf(patch, 0, static_cast<int64_t>(y));
+      int32_t* const odd = patches_.data() + indexOf(patch, 1, static_cast<int64_t>(y));
+      for (size_t k = 0; k < lows; ++k) move(row[halved ? k : 2 * k], here[k]);
+      for (size_t k = 0; k < lows - 1; ++k) move(row[halved ? lows + k : 2 * k + 1], odd[k]);
+    }
+  }
+}
+
+void ForestLifting::run(std::span<int32_t> values) {
+  assert(values.size() == pyramid_.plane().samples());
+  const bool analyses = direction_ == Direction::kAnalysis;
+  forEachSample(values, !analyses, [](int32_t from, int32_t& to) { to = from; });
+  copyAll(shared_);  // what is not owned has no coefficient
+  const size_t rounds = jointRounds(id_);
+  for (size_t i = 0; i < rounds; ++i) lift(analyses ? i : rounds - 1 - i);
+  forEachSample(values, analyses, [](int32_t& to, int32_t from) { to = from; });
+}
+
+}  // namespace tetrakis::inline wavelet

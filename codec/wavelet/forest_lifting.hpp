@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// ForestLifting is one level of the transform of a forest: joint lifting (lifting/lifting.hpp) of
+// all patches, of which each sees the samples around it that lines reach across its sides.
+//
+// Where sides are turned the rows of one patch are the columns of the next, so rows and columns are
+// lifted together: a step changes samples at centres, at sides or at corners, and reads none of
+// those that it changes. A sample that several patches share is changed in the one that owns it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "codec/wavelet/lifting/lifting.hpp"
+#include "codec/wavelet/pyramid.hpp"
+#include "codec/wavelet/wavelet.hpp"
+
+namespace tetrakis::inline wavelet {
+
+class ForestLifting {
+ public:
+  /// spec: with a forest, whose pyramid it is. threads: nothing depends on them.
+  ForestLifting(const WaveletSpec& spec, const Pyramid& pyramid, int level, Direction direction,
+                uint32_t threads = 1);
+
+  /// Turns the samples of the level into coefficients, or back, in place. values: of the raster.
+  void run(std::span<int32_t> values);
+
+  /// The bytes that the largest level takes.
+  static uint64_t bytesOf(const Forest& forest);
+
+ private:
+  /// Values of the patches with their surroundings, by index.
+  struct Copy {
+    size_t to, from;
+  };
+
+  /// Of a sample of a patch, or of what lies around it; even columns come before odd ones.
+  size_t indexOf(uint32_t patch, int64_t x, int64_t y) const;
+  void findCopies();
+  void copyAll(const std::vector<Copy>& copies);
+  void lift(size_t round);
+  void step(size_t round, JointStep step);
+  /// Calls move(value of the raster, value here) for all samples of the patches. halved: even
+  /// columns come first in the raster.
+  template <class Move>
+  void forEachSample(std::span<int32_t> values, bool halved, const Move& move);
+
+  const Forest& forest_;
+  const Pyramid& pyramid_;
+  int level_;
+  FilterId id_;
+  Direction direction_;
+  bool doubled_, wide_;
+  uint32_t threads_;
+  uint32_t n_, margin_, width_;  ///< of a patch, around it, and of both
+  std::vector<int32_t> patches_;
+  std::vector<Copy> around_, shared_;
+};
+
+}  // namespace tetrakis::inline wavelet
