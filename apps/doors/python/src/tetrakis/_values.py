@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import operator
 import re
-from typing import Any, Iterable, Optional, Sequence, Tuple, Union
+from typing import Any, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -113,7 +113,10 @@ def latitudes(value: Any) -> Tuple[float, float]:
     """Of the first and the last row; both 0 are unknown."""
     if value is None:
         return 0.0, 0.0
-    given = list(value) if isinstance(value, Iterable) else [value]
+    try:
+        given = list(value)
+    except TypeError:
+        given = []
     if len(given) != 2:
         raise TksUsageError(f"latitudes takes two numbers, (first, last), not {told(value)}.")
     return real(given[0], "latitudes"), real(given[1], "latitudes")
