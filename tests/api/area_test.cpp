@@ -2,6 +2,8 @@
 // Heights of known latitudes: where there is more ground, errors fall first.
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "tests/support/stream_fixture.hpp"
 
@@ -97,6 +99,15 @@ TEST_F(Area, LeavesViewsOfATextureAlone) {
 
 TEST_F(Area, HasNoMapInBudgetsThatItWouldEat) {
   expectAlike(between(globe_, 90, -90), budget(250));
+}
+
+TEST_F(Area, IsUnknownOnForests) {
+  const Raster patch = make({Pattern::kRidges, 129, 129, 1, TKS_I16, 3});
+  const std::vector<uint32_t> borders(4, TKS_BORDER);
+  tks_heights heights = between(patch, 90, -90);
+  heights.domain = TKS_DOMAIN_FOREST;
+  heights.forest = {7, 1, borders.data()};
+  expectAlike(heights, lossless());
 }
 
 /// Samples on the poles reach half a row behind them, and a strip behind a pole has no area at all.
