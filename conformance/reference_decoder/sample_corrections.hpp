@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference decoder: samples that go on from exact ones before them (docs/FORMAT.md, sections 8.1.11
-// and 8.1.12).
+// Reference decoder: samples that go on from exact ones before them (docs/FORMAT.md, sections
+// 8.1.11 and 8.1.12).
 #pragma once
 
 #include <cstdint>

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/forest.hpp"
+#include "conformance/reference_decoder/wavelet.hpp"
 #include "conformance/samples/header_parts.hpp"
 #include "tests/conformance/agreement.hpp"
 
@@ -240,6 +241,39 @@ TEST(ReferenceForest, AgreesOnTexturesOfGrids) {
       for (const tks_encode_options& options : {lossless(), budget(700)})
         expectAgreementOnForests(encode(nullptr, &raster, options));
       if (HasFatalFailure()) return;
+    }
+  }
+}
+
+/// Four patches of a plane are lifted as the plane is, at borders, across sides and at the corner,
+/// on levels whose patches are larger than the filter reaches.
+TEST(ReferenceForest, LiftsPatchesOfAPlaneAsThePlane) {
+  constexpr int kDepth = 5, kWidth = (2 << kDepth) + 1, kPatch = (1 << kDepth) + 1;
+  const std::vector<int> sides = {0, 7, 8, 3, 4, 5, 12, 1, 2, 15, 10, 11, 6, 13, 14, 9};
+  for (const int filter : {0, 1, 3, 4}) {
+    reference::WaveletHeader of_grid;
+    of_grid.filters.fill(filter);
+    of_grid.sampleBits = 16;
+    reference::WaveletHeader of_forest = of_grid;
+    of_forest.domain.forest = reference::Forest(kDepth, sides);
+    reference::Plane grid{kWidth, kWidth, {}}, forest{kPatch, 4 * kPatch, {}};
+    for (uint32_t i = 0; i < kWidth * kWidth; ++i)
+      grid.values.push_back(int(samples::hash(i, 1, 7) % 4096) - 2048);
+    const auto fromGrid = [&] {
+      std::vector<int32_t> values;
+      for (int i = 0; i < 4 * kPatch * kPatch; ++i) {
+        const int patch = i / kPatch / kPatch, x = i % kPatch, y = i / kPatch % kPatch;
+        values.push_back(grid.at(patch % 2 * (kPatch - 1) + x, patch / 2 * (kPatch - 1) + y));
+      }
+      return values;
+    };
+    forest.values = fromGrid();
+    for (int level = 2; level >= 1; --level) {
+      const int step = 1 << (level - 1);
+      reference::synthesiseJointly(of_grid, {level, step, step}, grid);
+      reference::synthesiseJointly(of_forest, {level, step, step}, forest);
+      of_forest.domain.forest.share(forest.values);
+      ASSERT_EQ(forest.values, fromGrid()) << "filter " << filter << ", level " << level;
     }
   }
 }
