@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// cubeFromGrid() takes the heights of a geographic grid to a cube: those whose interpolation comes
+// nearest to the grid, by least squares over the area of the Earth. So a cube that is coarser than
+// the grid takes means, and one that is finer goes nearly through all samples. Where no sample of
+// the grid is near, the cube has what lies between them (codec/globe/completed_grid.hpp).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/forest.hpp"
+#include "codec/globe/geographic_grid.hpp"
+
+namespace tetrakis::inline globe {
+
+/// How far heights on a cube, interpolated at the samples of a grid, are from those of the grid:
+/// the largest distance, and the root of the mean square over the area of the Earth.
+struct ResamplingErrors {
+  double largest, rmse;
+};
+
+/// Writes the raster of the cube. heights: finite, as many as the grid has. cube: of kCubeSides.
+ResamplingErrors cubeFromGrid(const GeographicGrid& grid, std::span<const float> heights,
+                              const Forest& cube, uint32_t threads, std::span<float> out);
+
+}  // namespace tetrakis::inline globe
