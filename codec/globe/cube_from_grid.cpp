@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -16,8 +17,9 @@ namespace tetrakis::inline globe {
 namespace {
 
 /// The grid's heights at the samples of a cube.
-void interpolate(const GeographicGrid& grid, std::span<const float> heights, const Forest& cube,
-                 uint32_t threads, std::span<float> out) {
+std::vector<float> interpolated(const GeographicGrid& grid, std::span<const float> heights,
+                                const Forest& cube, uint32_t threads) {
+  std::vector<float> samples(cube.raster().samples());
   const CompletedGrid completed(grid, heights);
   const uint32_t side = cube.side();
   std::vector<double> off(side);
@@ -25,12 +27,13 @@ void interpolate(const GeographicGrid& grid, std::span<const float> heights, con
   parallelFor(threads, size_t{kCubePatches} * side, [&](size_t row) {
     const auto patch = static_cast<uint32_t>(row / side);
     for (uint32_t x = 0; x < side; ++x) {
-      const Geographic place = geographicOf(directionOf(patch, off[x], off[row % side]));
-      out[row * side + x] =
+      const Geographic place = geographicOf(pointOf(patch, off[x], off[row % side]));
+      samples[row * side + x] =
           completed.at(grid.columnOf(place.longitude), grid.rowOf(place.latitude));
     }
   });
-  shareOwned(cube, out, side - 1);
+  shareOwned<float>(cube, samples, side - 1);
+  return samples;
 }
 
 ResamplingErrors errorsOf(const GeographicGrid& grid, std::span<const float> heights,
@@ -55,11 +58,12 @@ ResamplingErrors errorsOf(const GeographicGrid& grid, std::span<const float> hei
 
 }  // namespace
 
-ResamplingErrors cubeFromGrid(const GeographicGrid& grid, std::span<const float> heights,
-                              const Forest& cube, uint32_t threads, std::span<float> out) {
-  interpolate(grid, heights, cube, threads, out);
-  CubeFit(grid, cube, threads).improve(heights, out);
-  return errorsOf(grid, heights, cube, threads, out);
+HeightsOnCube cubeFromGrid(const GeographicGrid& grid, std::span<const float> heights,
+                           const Forest& cube, uint32_t threads) {
+  std::vector<float> samples = interpolated(grid, heights, cube, threads);
+  CubeFit(grid, cube, threads).improve(heights, samples);
+  const ResamplingErrors errors = errorsOf(grid, heights, cube, threads, samples);
+  return {std::move(samples), errors};
 }
 
 }  // namespace tetrakis::inline globe

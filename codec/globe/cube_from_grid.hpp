@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "base/forest.hpp"
 #include "codec/globe/geographic_grid.hpp"
@@ -19,8 +20,13 @@ struct ResamplingErrors {
   double largest, rmse;
 };
 
-/// Writes the raster of the cube. heights: finite, as many as the grid has. cube: of kCubeSides.
-ResamplingErrors cubeFromGrid(const GeographicGrid& grid, std::span<const float> heights,
-                              const Forest& cube, uint32_t threads, std::span<float> out);
+struct HeightsOnCube {
+  std::vector<float> samples;  ///< the raster
+  ResamplingErrors errors;
+};
+
+/// heights: finite, as many as the grid has. cube: of kCubeSides.
+HeightsOnCube cubeFromGrid(const GeographicGrid& grid, std::span<const float> heights,
+                           const Forest& cube, uint32_t threads);
 
 }  // namespace tetrakis::inline globe

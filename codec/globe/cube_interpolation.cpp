@@ -57,8 +57,8 @@ void CubeInterpolation::addInside(CubeTaps& taps, const Forest::Place& sample, f
   taps.add(numberOf(cube_->owner(n_, sample)), weight);
 }
 
-/// A sample of the patch, or one beyond a side of it. What is beyond two sides is nowhere: it weighs
-/// next to nothing, and what is beyond one of them does for it.
+/// A sample of the patch, or one beyond a side of it. What is beyond two sides is nowhere: it
+/// weighs next to nothing, and what is beyond one of them does for it.
 void CubeInterpolation::addBeyond(CubeTaps& taps, Forest::Place sample, float weight) const {
   const int64_t n = n_;
   const bool beside = sample.x < 0 || sample.x > n;

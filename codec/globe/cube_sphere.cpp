@@ -15,7 +15,7 @@ namespace {
 struct Axis {
   int x, y, z;
 
-  double along(const Direction& d) const { return x * d.x + y * d.y + z * d.z; }
+  double along(const SpherePoint& d) const { return x * d.x + y * d.y + z * d.z; }
 };
 
 /// Of a face of the cube from -1 to 1: its middle, and what is east and south on it as seen from
@@ -79,7 +79,7 @@ double placeAt(double off_middle) {
   return std::clamp(arctangent(off_middle) * (2 / std::numbers::pi) + 0.5, 0.0, 1.0);
 }
 
-Direction directionOf(uint32_t patch, double off_x, double off_y) {
+SpherePoint pointOf(uint32_t patch, double off_x, double off_y) {
   const auto& [middle, east, south] = kFrames[patch];
   const double length = std::sqrt(1 + off_x * off_x + off_y * off_y);
   return {(middle.x + off_x * east.x + off_y * south.x) / length,
@@ -87,25 +87,24 @@ Direction directionOf(uint32_t patch, double off_x, double off_y) {
           (middle.z + off_x * east.z + off_y * south.z) / length};
 }
 
-CubePlace cubePlaceOf(const Direction& direction) {
+CubePlace cubePlaceOf(const SpherePoint& point) {
   uint32_t patch = 0;
   for (uint32_t other = 1; other < kCubePatches; ++other) {
-    if (kFrames[other].middle.along(direction) > kFrames[patch].middle.along(direction))
-      patch = other;
+    if (kFrames[other].middle.along(point) > kFrames[patch].middle.along(point)) patch = other;
   }
   const auto& [middle, east, south] = kFrames[patch];
-  const double ahead = middle.along(direction);
-  return {patch, placeAt(east.along(direction) / ahead), placeAt(south.along(direction) / ahead)};
+  const double ahead = middle.along(point);
+  return {patch, placeAt(east.along(point) / ahead), placeAt(south.along(point) / ahead)};
 }
 
-Direction directionOf(const Geographic& place) {
+SpherePoint pointOf(const Geographic& place) {
   const double off_axis = cosineOfDegrees(place.latitude);
   return {off_axis * cosineOfDegrees(place.longitude), off_axis * sineOfDegrees(place.longitude),
           sineOfDegrees(place.latitude)};
 }
 
-Geographic geographicOf(const Direction& direction) {
-  const auto& [x, y, z] = direction;
+Geographic geographicOf(const SpherePoint& point) {
+  const auto& [x, y, z] = point;
   return {degreesOf(x, y), degreesOf(std::sqrt(x * x + y * y), z)};
 }
 

@@ -31,7 +31,7 @@ inline constexpr std::array<uint32_t, kCubePatches* Forest::kSides> kCubeSides =
 Forest cubeForest(int depth);
 
 /// A point of the unit sphere: x at longitude 0, y at 90, z north.
-struct Direction {
+struct SpherePoint {
   double x, y, z;
 };
 
@@ -46,21 +46,21 @@ struct Geographic {
   double longitude, latitude;
 };
 
-/// How far off the middle of a face, whose half side is 1, the ray is through x (or y) of its patch:
-/// 0 to 1, or somewhat beyond. Rays are at equal angles.
+/// How far off the middle of a face, whose half side is 1, the ray through x (or y) of its patch
+/// is: 0 to 1, or somewhat beyond. Rays are at equal angles.
 double offMiddle(double x);
 /// The inverse, of -1 to 1.
 double placeAt(double off_middle);
-/// The direction of the ray through a point of a face, by offMiddle() of x and of y.
-Direction directionOf(uint32_t patch, double off_x, double off_y);
+/// The point of the sphere on the ray through a point of a face, by offMiddle() of x and of y.
+SpherePoint pointOf(uint32_t patch, double off_x, double off_y);
 
-/// Of directions on a side, the first patch.
-CubePlace cubePlaceOf(const Direction& direction);
+/// Of points on a side, the first patch.
+CubePlace cubePlaceOf(const SpherePoint& point);
 
 /// Any longitude.
-Direction directionOf(const Geographic& place);
+SpherePoint pointOf(const Geographic& place);
 /// Longitudes from -180 to 180.
-Geographic geographicOf(const Direction& direction);
+Geographic geographicOf(const SpherePoint& point);
 
 /// Of any angle in degrees. Multiples of 90 have exact ones.
 double sineOfDegrees(double degrees);

@@ -23,7 +23,8 @@ Status refused(const char* sentence) {
 Result<GeographicGrid> GeographicGrid::make(Extent extent,
                                             const std::array<double, 6>& geotransform) {
   const auto finite = [](double x) { return std::isfinite(x); };
-  if (extent.width == 0 || extent.height < 2) return refused("The grid has less than two rows.");
+  if (extent.width == 0 || extent.height < 2)
+    return refused("The grid has no columns, or less than two rows.");
   if (!std::all_of(geotransform.begin(), geotransform.end(), finite))
     return refused("The geotransform of the grid is not finite.");
   const auto round = tetrakis::columnsRound({extent.width, extent.height, geotransform.data()}, 1);

@@ -12,13 +12,13 @@
 namespace tetrakis::test {
 namespace {
 
-Direction directionOfSample(const Forest& cube, const Forest::Place& sample) {
+SpherePoint pointOfSample(const Forest& cube, const Forest::Place& sample) {
   const double n = cube.side() - 1;
-  return directionOf(sample.patch, offMiddle(static_cast<double>(sample.x) / n),
-                     offMiddle(static_cast<double>(sample.y) / n));
+  return pointOf(sample.patch, offMiddle(static_cast<double>(sample.x) / n),
+                 offMiddle(static_cast<double>(sample.y) / n));
 }
 
-double distance(const Direction& a, const Direction& b) {
+double distance(const SpherePoint& a, const SpherePoint& b) {
   return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
@@ -28,7 +28,7 @@ TEST(CubeSphere, GluedSamplesLieInOnePlace) {
     ASSERT_EQ(cube.patches(), kCubePatches);
     EXPECT_EQ(std::count(kCubeSides.begin(), kCubeSides.end(), Forest::kBorder), 0);
     cube.forEachShared(cube.side() - 1, [&](const Forest::Place& a, const Forest::Place& b) {
-      EXPECT_LT(distance(directionOfSample(cube, a), directionOfSample(cube, b)), 1e-12);
+      EXPECT_LT(distance(pointOfSample(cube, a), pointOfSample(cube, b)), 1e-12);
     });
   }
 }
@@ -48,7 +48,7 @@ TEST(CubeSphere, ThreePatchesMeetAtEachCorner) {
   for (const auto& corner : corners) EXPECT_EQ(corner.second, 3);
 }
 
-/// Across a side samples follow in the direction of the line, so that all patches have one face
+/// Across a side samples follow each other, so that all patches have one face
 /// outside.
 TEST(CubeSphere, LinesGoOnAcrossSides) {
   const Forest cube = cubeForest(5);
@@ -61,21 +61,21 @@ TEST(CubeSphere, LinesGoOnAcrossSides) {
         Forest::Place edge = outside;
         edge.x = std::clamp<int64_t>(edge.x, 0, n);
         edge.y = std::clamp<int64_t>(edge.y, 0, n);
-        const Direction across = directionOfSample(cube, cube.locate(n, outside));
-        EXPECT_LT(distance(across, directionOfSample(cube, edge)), 1.6 / static_cast<double>(n));
+        const SpherePoint across = pointOfSample(cube, cube.locate(n, outside));
+        EXPECT_LT(distance(across, pointOfSample(cube, edge)), 1.6 / static_cast<double>(n));
       }
     }
   }
 }
 
 TEST(CubeSphere, PatchesHaveTheirPlaces) {
-  const auto middle = [](uint32_t patch) { return geographicOf(directionOf(patch, 0, 0)); };
+  const auto middle = [](uint32_t patch) { return geographicOf(pointOf(patch, 0, 0)); };
   for (uint32_t patch = 0; patch < 4; ++patch) {
     EXPECT_EQ(middle(patch).longitude, patch < 3 ? 90.0 * patch : -90);
     EXPECT_EQ(middle(patch).latitude, 0);
     // North is up, and east is right.
-    EXPECT_GT(directionOf(patch, 0, -0.5).z, 0);
-    EXPECT_GT(geographicOf(directionOf(patch, 0.1, 0)).longitude,
+    EXPECT_GT(pointOf(patch, 0, -0.5).z, 0);
+    EXPECT_GT(geographicOf(pointOf(patch, 0.1, 0)).longitude,
               patch == 2 ? -180 : middle(patch).longitude);
   }
   EXPECT_EQ(middle(4).latitude, 90);
@@ -88,7 +88,7 @@ TEST(CubeSphere, PlacesComeBack) {
   for (int i = 0; i < 10000; ++i) {
     const CubePlace place{static_cast<uint32_t>(i) % kCubePatches, inside(random), inside(random)};
     const CubePlace back =
-        cubePlaceOf(directionOf(place.patch, offMiddle(place.x), offMiddle(place.y)));
+        cubePlaceOf(pointOf(place.patch, offMiddle(place.x), offMiddle(place.y)));
     EXPECT_EQ(back.patch, place.patch);
     EXPECT_NEAR(back.x, place.x, 1e-14);
     EXPECT_NEAR(back.y, place.y, 1e-14);
@@ -98,16 +98,15 @@ TEST(CubeSphere, PlacesComeBack) {
 TEST(CubeSphere, LongitudesAndLatitudesComeBack) {
   for (double latitude = -90; latitude <= 90; latitude += 1.25) {
     for (double longitude = -180; longitude <= 180; longitude += 1.25) {
-      const Direction direction = directionOf(Geographic{longitude, latitude});
-      EXPECT_NEAR(std::hypot(direction.x, direction.y, direction.z), 1, 1e-15);
-      const Geographic back = geographicOf(direction);
+      const SpherePoint point = pointOf(Geographic{longitude, latitude});
+      EXPECT_NEAR(std::hypot(point.x, point.y, point.z), 1, 1e-15);
+      const Geographic back = geographicOf(point);
       EXPECT_NEAR(back.latitude, latitude, 1e-12);
       if (std::abs(latitude) == 90) continue;
       EXPECT_NEAR(std::remainder(back.longitude - longitude, 360), 0, 1e-12);
-      const CubePlace place = cubePlaceOf(direction);
-      EXPECT_LT(
-          distance(directionOf(place.patch, offMiddle(place.x), offMiddle(place.y)), direction),
-          1e-14);
+      const CubePlace place = cubePlaceOf(point);
+      EXPECT_LT(distance(pointOf(place.patch, offMiddle(place.x), offMiddle(place.y)), point),
+                1e-14);
     }
   }
 }

@@ -24,7 +24,7 @@ GeographicGrid gridOf(const Extent& extent, const Transform& transform) {
 }
 
 /// A height of no symmetry, without a break anywhere on the sphere.
-double smoothHeight(const Direction& d) {
+double smoothHeight(const SpherePoint& d) {
   return 1000 * (d.x * d.y + 0.5 * d.z * d.z * d.x + std::sin(3 * d.y + d.z) + 0.3 * d.z);
 }
 
@@ -33,7 +33,7 @@ std::vector<float> smoothHeights(const GeographicGrid& grid) {
   for (uint32_t y = 0; y < grid.extent().height; ++y)
     for (uint32_t x = 0; x < grid.extent().width; ++x)
       heights.push_back(static_cast<float>(
-          smoothHeight(directionOf(Geographic{grid.longitudeOf(x), grid.latitudeOf(y)}))));
+          smoothHeight(pointOf(Geographic{grid.longitudeOf(x), grid.latitudeOf(y)}))));
   return heights;
 }
 
@@ -45,10 +45,9 @@ struct OnCube {
 
 OnCube onCube(const GeographicGrid& grid, const std::vector<float>& heights, int depth,
               uint32_t threads = 1) {
-  OnCube made{cubeForest(depth), {}, {}};
-  made.samples.resize(made.cube.raster().samples());
-  made.errors = cubeFromGrid(grid, heights, made.cube, threads, made.samples);
-  return made;
+  const Forest cube = cubeForest(depth);
+  const HeightsOnCube made = cubeFromGrid(grid, heights, cube, threads);
+  return {cube, made.samples, made.errors};
 }
 
 std::vector<float> onGrid(const OnCube& from, const GeographicGrid& grid, uint32_t threads = 1) {
@@ -62,9 +61,9 @@ void forEachSample(const Forest& cube, const Visit& visit) {
   const double n = cube.side() - 1;
   for (size_t i = 0; i < cube.raster().samples(); ++i) {
     const size_t row = i / cube.side();
-    visit(i, directionOf(static_cast<uint32_t>(row / cube.side()),
-                         offMiddle(static_cast<double>(i % cube.side()) / n),
-                         offMiddle(static_cast<double>(row % cube.side()) / n)));
+    visit(i, pointOf(static_cast<uint32_t>(row / cube.side()),
+                     offMiddle(static_cast<double>(i % cube.side()) / n),
+                     offMiddle(static_cast<double>(row % cube.side()) / n)));
   }
 }
 
@@ -92,8 +91,8 @@ TEST(GlobeResampling, SmoothHeightsAreThoseOfTheirPlaces) {
     const GeographicGrid grid = gridOf(given.extent, given.transform);
     const std::vector<float> heights = smoothHeights(grid);
     const OnCube made = onCube(grid, heights, 5);
-    forEachSample(made.cube, [&](size_t i, const Direction& direction) {
-      ASSERT_NEAR(made.samples[i], smoothHeight(direction), given.most) << i;
+    forEachSample(made.cube, [&](size_t i, const SpherePoint& point) {
+      ASSERT_NEAR(made.samples[i], smoothHeight(point), given.most) << i;
     });
     const std::vector<float> back = onGrid(made, grid);
     double largest = 0;
@@ -150,8 +149,8 @@ TEST(GlobeResampling, CoarseCubesTakeMeans) {
   for (float& height : heights) height += noise(random);
   const OnCube made = onCube(grid, heights, 4);
   double squares = 0;
-  forEachSample(made.cube, [&](size_t i, const Direction& direction) {
-    const double off = made.samples[i] - smoothHeight(direction);
+  forEachSample(made.cube, [&](size_t i, const SpherePoint& point) {
+    const double off = made.samples[i] - smoothHeight(point);
     squares += off * off;
   });
   EXPECT_LT(std::sqrt(squares / static_cast<double>(made.samples.size())), 350);
@@ -179,8 +178,8 @@ TEST(GlobeResampling, GoesOnToThePoles) {
   for (uint32_t y = 0; y < 20; ++y)
     for (uint32_t x = 0; x < 72; ++x) heights.push_back(y == 0 && x < 36 ? 300.f : 100.f);
   const OnCube made = onCube(grid, heights, 5);
-  forEachSample(made.cube, [&](size_t i, const Direction& direction) {
-    const Geographic place = geographicOf(direction);
+  forEachSample(made.cube, [&](size_t i, const SpherePoint& point) {
+    const Geographic place = geographicOf(point);
     if (place.latitude > 89.9) {
       EXPECT_NEAR(made.samples[i], 200, 1e-2);
     }
