@@ -38,7 +38,7 @@ Status wrongIndex() {
 }
 
 Status noMesh() {
-  return {TKS_UNSUPPORTED, "No mesh is made of heights on a forest yet; decode their samples."};
+  return {TKS_UNSUPPORTED, "Heights on a forest have meshes of tks_decode_mesh alone."};
 }
 
 Status noHeights() {

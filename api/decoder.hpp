@@ -75,7 +75,7 @@ void forget(tks_decoder& decoder);
 /// TKS_CORRUPT or TKS_USAGE, with their sentences.
 Status wrongIndex();
 Status noHeights();
-/// Of heights on a forest.
+/// Of calls that make meshes of planes alone.
 Status noMesh();
 
 /// Of a decoder that is_lost.

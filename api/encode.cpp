@@ -59,13 +59,13 @@ Status checkPlace(const std::string& whose, const T& raster) {
   return misuse("The geotransform of the " + whose + " must be six numbers within +-2^512.");
 }
 
-/// Whether the samples that patches share are the same in each.
-bool sharesSamples(const tks_heights& h, const Forest& forest) {
-  const size_t bytes = tks_sample_bytes(h.sample), n = forest.side() - 1;
-  const auto* const samples = static_cast<const std::byte*>(h.data);
+/// Whether the samples that patches share are the same in each, of so many bytes each.
+bool sharesSamples(const void* data, size_t bytes, const Forest& forest) {
+  const size_t n = forest.side() - 1;
+  const auto* const samples = static_cast<const std::byte*>(data);
   const auto at = [&](const Forest::Place& place) {
     const size_t row = place.patch * (n + 1) + static_cast<size_t>(place.y);
-    return samples + (row * h.width + static_cast<size_t>(place.x)) * bytes;
+    return samples + (row * (n + 1) + static_cast<size_t>(place.x)) * bytes;
   };
   bool equal = true;
   forest.forEachShared(static_cast<int64_t>(n), [&](const auto& sample, const auto& owner) {
@@ -74,16 +74,18 @@ bool sharesSamples(const tks_heights& h, const Forest& forest) {
   return equal;
 }
 
-Status checkForest(const tks_heights& h) {
-  if (h.domain != TKS_DOMAIN_FOREST) return {};
-  const auto [depth, patches, sides] = h.forest;
+/// bytes: of a sample with all its channels.
+template <class Raster>
+Status checkForest(const std::string& whose, const Raster& raster, size_t bytes) {
+  if (raster.domain != TKS_DOMAIN_FOREST) return {};
+  const auto [depth, patches, sides] = raster.forest;
   const uint64_t side = (uint64_t{1} << std::min(depth, 32u)) + 1;
   if (depth < 1 || depth > Forest::kMostDepth || patches < 1 || sides == nullptr ||
-      h.width != side || h.height != patches * side)
-    return misuse("The heights are not the raster of their forest.");
+      raster.width != side || raster.height != patches * side)
+    return misuse("The " + whose + " is not the raster of its forest.");
   if (!Forest::isSound({sides, size_t{Forest::kSides} * patches}))
     return misuse("The sides of the forest are not glued in pairs.");
-  if (!sharesSamples(h, *forestOf(h)))
+  if (!sharesSamples(raster.data, bytes, *forestOf(raster)))
     return misuse("The patches of the forest have different samples where they share one.");
   return {};
 }
@@ -103,7 +105,8 @@ Status checkHeights(const tks_heights& h) {
     return misuse("Step and spacing of the heights must be finite and not negative.");
   }
   if (Status place = checkPlace("heights", h); !place.ok()) return place;
-  if (Status forest = checkForest(h); !forest.ok()) return forest;
+  const Status forest = checkForest("plane of heights", h, tks_sample_bytes(h.sample));
+  if (!forest.ok()) return forest;
   if (h.grid_width > kMaxSide || h.grid_height > kMaxSide ||
       (h.grid_width > 0) != (h.grid_height > 0) ||
       (h.grid_width > 0 && h.domain != TKS_DOMAIN_FOREST))
@@ -123,7 +126,8 @@ Status checkImage(const tks_image& i) {
   const uint32_t largest = largestTexel(i.sample);
   if (i.white_level > largest || (i.sample == TKS_U8 && i.white_level % largest != 0))
     return misuse("The white level of a texture is 255 of 8 bits, and 1 to 65535 of 16.");
-  if (i.domain == TKS_DOMAIN_FOREST) return misuse("A texture lies on no forest.");
+  const Status forest = checkForest("texture", i, i.channels * tks_sample_bytes(i.sample));
+  if (!forest.ok()) return forest;
   if (Status place = checkPlace("texture", i); !place.ok()) return place;
   return checkTexts("texture", {i.crs, i.geo_keys});
 }
@@ -159,14 +163,26 @@ Status checkWindows(const tks_encode_options& o, bool has_texture) {
       "a shorter stream would lack whole regions.");
 }
 
-/// What cannot be had of heights on a forest.
-Status checkOnForest(const tks_encode_options& o, bool has_texture) {
-  if (has_texture) return misuse("Heights on a forest have no texture.");
-  if (o.triangles > 0 || o.camera_count > 0)
-    return misuse("Heights on a forest have no budget of triangles and no cameras.");
+bool onForest(const auto* raster) {
+  return raster != nullptr && raster->domain == TKS_DOMAIN_FOREST;
+}
+
+/// What cannot be had on a forest.
+Status checkOnForests(const tks_heights* heights, const tks_image* image,
+                      const tks_encode_options& o) {
+  if (!onForest(heights) && !onForest(image)) return {};
+  if (o.triangles > 0 || o.camera_count > 0 || o.picture_error != nullptr)
+    return misuse("On a forest there are no cameras and no budget of triangles.");
   if (o.regions > 1 || o.index == TKS_INDEX_WINDOWS)
-    return misuse("Heights on a forest have no regions.");
-  return {};
+    return misuse("On a forest there are no regions.");
+  if (heights == nullptr || image == nullptr) return {};
+  const bool alike = onForest(heights) && onForest(image) &&
+                     heights->forest.patches == image->forest.patches &&
+                     std::equal(heights->forest.sides,
+                                heights->forest.sides + 4 * size_t{heights->forest.patches},
+                                image->forest.sides);
+  if (alike) return {};
+  return misuse("Heights and texture on a forest have patches that are glued alike.");
 }
 
 /// The caller's structs as this library knows them, checked.
@@ -196,9 +212,10 @@ Status takeArguments(const tks_heights* heights, const tks_image* image,
   if (status.ok()) status = checkOptions(out.options, heights != nullptr);
   if (status.ok()) status = checkWindows(out.options, image != nullptr);
   if (status.ok() && heights != nullptr) status = takeHeights(*heights, out.heights);
-  if (status.ok() && heights != nullptr && out.heights.domain == TKS_DOMAIN_FOREST)
-    status = checkOnForest(out.options, image != nullptr);
   if (status.ok() && image != nullptr) status = takeImage(*image, out.image);
+  if (status.ok())
+    status = checkOnForests(heights != nullptr ? &out.heights : nullptr,
+                            image != nullptr ? &out.image : nullptr, out.options);
   if (status.ok() && image != nullptr && out.image.white_level == 0)
     out.image.white_level = findWhiteLevel(out.image);
   return status;

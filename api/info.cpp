@@ -146,6 +146,11 @@ tks_domain domainOf(const Header& header) {
   return header.wavelet.ring ? TKS_DOMAIN_CYLINDER : TKS_DOMAIN_PLANE;
 }
 
+tks_forest forestOf(const SharedForest& forest) {
+  if (forest == nullptr) return {};
+  return {static_cast<uint32_t>(forest->depth()), forest->patches(), forest->sides().data()};
+}
+
 void fillHeights(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
   info.max_error = -1;
@@ -169,9 +174,7 @@ void fillHeights(const tks_decoder& decoder, tks_info& info) {
   info.domain = domainOf(geometry);
   info.grid_width = header.grid.width;
   info.grid_height = header.grid.height;
-  if (const SharedForest& forest = geometry.wavelet.forest; forest != nullptr)
-    info.forest = {static_cast<uint32_t>(forest->depth()), forest->patches(),
-                   forest->sides().data()};
+  info.forest = forestOf(geometry.wavelet.forest);
 }
 
 void fillTexture(const tks_decoder& decoder, tks_info& info) {
@@ -190,6 +193,7 @@ void fillTexture(const tks_decoder& decoder, tks_info& info) {
   info.texture_drawn = codingOf(texture);
   info.texture_sample = static_cast<tks_sample>(texture.sample);
   info.texture_domain = domainOf(texture);
+  info.texture_forest = forestOf(texture.wavelet.forest);
 }
 
 void fillMetadata(const tks_decoder& decoder, tks_info& info) {

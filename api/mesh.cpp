@@ -5,10 +5,14 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 
 #include "api/guarded.hpp"
 #include "api/memory.hpp"
 #include "api/written.hpp"
+#include "base/forest.hpp"
+#include "codec/mesh/forest/forest_lattice.hpp"
+#include "codec/mesh/forest/forest_mesh.hpp"
 #include "codec/mesh/meshes.hpp"
 #include "codec/mesh/quadtree/mesh_tree.hpp"
 
@@ -200,7 +204,39 @@ void copyMesh(const LatticeMesh& mesh, std::span<const float> heights, tks_mesh&
 
 namespace {
 
+/// The vertices of a mesh of heights on a forest.
+std::vector<ForestVertex> chosenVertices(const ForestLattice& lattice,
+                                         const DecodedGeometry& geometry, tks_mesh_kind kind,
+                                         uint32_t max_triangles) {
+  if (kind == TKS_MESH_CODED) return closureOfMarks(lattice, geometry.significant);
+  if (max_triangles > 0) return forestBudgetVertices(lattice, geometry.heights, max_triangles);
+  std::vector<ForestVertex> all(lattice.vertexCount());
+  std::iota(all.begin(), all.end(), 0u);
+  return all;
+}
+
+Status decodeForestMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles,
+                        tks_mesh& out) {
+  const Forest& forest = *decoder.parsed.header.geometry->wavelet.forest;
+  if (kind != TKS_MESH_CODED && kind != TKS_MESH_BUDGET)
+    return Status(TKS_USAGE, "Unknown kind of mesh.");
+  const tks_part part = kind == TKS_MESH_CODED ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH;
+  if (Status s = checkMemory(decoder, {part, {}, max_triangles}); !s.ok()) return s;
+  const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
+  if (!decoded.ok()) return decoded.status();
+  const ForestLattice lattice(forest);
+  LatticeMesh mesh = meshOf(
+      lattice, chosenVertices(lattice, (*decoded)->geometry, kind, max_triangles));
+  std::vector<float> heights = surfaceAtVertices(decoder, **decoded, mesh);
+  leaveOutVoids(mesh, heights);
+  copyMesh(mesh, heights, out);
+  return {};
+}
+
 Status decodeMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles, tks_mesh& out) {
+  const auto& geometry = decoder.parsed.header.geometry;
+  if (geometry && geometry->wavelet.forest != nullptr)
+    return decodeForestMesh(decoder, kind, max_triangles, out);
   Result<SurfaceMesh> surface = surfaceMesh(decoder, kind, max_triangles);
   if (!surface.ok()) return surface.status();
   leaveOutVoids(surface->mesh, surface->heights);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/forest.hpp"
+#include "codec/mesh/forest/forest_mesh.hpp"
 #include "codec/mesh/meshes.hpp"
 #include "codec/mesh/screen/surface_picture.hpp"
 
@@ -22,13 +24,15 @@ uint64_t meshBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   constexpr uint64_t kEverySample = 96;
   constexpr uint64_t kFitted = 26, kFewTriangles = 520, kManyTriangles = 180;
   const StreamHeader& header = decoder.parsed.header;
+  const HeightsBytes heights(decoder, {});
+  const uint64_t decoding = decoder.heights ? 0 : heights.decoding();
+  const uint64_t kept = decoder.heights ? 0 : heights.kept();
+  if (const SharedForest& forest = header.geometry->wavelet.forest; forest != nullptr)
+    return std::max(decoding, kept + kOnceBytes + forestMeshBytes(*forest));
   const Result<Lattice> lattice =
       Lattice::make(header.geometry->shown().width, header.geometry->shown().height);
   if (!lattice.ok()) return 0;  // refused for that
   const uint64_t samples = verticesOf(*lattice);
-  const HeightsBytes heights(decoder, {});
-  const uint64_t decoding = decoder.heights ? 0 : heights.decoding();
-  const uint64_t kept = decoder.heights ? 0 : heights.kept();
   const uint64_t base = uint64_t{2} * lattice->rootColumns() * lattice->rootRows();
   const uint64_t triangles =
       std::clamp<uint64_t>(request.max_triangles, base, std::max(base, 2 * samples));

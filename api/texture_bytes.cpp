@@ -32,8 +32,8 @@ bool areRemembered(const tks_decoder& decoder) {
 std::vector<View> textureStrips(const tks_decoder& decoder, const View& view) {
   const TextureHeader& header = *decoder.parsed.header.texture;
   const uint32_t rows = std::max(kTexels / header.width, kLeastRows);
-  const bool strips =
-      view.isWhole() && rows < header.height && header.repeats.none() && areRemembered(decoder);
+  const bool strips = view.isWhole() && rows < header.height && header.repeats.none() &&
+                      header.wavelet.forest == nullptr && areRemembered(decoder);
   if (!strips) return {view};
   std::vector<View> views;
   for (uint32_t y = 0; y < header.height; y += rows)

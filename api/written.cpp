@@ -56,6 +56,7 @@ float surfaceAt(const DecodedGeometry& geometry, const SurfaceScale& scale, size
 DecodedHeights unsentHeights(const StreamHeader& header) {
   GeometryHeader smallest = *header.geometry;
   smallest.width = smallest.height = 2;
+  smallest.wavelet.forest = nullptr;
   smallest.repeats = {};
   return decodeHeights(smallest, header.layers, Codewords(1));
 }
@@ -64,6 +65,7 @@ Texels unsentTexel(const TextureHeader& header) {
   TextureHeader smallest = header;
   smallest.width = smallest.height = 1;
   smallest.repeats = {};
+  smallest.wavelet.forest = nullptr;
   return decodeTexture(smallest, Codewords(1));
 }
 

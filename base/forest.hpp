@@ -14,6 +14,8 @@
 // other.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -100,16 +102,17 @@ inline bool sameForest(const SharedForest& a, const SharedForest& b) {
   return a == b || (a != nullptr && b != nullptr && *a == *b);
 }
 
-/// Gives samples of a raster that others own the values of those. n: as of Forest.
+/// Gives samples of a raster that others own the values of those: so many values each. n: as of
+/// Forest.
 template <class T>
-void shareOwned(const Forest& forest, std::span<T> raster, uint32_t n) {
+void shareOwned(const Forest& forest, std::span<T> raster, uint32_t n, size_t values = 1) {
   const size_t width = size_t{n} + 1;
-  const auto at = [&](const Forest::Place& place) -> T& {
-    return raster[(place.patch * width + static_cast<size_t>(place.y)) * width +
-                  static_cast<size_t>(place.x)];
+  const auto at = [&](const Forest::Place& place) {
+    return raster.data() + values * ((place.patch * width + static_cast<size_t>(place.y)) * width +
+                                     static_cast<size_t>(place.x));
   };
   forest.forEachShared(n, [&](const Forest::Place& sample, const Forest::Place& owner) {
-    at(sample) = at(owner);
+    std::copy_n(at(owner), values, at(sample));
   });
 }
 

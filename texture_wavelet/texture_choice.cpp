@@ -110,6 +110,7 @@ bool isMostlyPhotograph(const std::vector<uint8_t>& photograph) {
 }
 
 std::vector<uint8_t> photographOf(const TextureSource& source, Purpose purpose) {
+  if (source.forest != nullptr) return {};
   return photographOf(source.texels, source.coloured(purpose == Purpose::kLossy));
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/forest.hpp"
 #include "base/parallel.hpp"
 #include "bitstream/coder/byte_planes.hpp"
 #include "codec/lines/shown_lines.hpp"
@@ -183,9 +184,36 @@ Texels decodeLines(const TextureHeader& header, const Codewords& codewords, cons
 
 }  // namespace
 
+namespace {
+
+/// A forest is decoded as a whole: lines go on in other patches.
+Texels decodeForest(const TextureHeader& header, const Codewords& codewords, const View& view,
+                    const DecodeContext<TextureMemory>& context) {
+  assert(view.level == 0);
+  Texels texels = decodeLines(header, codewords, {}, context);
+  shareOwned(*header.wavelet.forest, std::span(texels.samples),
+             header.wavelet.forest->side() - 1, texels.channels);
+  if (!view.window) return texels;
+  const Window& window = *view.window;
+  std::vector<uint16_t> shown;
+  for (uint32_t y = 0; y < window.height; ++y) {
+    const size_t row = (size_t{window.y} + y) * texels.width + window.x;
+    const auto first = texels.samples.begin() + static_cast<ptrdiff_t>(row * texels.channels);
+    shown.insert(shown.end(), first,
+                 first + static_cast<ptrdiff_t>(size_t{window.width} * texels.channels));
+  }
+  texels.samples = std::move(shown);
+  texels.width = window.width;
+  texels.height = window.height;
+  return texels;
+}
+
+}  // namespace
+
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view,
                      const DecodeContext<TextureMemory>& context) {
   assert(!codewords.empty());
+  if (header.wavelet.forest != nullptr) return decodeForest(header, codewords, view, context);
   const ShownLines lines(header, view);
   Texels texels = decodeLines(header, codewords, lines.coded(), context);
   if (lines.none()) return texels;

@@ -112,6 +112,7 @@ TextureHeader textureHeaderOf(const WaveletCoding& coding, const ColourPlanes& c
   header.sample = source.texels.bits == 8 ? TKS_U8 : TKS_U16;
   header.wavelet = colours.wavelet;
   header.wavelet.ring = source.ring;
+  header.wavelet.forest = source.forest;
   describeColour(colours.colour, header);
   header.priority = prioritiesOf(colours.planes.size(), colours.colour, few.squares);
   if (!few.none()) header.tables = headerOf(few.tables, source.texels.bits);

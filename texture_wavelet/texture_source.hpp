@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/forest.hpp"
 #include "base/samples.hpp"
 #include "bitstream/stream/encoded_texture.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
@@ -50,11 +51,12 @@ void passOverExpected(PassedTextures* list, bool stored, uint64_t bytes);
 
 struct TextureSource {
   /// Any image is a source.
-  TextureSource(Texels image, bool goes_round = false)
+  TextureSource(Texels image, bool goes_round = false, SharedForest of = {})
       : texels(std::move(image)),
-        cutout(cutoutOf(texels)),
+        cutout(of == nullptr ? cutoutOf(texels) : std::vector<uint8_t>()),
         softly_seen(softlySeen(texels)),
-        ring(goes_round) {}
+        ring(goes_round),
+        forest(std::move(of)) {}
 
   /// Marks the texels that have colours. hidden: those that a cut-out does not show have none.
   Mask coloured(bool hidden) const { return hidden ? Mask(cutout) : Mask(); }
@@ -72,6 +74,7 @@ struct TextureSource {
   std::vector<uint8_t> cutout;       ///< cutoutOf(texels)
   std::vector<uint8_t> softly_seen;  ///< softlySeen(texels)
   bool ring;                         ///< WaveletHeader::ring
+  SharedForest forest;               ///< WaveletHeader::forest; has neither mask nor overlay
 };
 
 struct TextureOptions {

@@ -27,7 +27,10 @@ constexpr uint64_t kOneRegionTexels = 2048 * 2048;
 TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) {
   const tks_encode_options& options = inputs.options;
   const Extent extent = texels.extent();
-  const RegionChoice regions = chooseRegions(options, extent, extent.samples() > kOneRegionTexels);
+  const bool whole = inputs.image->domain == TKS_DOMAIN_FOREST;
+  const RegionChoice regions =
+      whole ? RegionChoice()
+            : chooseRegions(options, extent, extent.samples() > kOneRegionTexels);
   const ViewPriorities* const priorities = inputs.priorities;
   const bool some_first = priorities != nullptr && !priorities->texture.empty();
   const bool to_psnr = options.psnr > 0;
@@ -45,7 +48,7 @@ TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) 
 }  // namespace
 
 CodedLines texelLines(const EncodeInputs& inputs) {
-  if (inputs.image == nullptr) return {};
+  if (inputs.image == nullptr || inputs.image->domain == TKS_DOMAIN_FOREST) return {};
   const tks_image& image = *inputs.image;
   CodedLines lines = linesThatPay(
       inputs.options,
@@ -61,6 +64,7 @@ namespace {
 CodedTexture codedBy(std::shared_ptr<const TextureSource> source, EncodedTexture encoded) {
   assert(!encoded.tracks.empty() && encoded.header.width == source->texels.width);
   encoded.header.wavelet.ring = source->ring;
+  encoded.header.wavelet.forest = source->forest;
   return {std::move(source), std::move(encoded.header), std::move(encoded.tracks)};
 }
 
@@ -89,7 +93,7 @@ std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image) {
                    [](auto v) { return static_cast<uint16_t>(v); });
   });
   const bool ring = image.domain == TKS_DOMAIN_CYLINDER;
-  return std::make_shared<const TextureSource>(std::move(texels), ring);
+  return std::make_shared<const TextureSource>(std::move(texels), ring, forestOf(image));
 }
 
 Mask CodedTexture::seen() const {

@@ -81,6 +81,7 @@ std::vector<double> withTexture(const PictureErrors& pictures, const Surfaces& s
 /// at the terrain.
 std::vector<double> modelledErrors(const EncodeInputs& inputs, DecodedNodes& decoded,
                                    const Nodes& nodes) {
+  if (inputs.heights->domain == TKS_DOMAIN_FOREST) return {};  // rays know planes alone
   const GroundRays ground(decoded.original());
   const std::vector<Camera> cameras = camerasOf(inputs.options, ground.bounds());
   if (cameras.empty()) return {};

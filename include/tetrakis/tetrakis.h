@@ -198,6 +198,8 @@ typedef struct tks_image {
   const uint8_t* positions;      /* of tks_fit_positions; NULL: none but those of the heights */
   size_t positions_size;
   tks_domain domain;             /* 0: a plane, whatever the heights are */
+  tks_forest forest;             /* with TKS_DOMAIN_FOREST, as of heights; beside heights on a forest
+                                    of as many patches, whose sides are glued alike */
 } tks_image;
 
 /* The white level of a texture is the value that pictures show as white; what lies above it is as
@@ -538,6 +540,7 @@ typedef struct tks_info {
   tks_domain domain;            /* of the heights */
   tks_domain texture_domain;
   tks_forest forest;            /* with TKS_DOMAIN_FOREST; owned by the decoder */
+  tks_forest texture_forest;    /* likewise */
   uint32_t grid_width, grid_height; /* as in tks_heights */
 } tks_info;
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Streams of heights on forests: what comes back, what patches share, and what is refused.
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "base/forest.hpp"
 #include "tests/support/stream_fixture.hpp"
@@ -128,6 +131,245 @@ TEST(ForestStream, KeepsConstantsAsTheyAre) {
     const Bytes bytes = encodeHeights(surface.heights(), budget(400));
     Stream stream(bytes);
     EXPECT_EQ(decoded(stream), surface.samples) << shape.name;
+  }
+}
+
+/// Texels of a forest, the same in all patches that share one.
+struct Picture {
+  Forest forest;
+  uint32_t channels;
+  std::vector<uint8_t> texels;
+
+  Picture(const Shape& shape, int depth, uint32_t count)
+      : forest(depth, shape.sides), channels(count), texels(forest.raster().samples() * count) {
+    const uint32_t side = forest.side();
+    for (uint32_t i = 0; i < texels.size(); ++i) {
+      const auto x = static_cast<double>(i / count % side), y = static_cast<double>(i / count / side);
+      const double waves = 60 * std::sin(x / 7 + i % count) + 50 * std::cos(y / 9);
+      texels[i] = static_cast<uint8_t>(std::lround(waves + 120) + samples::hash(i, 2, 7) % 9);
+    }
+    shareOwned(forest, std::span(texels), side - 1, channels);
+  }
+  tks_image image() const {
+    tks_image i{};
+    i.size = sizeof i;
+    i.width = forest.raster().width;
+    i.height = forest.raster().height;
+    i.channels = channels;
+    i.sample = TKS_U8;
+    i.data = texels.data();
+    i.domain = TKS_DOMAIN_FOREST;
+    i.forest = {static_cast<uint32_t>(forest.depth()), forest.patches(), forest.sides().data()};
+    return i;
+  }
+};
+
+std::vector<uint8_t> texelsOf(Stream& stream) {
+  const std::vector<std::byte> bytes = stream.texture();
+  std::vector<uint8_t> texels(bytes.size());
+  std::memcpy(texels.data(), bytes.data(), bytes.size());
+  return texels;
+}
+
+TEST(ForestStream, RestoresEveryTexel) {
+  for (const Shape& shape : shapes()) {
+    for (const uint32_t channels : {1u, 2u, 3u, 4u}) {
+      const Picture picture(shape, 4, channels);
+      const tks_image image = picture.image();
+      const Bytes bytes = encodeGiven(nullptr, &image, lossless());
+      Stream stream(bytes);
+      ASSERT_EQ(stream.info().texture_domain, TKS_DOMAIN_FOREST);
+      ASSERT_EQ(texelsOf(stream), picture.texels) << shape.name << ", " << channels;
+    }
+  }
+}
+
+TEST(ForestStream, GivesPatchesTheTexelsThatTheyShareAtEveryPrefix) {
+  for (const Shape& shape : shapes()) {
+    const Picture picture(shape, 4, 3);
+    const tks_image image = picture.image();
+    for (const tks_encode_options& options : {lossless(), budget(2500)}) {
+      const Bytes bytes = encodeGiven(nullptr, &image, options);
+      for (size_t cut = 0; cut <= bytes.size(); cut += 1 + cut / 10) {
+        Stream stream(Prefix(bytes).first(cut));
+        if (stream.status() != TKS_OK) continue;
+        std::vector<uint8_t> texels = texelsOf(stream), shared = texels;
+        shareOwned(picture.forest, std::span(shared), picture.forest.side() - 1, 3);
+        ASSERT_EQ(texels, shared) << shape.name << ", " << cut << " bytes";
+      }
+    }
+  }
+}
+
+TEST(ForestStream, SharesABudgetBetweenHeightsAndTexture) {
+  for (const Shape& shape : shapes()) {
+    const Surface surface(shape, 5);
+    const Picture picture(shape, 6, 3);
+    const tks_heights heights = surface.heights();
+    const tks_image image = picture.image();
+    const Bytes bytes = encodeGiven(&heights, &image, budget(9000));
+    EXPECT_LE(bytes.size(), 9000u);
+    Stream stream(bytes);
+    EXPECT_EQ(stream.info().texture_forest.depth, 6u);
+    const std::vector<int16_t> samples = decoded(stream);
+    double heights_off = 0, texels_off = 0;
+    for (size_t i = 0; i < samples.size(); ++i)
+      heights_off += std::abs(samples[i] - surface.samples[i]);
+    const std::vector<uint8_t> texels = texelsOf(stream);
+    for (size_t i = 0; i < texels.size(); ++i)
+      texels_off += std::abs(int{texels[i]} - picture.texels[i]);
+    EXPECT_LT(heights_off / static_cast<double>(samples.size()), 40) << shape.name;
+    EXPECT_LT(texels_off / static_cast<double>(texels.size()), 12) << shape.name;
+  }
+}
+
+TEST(ForestStream, CutsWindowsOutOfPatches) {
+  const Surface surface(shapes().front(), 5);
+  const Picture picture(shapes().front(), 5, 3);
+  const tks_heights heights = surface.heights();
+  const tks_image image = picture.image();
+  const Bytes bytes = encodeGiven(&heights, &image, budget(6000));
+  Stream stream(bytes);
+  const std::vector<int16_t> all = decoded(stream);
+  const std::vector<uint8_t> texels = texelsOf(stream);
+  for (const tks_window& window :
+       {tks_window{0, 0, 33, 66}, tks_window{5, 20, 9, 30}, tks_window{32, 65, 1, 1}}) {
+    std::vector<int16_t> out(size_t{window.width} * window.height);
+    ASSERT_EQ(tks_decode_heights_window(stream.get(), &window, out.data(), 2 * out.size()), TKS_OK);
+    std::vector<uint8_t> shown(3 * out.size());
+    ASSERT_EQ(tks_decode_texture_window(stream.get(), &window, shown.data(), shown.size()), TKS_OK);
+    for (size_t i = 0; i < out.size(); ++i) {
+      const size_t place = (window.y + i / window.width) * 33 + window.x + i % window.width;
+      ASSERT_EQ(out[i], all[place]);
+      for (size_t c = 0; c < 3; ++c) ASSERT_EQ(shown[3 * i + c], texels[3 * place + c]);
+    }
+  }
+}
+
+tks_status statusOf(const tks_heights* heights, const tks_image* image,
+                    const tks_encode_options& options, std::string& message) {
+  tks_buffer buffer = {};
+  char sentence[256] = "";
+  const tks_status status =
+      tks_encode(heights, image, &options, &buffer, sentence, sizeof sentence);
+  tks_free_buffer(&buffer);
+  message = sentence;
+  return status;
+}
+
+TEST(ForestStream, RefusesWhatIsNoForest) {
+  const Surface surface(shapes().front(), 4);
+  std::string message;
+  const auto refused = [&](auto change) {
+    tks_heights heights = surface.heights();
+    change(heights);
+    return statusOf(&heights, nullptr, lossless(), message) == TKS_USAGE && !message.empty();
+  };
+  EXPECT_TRUE(refused([](tks_heights& h) { --h.height; }));
+  EXPECT_TRUE(refused([](tks_heights& h) { h.forest.depth = 5; }));
+  EXPECT_TRUE(refused([](tks_heights& h) { h.forest.depth = 400; }));
+  EXPECT_TRUE(refused([](tks_heights& h) { h.forest.patches = 0; }));
+  EXPECT_TRUE(refused([](tks_heights& h) { h.forest.sides = nullptr; }));
+  const std::vector<uint32_t> one_way = {5, 4, 7, 6, 1, 0, 3, kNone};
+  EXPECT_TRUE(refused([&](tks_heights& h) { h.forest.sides = one_way.data(); }));
+  const std::vector<uint32_t> itself = {0, 4, 7, 6, 1, kNone, 3, 2};
+  EXPECT_TRUE(refused([&](tks_heights& h) { h.forest.sides = itself.data(); }));
+  std::vector<int16_t> torn = surface.samples;
+  torn[3] = static_cast<int16_t>(torn[3] + 1);
+  EXPECT_TRUE(refused([&](tks_heights& h) { h.data = torn.data(); }));
+  EXPECT_TRUE(refused([&](tks_heights& h) { h.has_nodata = 1, h.nodata = surface.samples[40]; }));
+  const tks_heights heights = surface.heights();
+  EXPECT_EQ(statusOf(&heights, nullptr, inRegions(lossless(), 16), message), TKS_USAGE);
+}
+
+/// How often each pair of vertices is an edge, and whether it runs both ways equally often.
+struct Edges {
+  std::map<std::pair<uint32_t, uint32_t>, int> balance, count;
+
+  explicit Edges(const tks_mesh& mesh) {
+    for (uint32_t t = 0; t < mesh.triangle_count; ++t) {
+      const uint32_t* const corner = mesh.triangles + 3 * size_t{t};
+      for (int k = 0; k < 3; ++k) add(corner[k], corner[(k + 1) % 3]);
+    }
+  }
+  void add(uint32_t a, uint32_t b) {
+    const auto key = std::minmax(a, b);
+    balance[key] += a < b ? 1 : -1;
+    ++count[key];
+  }
+  /// Edges that have a triangle on one side alone.
+  size_t open() const {
+    return static_cast<size_t>(std::count_if(balance.begin(), balance.end(), [](const auto& edge) {
+      return edge.second != 0 && edge.first.first != edge.first.second;
+    }));
+  }
+};
+
+/// V - E + F.
+int64_t characteristic(const tks_mesh& mesh, const Edges& edges) {
+  return int64_t{mesh.vertex_count} - static_cast<int64_t>(edges.count.size()) +
+         mesh.triangle_count;
+}
+
+TEST(ForestStream, MakesClosedMeshesOfAnyNumberOfTriangles) {
+  for (const Shape& shape : shapes()) {
+    const Surface surface(shape, 5);
+    const bool is_closed =
+        std::count(shape.sides.begin(), shape.sides.end(), kNone) == 0;
+    const Bytes bytes = encodeHeights(surface.heights(), budget(1800));
+    Stream stream(bytes);
+    uint32_t before = 0;
+    for (uint32_t triangles = 1; triangles < 5000; triangles += 1 + triangles / 3) {
+      tks_mesh mesh = {};
+      ASSERT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_BUDGET, triangles, &mesh), TKS_OK);
+      const uint32_t base = 2 * surface.forest.patches();
+      EXPECT_LE(mesh.triangle_count, std::max(triangles, base)) << shape.name;
+      EXPECT_GE(mesh.triangle_count, before) << shape.name;
+      before = mesh.triangle_count;
+      const Edges edges(mesh);
+      if (is_closed) {
+        EXPECT_EQ(edges.open(), 0u) << shape.name << ", " << triangles;
+      }
+      tks_free_mesh(&mesh);
+    }
+  }
+}
+
+TEST(ForestStream, KeepsTheTopologyOfItsSurface) {
+  const std::vector<std::pair<size_t, int64_t>> characteristics = {{0, 2}, {1, 0}, {2, 1}, {4, 0}};
+  for (const auto& [which, expected] : characteristics) {
+    const Shape& shape = shapes()[which];
+    const Surface surface(shape, 4);
+    const Bytes bytes = encodeHeights(surface.heights(), budget(1500));
+    for (size_t cut = bytes.size() / 4; cut <= bytes.size(); cut += 1 + cut / 8) {
+      Stream stream(Prefix(bytes).first(cut));
+      for (const uint32_t triangles : {200u, 400u, 0u}) {
+        tks_mesh mesh = {};
+        ASSERT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_BUDGET, triangles, &mesh), TKS_OK);
+        if (mesh.triangle_count > 150) {
+          EXPECT_EQ(characteristic(mesh, Edges(mesh)), expected)
+              << shape.name << ", " << triangles << " triangles of " << cut << " bytes";
+        }
+        tks_free_mesh(&mesh);
+      }
+    }
+  }
+}
+
+TEST(ForestStream, MakesTheCodedMeshOfWhatHasArrived) {
+  for (const Shape& shape : shapes()) {
+    const Surface surface(shape, 5);
+    const Bytes bytes = encodeHeights(surface.heights(), budget(1200));
+    uint32_t before = 0;
+    for (size_t cut = bytes.size() / 3; cut <= bytes.size(); cut += 1 + cut / 8) {
+      Stream stream(Prefix(bytes).first(cut));
+      tks_mesh mesh = {};
+      ASSERT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_CODED, 0, &mesh), TKS_OK);
+      EXPECT_GE(mesh.triangle_count, before) << shape.name;
+      before = mesh.triangle_count;
+      tks_free_mesh(&mesh);
+    }
+    EXPECT_GT(before, 4 * surface.forest.patches()) << shape.name;
   }
 }
 

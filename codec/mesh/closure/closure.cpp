@@ -237,6 +237,12 @@ std::vector<double> hullSides(const Lattice& lattice, std::span<const VertexId> 
   return regressionOf(lattice, vertices, gains).sidesOf(triangles - roots);
 }
 
+std::vector<double> hullSides(ClosureGraph graph, std::span<const double> gains,
+                              int64_t triangles) {
+  assert(gains.size() == graph.parents.size() && gains.size() == graph.costs.size());
+  return Regression(std::move(graph.parents), std::move(graph.costs), gains).sidesOf(triangles);
+}
+
 std::vector<VertexId> ascending(std::span<const VertexId> order) {
   if (order.empty()) return {};
   std::vector<bool> present(*std::max_element(order.begin(), order.end()) + 1);

@@ -82,6 +82,12 @@ class ClosureFlow {
 // the graph whose maximum closure at its own mean slope is trivial has that slope, and any other
 // falls into the closure and the rest, which never look at each other again.
 
+/// Vertices by their numbers, parents before children, and the triangles that each of them costs.
+struct ClosureGraph {
+  std::vector<ClosureFlow::Arcs> parents;
+  std::vector<uint8_t> costs;
+};
+
 /// Returns for each vertex the slope lambda, in squared height steps a triangle, at which it enters
 /// the best mesh: {v : slope > lambda} is closed and minimises D + lambda R for every lambda that
 /// is no slope. A slope is never greater than those of the parents. It is +infinity or -infinity
@@ -103,6 +109,10 @@ inline constexpr double kBeyond = 0;  ///< in neither of the two
 /// gains are as for that function.
 std::vector<double> hullSides(const Lattice& lattice, std::span<const VertexId> vertices,
                               std::span<const double> gains, uint32_t triangles);
+
+/// The same of any graph. triangles: beyond those of the mesh without vertices.
+std::vector<double> hullSides(ClosureGraph graph, std::span<const double> gains,
+                              int64_t triangles);
 
 /// The same vertices by their ids.
 std::vector<VertexId> ascending(std::span<const VertexId> order);
