@@ -112,6 +112,14 @@ typedef struct tks_forest {
   const uint32_t* sides; /* 4 * patches: for each side the one that it is glued to, or TKS_BORDER */
 } tks_forest;
 
+/* The sides of a cube for tks_forest, 24 numbers. With them a forest is the globe: patches 0 to 3
+ * go eastwards round the equator, with longitudes 0, 90, 180 and -90 in their middles and north up;
+ * patch 4 has the north pole in its middle and longitude 0 below, patch 5 the south pole and
+ * longitude 0 above. Columns and rows of a patch are at equal angles, as seen from the middle of
+ * the cube (C. Ronchi and others, "The cubed sphere", 1996). Longitudes and geodetic latitudes are
+ * taken for angles on a sphere. */
+const uint32_t* tks_cube_sides(void);
+
 /* A height field to encode: width x height samples, row by row, tightly packed, caller's memory.
  * The least size is 1 x 1. One column or row has no area: no mesh can be made of it, and no camera
  * sees it. A sample v stands for the height v * scale + offset in `unit`.
@@ -582,6 +590,48 @@ tks_status tks_decode_surface_window(tks_decoder* decoder, const tks_window* win
                                      size_t count);
 tks_status tks_decode_texture_window(tks_decoder* decoder, const tks_window* window, void* out,
                                      size_t bytes);
+
+/* A grid whose columns go round the Earth. */
+typedef struct tks_geographic_grid {
+  size_t size; /* sizeof(tks_geographic_grid) */
+  uint32_t width, height;  /* columns, from 1 to 2^20; rows, from 2 to 2^20 */
+  double geotransform[6];  /* in degrees, in the order of GDAL: columns go east or west, once round
+                              the Earth, where the last one may be the first one again; rows go
+                              south or north, and the middles of their samples lie between the
+                              poles */
+} tks_geographic_grid;
+
+/* The most depth of a cube that is made of a grid, or a grid of it. */
+#define TKS_MOST_CUBE_DEPTH 14
+
+/* The depth that suits a grid of so many columns: the least one, from 1 to TKS_MOST_CUBE_DEPTH, at
+ * which the equator of the cube has as many samples as a row of the grid. */
+uint32_t tks_cube_depth(uint32_t width);
+
+/* Resamples heights of a grid on a cube. cube: 6 * (2^depth + 1)^2 heights, the raster of a forest
+ * of six patches with tks_cube_sides, in which shared samples are equal bit for bit. What lies
+ * between its samples comes nearest to the heights, by least squares over the area of the Earth: a
+ * cube that is coarser than the grid takes means. Where a grid ends more than a row before a pole
+ * its last row goes on to the pole, and turns into its mean on the way.
+ *
+ * largest_error and rmse, unless NULL, become how far tks_grid_from_cube is from the heights: the
+ * most, and over the area of the Earth. The result does not depend on the number of threads. It
+ * takes some 40 bytes of memory a sample of the grid, and 16 a sample of the cube. TKS_USAGE, with
+ * a sentence in message as that of tks_encode: a grid or depth that breaks the rules, heights that
+ * are not numbers (voids) or beyond +-1e30. The library that only decodes lacks this function. */
+tks_status tks_cube_from_grid(const tks_geographic_grid* grid, const float* heights, uint32_t depth,
+                              uint32_t threads, float* cube, double* largest_error, double* rmse,
+                              char* message, size_t message_size);
+
+/* Writes the heights of a cube at the samples of a grid, interpolated (bicubic), in any window of
+ * the grid, row by row; NULL: all of it. cube: as above, whose depth is from 1 to
+ * TKS_MOST_CUBE_DEPTH; it may be one that tks_decode_surface has decoded, and hold any floats. Of a
+ * stream with tks_info.grid_width the grid has these columns and rows and tks_info.geotransform, in
+ * degrees. It takes memory for a column of the cube and a row of the window. TKS_USAGE: a grid, a
+ * depth or a window that breaks the rules. */
+tks_status tks_grid_from_cube(const float* cube, uint32_t depth, const tks_geographic_grid* grid,
+                              const tks_window* window, uint32_t threads, float* out, char* message,
+                              size_t message_size);
 
 /* What a call decodes. */
 typedef enum tks_part TKS_INT {
