@@ -178,11 +178,10 @@ Status checkOnForests(const tks_heights* heights, const tks_image* image,
   if (o.regions > 1 || o.index == TKS_INDEX_WINDOWS)
     return misuse("On a forest there are no regions.");
   if (heights == nullptr || image == nullptr) return {};
-  const bool alike = onForest(heights) && onForest(image) &&
-                     heights->forest.patches == image->forest.patches &&
-                     std::equal(heights->forest.sides,
-                                heights->forest.sides + 4 * size_t{heights->forest.patches},
-                                image->forest.sides);
+  const bool alike =
+      onForest(heights) && onForest(image) && heights->forest.patches == image->forest.patches &&
+      std::equal(heights->forest.sides, heights->forest.sides + 4 * size_t{heights->forest.patches},
+                 image->forest.sides);
   if (alike) return {};
   return misuse("Heights and texture on a forest have patches that are glued alike.");
 }

@@ -200,7 +200,26 @@ std::vector<Called> firstCalls() {
            },
            [](Desk&) {}, [](Desk&) {}, false},
           {"tks_sample_bytes",
-           [](Desk&) { return tks_sample_bytes(TKS_F32) == 4 ? TKS_OK : TKS_USAGE; }}};
+           [](Desk&) { return tks_sample_bytes(TKS_F32) == 4 ? TKS_OK : TKS_USAGE; }},
+          {"tks_cube_sides", [](Desk&) { return tks_cube_sides()[0] == 18 ? TKS_OK : TKS_USAGE; }},
+          {"tks_cube_depth", [](Desk&) { return tks_cube_depth(1024) == 8 ? TKS_OK : TKS_USAGE; }}};
+}
+
+std::vector<Called> globeCalls() {
+  static const tks_geographic_grid grid = {
+      sizeof(tks_geographic_grid), 12, 6, {-180, 30, 0, 90, 0, -30}};
+  static const std::vector<float> heights(6 * 25);
+  return {{"tks_cube_from_grid",
+           [](Desk& d) {
+             auto* const cube = reinterpret_cast<float*>(d.out.data());
+             return tks_cube_from_grid(&grid, heights.data(), 2, 2, cube, nullptr, nullptr,
+                                       d.message, sizeof d.message);
+           }},
+          {"tks_grid_from_cube", [](Desk& d) {
+             auto* const out = reinterpret_cast<float*>(d.out.data());
+             return tks_grid_from_cube(heights.data(), 2, &grid, &kWindow, 2, out, d.message,
+                                       sizeof d.message);
+           }}};
 }
 
 int onEquator(void*, double column, double row, double* longitude, double* latitude) {
@@ -284,6 +303,10 @@ TEST(ExhaustedMemory, OfCallsWithoutADecoder) {
   exhaustAll(firstCalls(), {});
 }
 
+TEST(ExhaustedMemory, OfGlobes) {
+  exhaustAll(globeCalls(), {});
+}
+
 TEST(ExhaustedMemory, OfCallsAboutAStream) {
   exhaustAll(decoderCalls(), indexedStream());
   exhaustAll(indexCalls(), indexedStream());
@@ -341,7 +364,7 @@ TEST(ExhaustedMemory, IsTriedOfEveryFunction) {
                                  "tks_close",       "tks_free_mesh_tree", "tks_message"};
   for (const auto& calls :
        {firstCalls(), decoderCalls(), indexCalls(), givingCalls(), meshCalls(), fittingCalls(),
-        positionCalls(), encodingCalls(), heightCalls(), textureCalls()})
+        positionCalls(), globeCalls(), encodingCalls(), heightCalls(), textureCalls()})
     for (const Called& called : calls) tried.insert(called.name);
   std::ifstream file(TETRAKIS_HEADER);
   const std::string header{std::istreambuf_iterator<char>(file), {}};

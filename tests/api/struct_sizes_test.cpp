@@ -75,11 +75,28 @@ class StructSizes : public testing::Test {
                 nullptr,
                 0,
                 TKS_DOMAIN_CYLINDER,
+                {},
+                0,
+                0};
+    image_ = {sizeof image_,
+              9,
+              5,
+              2,
+              TKS_U8,
+              samples_.data(),
+              {},
+              1,
+              TKS_REGISTRATION_AREA,
+              "y",
+              "1024=2",
+              1,
+              255,
+              nullptr,
+              0,
+              TKS_DOMAIN_CYLINDER,
                 60,
-                -60};
-    image_ = {
-        sizeof image_,         9,   5,        2, TKS_U8, samples_.data(), {}, 1,
-        TKS_REGISTRATION_AREA, "y", "1024=2", 1, 255,    nullptr,         0,  TKS_DOMAIN_CYLINDER};
+                -60,
+              {}};
     std::copy(std::begin(transform), std::end(transform), heights_.geotransform);
     std::copy(std::begin(transform), std::end(transform), image_.geotransform);
     options_.size = sizeof options_;

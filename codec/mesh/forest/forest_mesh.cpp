@@ -104,8 +104,7 @@ std::vector<ForestVertex> forestBudgetVertices(const ForestLattice& lattice,
     return withinBudget(lattice, lattice.graph(), forestGains(lattice, heights), max_triangles);
   const Forest coarse_forest(forest.depth() - skipped, forest.sides());
   const ForestLattice coarse(coarse_forest);
-  const std::vector<double> gains =
-      forestGains(coarse, everyOther(forest, heights, skipped));
+  const std::vector<double> gains = forestGains(coarse, everyOther(forest, heights, skipped));
   // Coarse levels come first, in the same order.
   return withinBudget(coarse, coarse.graph(), gains, max_triangles);
 }

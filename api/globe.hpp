@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What callers give of a globe: a geographic grid, and the depth of a cube.
+#pragma once
+
+#include <cstddef>
+
+#include "api/guarded.hpp"
+#include "base/forest.hpp"
+#include "codec/globe/cube_interpolation.hpp"
+#include "codec/globe/cube_sphere.hpp"
+#include "codec/globe/geographic_grid.hpp"
+
+namespace tetrakis::inline api {
+
+inline Result<GeographicGrid> gridOf(const tks_geographic_grid* given) {
+  constexpr uint32_t kMostSide = 1 << 20;
+  if (given == nullptr) return Status(TKS_USAGE, "The grid is missing.");
+  tks_geographic_grid grid;
+  if (Status taken = takeSized("the grid", *given, sizeof grid, grid); !taken.ok()) return taken;
+  if (grid.width > kMostSide || grid.height > kMostSide)
+    return Status(TKS_USAGE, "A grid has at most 1048576 columns and rows.");
+  return GeographicGrid::make({grid.width, grid.height}, std::to_array(grid.geotransform));
+}
+
+inline Result<Forest> cubeOf(uint32_t depth) {
+  static_assert(kMostCubeDepth == TKS_MOST_CUBE_DEPTH);
+  if (depth < 1 || depth > TKS_MOST_CUBE_DEPTH)
+    return Status(TKS_USAGE, "The depth of a cube is 1 to 14.");
+  return cubeForest(static_cast<int>(depth));
+}
+
+}  // namespace tetrakis::inline api
