@@ -62,9 +62,9 @@ enum class ColumnsRound : uint8_t {
 /// geotransform, with a gap, or that overlap by other than a column do not go round.
 ColumnsRound columnsRound(const PlacedRaster& raster, double degrees);
 
-/// The latitudes of the outer edges of the first row and of the last one, in degrees, as tks_heights
-/// takes them; degrees: as above. Both 0 where x and y are no angles, rows are no parallels, or y is
-/// no latitude.
+/// The latitudes of the outer edges of the first row and of the last one, in degrees, as
+/// tks_heights takes them; degrees: as above. Both 0 where x and y are no angles, rows are no
+/// parallels, or y is no latitude.
 std::array<double, 2> edgeLatitudes(const PlacedRaster& raster, double degrees);
 
 /// How many samples of a raster lie along one of the ground that is under it, at least 1.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_globe FILE...: global grids of heights, whose columns go round the Earth from pole to pole,
 // as planes and as cylinders, with equal samples and with equal areas: bytes at equal RMSE over the
-// area of the Earth, bytes to the last bit, and what is left of the seam between the last column and
-// the first one.
+// area of the Earth, bytes to the last bit, and what is left of the seam between the last column
+// and the first one.
 #include <array>
 #include <cmath>
 #include <cstdio>
