@@ -104,6 +104,8 @@ Status checkHeights(const tks_heights& h) {
       !std::isfinite(h.spacing_x) || !std::isfinite(h.spacing_y)) {
     return misuse("Step and spacing of the heights must be finite and not negative.");
   }
+  if (!(std::abs(h.first_latitude) <= 180) || !(std::abs(h.last_latitude) <= 180))
+    return misuse("The latitudes of the heights must lie within +-180 degrees.");
   if (Status place = checkPlace("heights", h); !place.ok()) return place;
   const Status forest = checkForest("plane of heights", h, tks_sample_bytes(h.sample));
   if (!forest.ok()) return forest;

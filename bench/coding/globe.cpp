@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_globe FILE...: global grids of heights, whose columns go round the Earth from pole to pole,
-// as planes and as cylinders: bytes at equal RMSE over the area of the Earth, bytes to the last
-// bit, and what is left of the seam between the last column and the first one.
+// as planes and as cylinders, with equal samples and with equal areas: bytes at equal RMSE over the
+// area of the Earth, bytes to the last bit, and what is left of the seam between the last column and
+// the first one.
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -11,6 +13,7 @@
 #include <vector>
 
 #include "apps/tools/files/files.hpp"
+#include "apps/tools/files/place/ground_spacing.hpp"
 #include "base/samples.hpp"
 #include "bench/harness/arguments.hpp"
 #include "tetrakis/tetrakis.hpp"
@@ -36,6 +39,17 @@ std::vector<double> samplesOf(const tools::HeightFile& file, std::span<const std
   return values;
 }
 
+/// How a grid is coded.
+struct Coding {
+  const char* name;
+  tks_domain domain;
+  bool by_area;  ///< the encoder is told the latitudes
+};
+constexpr std::array<Coding, 4> kCodings = {{{"plane", TKS_DOMAIN_PLANE, false},
+                                             {"plane, weights", TKS_DOMAIN_PLANE, true},
+                                             {"cylinder", TKS_DOMAIN_CYLINDER, false},
+                                             {"cylinder, weights", TKS_DOMAIN_CYLINDER, true}}};
+
 /// How decoded samples are off: over the area of the Earth, and from one side of the seam to the
 /// other, as root mean squares.
 struct Figures {
@@ -45,20 +59,26 @@ struct Figures {
 class Globe {
  public:
   explicit Globe(const tools::HeightFile& file)
-      : file_(file), original_(samplesOf(file, file.data)) {}
+      : file_(file),
+        latitudes_(tools::edgeLatitudes(file, file.height)),
+        original_(samplesOf(file, file.data)) {}
 
   /// bytes: 0, to the last bit.
-  Result<Buffer> coded(tks_domain domain, uint64_t bytes) const {
+  Result<Buffer> coded(const Coding& coding, uint64_t bytes) const {
     tks_heights heights = tools::asHeights(file_);
-    heights.domain = domain;
+    heights.domain = coding.domain;
+    if (coding.by_area) {
+      heights.first_latitude = latitudes_[0];
+      heights.last_latitude = latitudes_[1];
+    }
     tks_encode_options options = makeEncodeOptions();
     options.bytes = bytes;
     options.lossless = bytes == 0;
     return encode(&heights, nullptr, options);
   }
 
-  Result<Figures> figures(tks_domain domain, uint64_t bytes) const {
-    const Result<Buffer> stream = coded(domain, bytes);
+  Result<Figures> figures(const Coding& coding, uint64_t bytes) const {
+    const Result<Buffer> stream = coded(coding, bytes);
     if (!stream.ok()) return stream.status();
     Result<Decoder> decoder = Decoder::open(stream->bytes());
     if (!decoder.ok()) return decoder.status();
@@ -93,6 +113,7 @@ class Globe {
   }
 
   const tools::HeightFile& file_;
+  std::array<double, 2> latitudes_;
   std::vector<double> original_;
 };
 
@@ -102,11 +123,11 @@ struct AtError {
   Figures figures;
 };
 
-Result<AtError> atError(const Globe& globe, tks_domain domain, double error, uint64_t most) {
+Result<AtError> atError(const Globe& globe, const Coding& coding, double error, uint64_t most) {
   AtError found{most, {0, globe.jump()}};
   for (uint64_t low = 0; found.bytes - low > 1 + found.bytes / 2000;) {
     const uint64_t middle = low + (found.bytes - low) / 2;
-    const Result<Figures> figures = globe.figures(domain, middle);
+    const Result<Figures> figures = globe.figures(coding, middle);
     if (!figures.ok()) return figures.status();
     if (figures->rmse <= error)
       found = {middle, *figures};
@@ -116,24 +137,20 @@ Result<AtError> atError(const Globe& globe, tks_domain domain, double error, uin
   return found;
 }
 
-const char* nameOf(tks_domain domain) {
-  return domain == TKS_DOMAIN_CYLINDER ? "cylinder" : "plane";
-}
-
 Status measure(const Options& options, const std::string& path) {
   const Result<tools::HeightFile> file = tools::readHeights(path);
   if (!file.ok()) return file.status();
   const Globe globe(*file);
   std::printf("%s: %u x %u, step at the seam %.1f\n", path.c_str(), file->width, file->height,
               globe.jump());
-  for (const tks_domain domain : {TKS_DOMAIN_PLANE, TKS_DOMAIN_CYLINDER}) {
-    const Result<Buffer> lossless = globe.coded(domain, 0);
+  for (const Coding& coding : kCodings) {
+    const Result<Buffer> lossless = globe.coded(coding, 0);
     if (!lossless.ok()) return lossless.status();
     const uint64_t whole = lossless->bytes().size();
-    std::printf("%-9s to the last bit: %llu bytes\n", nameOf(domain),
+    std::printf("%-17s to the last bit: %llu bytes\n", coding.name,
                 static_cast<unsigned long long>(whole));
     for (const double error : options.errors) {
-      const Result<AtError> at = atError(globe, domain, error, whole);
+      const Result<AtError> at = atError(globe, coding, error, whole);
       if (!at.ok()) return at.status();
       std::printf("  RMSE %5.1f: %7llu bytes, step at the seam %.1f\n", error,
                   static_cast<unsigned long long>(at->bytes), at->figures.seam);
@@ -149,7 +166,8 @@ Status measure(const Options& options, const std::string& path) {
 int main(int argc, char** argv) {
   using namespace tetrakis::bench;
   Options options;
-  Arguments arguments("Global grids of heights as planes and as cylinders.");
+  Arguments arguments(
+      "Global grids of heights as planes and as cylinders, by samples and by area.");
   arguments.required({"FILE", "global grids"}, options.files);
   arguments.numbers({"--errors", "RMSEs over the area of the Earth"}, options.errors);
   if (const auto code = arguments.parse(argc, argv)) return *code;

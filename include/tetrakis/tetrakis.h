@@ -137,6 +137,13 @@ const uint32_t* tks_cube_sides(void);
  *     y (northing, latitude)  = geotransform[3] + c * geotransform[4] + r * geotransform[5]
  * whatever the registration. Its numbers must lie within +-2^512, else TKS_USAGE.
  *
+ * Area: on a geographic grid the ground of a sample shrinks towards the poles. With the latitudes of
+ * its edges bytes go first where there is more ground, if the areas differ so much that it pays: in
+ * lossless streams and those within a number of bytes, of heights alone. A globe takes some 3 %
+ * fewer bytes at equal RMSE over the area. PSNR, max_error, and the errors that streams state, count
+ * samples. Latitudes must lie within +-180, else TKS_USAGE: rows on a pole have an edge behind it.
+ * Streams do not keep them.
+ *
  * Texts are UTF-8 of at most 65 535 bytes each, else TKS_USAGE. What decoders give is what streams
  * hold, which may be any bytes. */
 typedef struct tks_heights {
@@ -163,6 +170,8 @@ typedef struct tks_heights {
                                      that do not know the CRS; NULL: none */
   size_t positions_size;         /* in bytes */
   tks_domain domain;             /* 0: a plane */
+  double first_latitude;         /* in degrees, of the outer edges of the first row and of the */
+  double last_latitude;          /* last row of a geographic grid; both 0: unknown */
   tks_forest forest;             /* with TKS_DOMAIN_FOREST: the heights are its raster. Samples
                                      that are shared must be equal bit for bit, and there are no
                                      voids, else TKS_USAGE */
