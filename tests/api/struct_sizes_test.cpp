@@ -94,8 +94,8 @@ class StructSizes : public testing::Test {
               nullptr,
               0,
               TKS_DOMAIN_CYLINDER,
-                60,
-                -60,
+              60,
+              -60,
               {}};
     std::copy(std::begin(transform), std::end(transform), heights_.geotransform);
     std::copy(std::begin(transform), std::end(transform), image_.geotransform);
