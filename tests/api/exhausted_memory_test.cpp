@@ -382,10 +382,9 @@ TEST(ExhaustedMemory, IsTriedOfEveryFunction) {
   std::set<std::string> tried = {"tks_free_buffer",    "tks_free_mesh",      "tks_free_ranges",
                                  "tks_close",          "tks_free_mesh_tree", "tks_message",
                                  "tks_free_globe_mesh"};
-  for (const auto& calls :
-       {firstCalls(), decoderCalls(), indexCalls(), givingCalls(), meshCalls(), globeCalls(),
-        fittingCalls(), positionCalls(), cubeCalls(), encodingCalls(), heightCalls(),
-        textureCalls()})
+  for (const auto& calls : {firstCalls(), decoderCalls(), indexCalls(), givingCalls(), meshCalls(),
+                            globeCalls(), fittingCalls(), positionCalls(), cubeCalls(),
+                            encodingCalls(), heightCalls(), textureCalls()})
     for (const Called& called : calls) tried.insert(called.name);
   std::ifstream file(TETRAKIS_HEADER);
   const std::string header{std::istreambuf_iterator<char>(file), {}};
