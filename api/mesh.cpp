@@ -151,13 +151,6 @@ std::vector<float> surfaceAtVertices(const tks_decoder& decoder, const DecodedHe
   return heights;
 }
 
-template <class T>
-T* allocate(size_t count) {
-  void* memory = std::malloc(count * sizeof(T));
-  if (memory == nullptr && count > 0) throw std::bad_alloc();
-  return static_cast<T*>(memory);
-}
-
 }  // namespace
 
 Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles) {

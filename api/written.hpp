@@ -5,7 +5,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -60,6 +62,14 @@ std::vector<float> heightsInUnit(const LatticeMesh& mesh, Mask valid, const Surf
                           ? static_cast<float>(steps_of(v) * scale.scale + scale.offset)
                           : std::numeric_limits<float>::quiet_NaN());
   return heights;
+}
+
+/// An array that C callers release by std::free. Throws std::bad_alloc.
+template <class T>
+T* allocate(size_t count) {
+  void* memory = std::malloc(count * sizeof(T));
+  if (memory == nullptr && count > 0) throw std::bad_alloc();
+  return static_cast<T*>(memory);
 }
 
 /// Copies into arrays that tks_free_mesh releases. Throws std::bad_alloc; `out` can then be freed.

@@ -95,7 +95,8 @@ typedef enum tks_registration TKS_INT {
 typedef enum tks_domain TKS_INT {
   TKS_DOMAIN_PLANE = 0,    /* nothing */
   TKS_DOMAIN_CYLINDER = 1, /* the last column lies beside the first one, as on a globe: no seam is
-                              left between the two. Meshes are those of the plane */
+                              left between the two. Meshes are those of the plane, but for
+                              tks_decode_globe */
   TKS_DOMAIN_FOREST = 2 /* square patches whose sides are glued, as those of a cube: tks_forest */
 } tks_domain;
 
@@ -733,6 +734,44 @@ typedef struct tks_mesh {
 tks_status tks_decode_mesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
                            tks_mesh* out);
 void tks_free_mesh(tks_mesh* mesh);
+
+/* The globe that a grid of longitudes and latitudes lies on. */
+typedef struct tks_globe {
+  size_t size;         /* sizeof(tks_globe) */
+  double semi_major;   /* the ellipsoid's semi-axes in metres, of its equator */
+  double semi_minor;   /* and of its poles; WGS 84: 6378137 and 6356752.314245 */
+  double degrees;      /* in one unit of the geotransform; 0: 1 */
+  double exaggeration; /* what heights are multiplied by; 0: 1 */
+} tks_globe;
+
+/* A mesh round a globe, cut open along the seam so that a texture can be laid over it. Vertex i
+ * lies at column pixel[2 i] and row pixel[2 i + 1] of the grid, counted as in tks_pixel, and at the
+ * point position[3 i], in metres from the centre: x towards longitude and latitude 0, y towards
+ * longitude 90, z towards the north pole. Vertices of the columns 0.5 and width + 0.5, which are
+ * one, have the same position to the last bit; so have those of a pole, which each of its triangles
+ * has for itself. Taken for one where they are equal, vertices leave no edge open but around voids
+ * and where the grid ends before a pole. Triangles are counter-clockwise seen from outside. Every
+ * vertex is of a triangle, and none is void. */
+typedef struct tks_globe_mesh {
+  uint32_t vertex_count, triangle_count;
+  double* position;
+  double* pixel;
+  float* height;       /* in `unit`, not exaggerated */
+  uint32_t* triangles; /* 3 * triangle_count indices, all < vertex_count */
+} tks_globe_mesh;
+
+/* The mesh of tks_decode_mesh, closed and bent round a globe: triangles join the last column to the
+ * first one, and fans the first and last row to the poles, where these lie less than a row beyond;
+ * a row on a pole becomes one point. A pole has the mean height of its row. What is farther from a
+ * pole stays open: there is no data. So that no edge cuts deep through the globe, the mesh gets all
+ * vertices of its coarse levels, which lie on its surface: of TKS_MESH_BUDGET up to half of
+ * max_triangles more, or a few hundred, beside those at the seam and at the poles. TKS_USAGE: as
+ * tks_decode_mesh; the stream has no geotransform, its columns do not go once round 360 degrees
+ * (whatever its domain), or rows lie beyond a pole; an axis is not above 0, or a number not finite.
+ * TKS_LIMIT: as tks_decode_mesh, with 240 bytes more a vertex. */
+tks_status tks_decode_globe(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
+                            const tks_globe* globe, tks_globe_mesh* out);
+void tks_free_globe_mesh(tks_globe_mesh* mesh);
 
 /* A camera that a mesh is made for, as a renderer has it (tks_camera: as people place it). */
 typedef struct tks_screen_camera {

@@ -67,6 +67,36 @@ class Mesh {
   tks_mesh mesh_{};
 };
 
+/// A mesh round a globe (tks_globe_mesh says what its arrays promise). Move only.
+class GlobeMesh {
+ public:
+  explicit GlobeMesh(tks_globe_mesh mesh) : mesh_(mesh) {}
+  GlobeMesh(GlobeMesh&& other) noexcept : mesh_(std::exchange(other.mesh_, {})) {}
+  GlobeMesh& operator=(GlobeMesh&& other) noexcept {
+    std::swap(mesh_, other.mesh_);
+    return *this;
+  }
+  ~GlobeMesh() { tks_free_globe_mesh(&mesh_); }
+
+  /// x, y, z of each vertex, in metres from the centre.
+  std::span<const double> positions() const {
+    return {mesh_.position, size_t{3} * mesh_.vertex_count};
+  }
+  /// Column and row of each vertex, as in tks_pixel.
+  std::span<const double> pixels() const { return {mesh_.pixel, size_t{2} * mesh_.vertex_count}; }
+  /// Height of each vertex, in the unit of the stream.
+  std::span<const float> heights() const { return {mesh_.height, mesh_.vertex_count}; }
+  /// Three vertex indices a triangle, counter-clockwise seen from outside.
+  std::span<const uint32_t> triangles() const {
+    return {mesh_.triangles, size_t{3} * mesh_.triangle_count};
+  }
+  uint32_t vertexCount() const { return mesh_.vertex_count; }
+  uint32_t triangleCount() const { return mesh_.triangle_count; }
+
+ private:
+  tks_globe_mesh mesh_{};
+};
+
 /// A mesh kept for many views (tks_mesh_tree). Move only; outlives its decoder.
 class MeshTree {
  public:
@@ -281,6 +311,12 @@ class Decoder {
     return Mesh(result);
   }
 
+  /// The first two, closed and bent round a globe (tks_decode_globe).
+  Result<GlobeMesh> codedGlobe(const tks_globe& on) { return globe(TKS_MESH_CODED, 0, on); }
+  Result<GlobeMesh> budgetGlobe(const tks_globe& on, uint32_t max_triangles) {
+    return globe(TKS_MESH_BUDGET, max_triangles, on);
+  }
+
   /// The first two, kept in a tree that gives the part that a view sees.
   Result<MeshTree> codedMeshTree() { return meshTree(TKS_MESH_CODED, 0); }
   Result<MeshTree> budgetMeshTree(uint32_t max_triangles) {
@@ -366,6 +402,13 @@ class Decoder {
     const tks_status status = tks_decode_mesh(decoder_.get(), kind, max_triangles, &result);
     if (status != TKS_OK) return failure(status);
     return Mesh(result);
+  }
+
+  Result<GlobeMesh> globe(tks_mesh_kind kind, uint32_t max_triangles, const tks_globe& on) {
+    tks_globe_mesh result{};
+    const tks_status status = tks_decode_globe(decoder_.get(), kind, max_triangles, &on, &result);
+    if (status != TKS_OK) return failure(status);
+    return GlobeMesh(result);
   }
 
   Result<MeshTree> meshTree(tks_mesh_kind kind, uint32_t max_triangles) {

@@ -339,6 +339,43 @@ TEST(DecodeMemory, MeshesForCamerasStayBelowTheLimitThatLetsThemPass) {
     }
 }
 
+/// As are meshes round a globe.
+TEST(DecodeMemory, GlobesStayBelowTheLimitThatLetsThemPass) {
+  const Raster raster = make({Pattern::kRidges, 360, 180, 1, TKS_U16});
+  tks_heights heights = raster.heights();
+  heights.has_geotransform = 1;
+  const double transform[] = {-180, 1, 0, 90, 0, -1};
+  std::copy(std::begin(transform), std::end(transform), heights.geotransform);
+  const tks_globe globe = {sizeof globe, 1, 1, 0, 0};
+  tks_heights beside_voids = heights;
+  beside_voids.has_nodata = 1;
+  beside_voids.nodata = sampleAt(raster.data, raster.sample, 99);
+  for (const Bytes& bytes :
+       {encodeHeights(heights, lossless()), encodeHeights(beside_voids, lossless())})
+    for (const uint32_t triangles : {0u, 300u, 20000u, 500000u}) {
+      MeasuredCall measured;
+      measured.status = TKS_LIMIT;
+      for (measured.limit = 4 << 20; measured.status == TKS_LIMIT;
+           measured.limit += measured.limit / 4) {
+        tks_limits limits = {};
+        limits.size = sizeof limits;
+        limits.max_memory = measured.limit;
+        Stream stream(bytes, &limits);
+        if (stream.status() != TKS_OK) continue;
+        measured.peak = peakBytes([&] {
+          tks_globe_mesh mesh = {};
+          measured.status =
+              tks_decode_globe(stream.get(), TKS_MESH_BUDGET, triangles, &globe, &mesh);
+          tks_free_globe_mesh(&mesh);
+        });
+        if (measured.status == TKS_OK) {
+          EXPECT_LE(measured.peak, measured.limit) << triangles;
+        }
+      }
+      EXPECT_EQ(measured.status, TKS_OK);
+    }
+}
+
 /// Levels and windows of streams in regions take memory in proportion to themselves.
 TEST(DecodeMemory, FollowsWhatIsAsked) {
   const Raster image = make({Pattern::kRidges, 1024, 1024, 3, TKS_U8});

@@ -28,6 +28,7 @@ class Desk {
     failAllocation(1);
     tks_free_buffer(&buffer);
     tks_free_mesh(&mesh);
+    tks_free_globe_mesh(&globe);
     tks_free_ranges(&ranges);
     tks_free_mesh_tree(tree);
     tks_close(decoder);
@@ -45,6 +46,10 @@ class Desk {
     add(mesh.grid_index, mesh.vertex_count * sizeof *mesh.grid_index);
     add(mesh.height, mesh.vertex_count * sizeof *mesh.height);
     add(mesh.triangles, 3 * mesh.triangle_count * sizeof *mesh.triangles);
+    add(globe.position, 3 * globe.vertex_count * sizeof *globe.position);
+    add(globe.pixel, 2 * globe.vertex_count * sizeof *globe.pixel);
+    add(globe.height, globe.vertex_count * sizeof *globe.height);
+    add(globe.triangles, 3 * globe.triangle_count * sizeof *globe.triangles);
     for (size_t i = 0; i < ranges.count; ++i) add(&ranges.ranges[i], 2 * sizeof(uint64_t));
     return all;
   }
@@ -62,6 +67,7 @@ class Desk {
   Bytes out;
   tks_buffer buffer = {};
   tks_mesh mesh = {};
+  tks_globe_mesh globe = {};
   tks_ranges ranges = {};
   tks_mesh_tree* tree = nullptr;
   char message[128] = "";

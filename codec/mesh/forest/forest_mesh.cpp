@@ -7,7 +7,7 @@
 #include "codec/mesh/gains/gains.hpp"
 #include "codec/mesh/surface/surface.hpp"
 
-namespace tetrakis::inline forest_mesh {
+namespace tetrakis::inline forest {
 
 namespace {
 
@@ -115,4 +115,4 @@ uint64_t forestMeshBytes(const Forest& forest) {
          kMoments * forest.side() * uint64_t{forest.side()};
 }
 
-}  // namespace tetrakis::inline forest_mesh
+}  // namespace tetrakis::inline forest

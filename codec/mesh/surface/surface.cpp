@@ -9,11 +9,6 @@ namespace tetrakis::inline surface {
 
 namespace {
 
-/// Index of the last sample of a side: the overhang of the lattice is clamped onto it.
-uint32_t lastOf(uint32_t size, uint32_t k) {
-  return (size - 2 + (uint32_t{1} << k)) >> k;
-}
-
 /// b and what lies around it with the weights 1 2 1.
 int32_t mean(int64_t a, int64_t b, int64_t c) {
   return static_cast<int32_t>((a + 2 * b + c + 2) >> 2);
@@ -28,9 +23,14 @@ int32_t beyond(int64_t a, int64_t b, uint32_t rest, uint32_t k) {
 
 }  // namespace
 
+/// The overhang of the lattice is clamped onto the last sample.
+uint32_t coarseSide(uint32_t side, uint32_t k) {
+  return ((side - 2 + (uint32_t{1} << k)) >> k) + 1;
+}
+
 CoarseSurface coarsen(const SurfaceView& surface, uint32_t k) {
   assert(surface.heights.size() == size_t{surface.width} * surface.height);
-  CoarseSurface coarse{lastOf(surface.width, k) + 1, lastOf(surface.height, k) + 1, {}};
+  CoarseSurface coarse{coarseSide(surface.width, k), coarseSide(surface.height, k), {}};
   coarse.heights.reserve(size_t{coarse.width} * coarse.height);
   for (uint32_t y = 0; y < coarse.height; ++y) {
     const size_t row = size_t{std::min(y << k, surface.height - 1)} * surface.width;
@@ -43,7 +43,7 @@ CoarseSurface coarsen(const SurfaceView& surface, uint32_t k) {
 CoarseSurface smoothed(const SurfaceView& surface) {
   assert(surface.heights.size() == size_t{surface.width} * surface.height);
   const uint32_t right = surface.width - 1, bottom = surface.height - 1;
-  CoarseSurface coarse{lastOf(surface.width, 1) + 1, lastOf(surface.height, 1) + 1, {}};
+  CoarseSurface coarse{coarseSide(surface.width, 1), coarseSide(surface.height, 1), {}};
   coarse.heights.reserve(size_t{coarse.width} * coarse.height);
   std::vector<int32_t> line(surface.width);
   for (uint32_t y = 0; y <= bottom + 1; y += 2) {
@@ -64,7 +64,7 @@ CoarseSurface smoothed(const SurfaceView& surface) {
 
 CoarseSurface ofMipLevel(std::span<const int32_t> level, uint32_t whole_width,
                          uint32_t whole_height, uint32_t k) {
-  CoarseSurface coarse{lastOf(whole_width, k) + 1, lastOf(whole_height, k) + 1, {}};
+  CoarseSurface coarse{coarseSide(whole_width, k), coarseSide(whole_height, k), {}};
   const uint32_t columns = ((whole_width - 1) >> k) + 1, rows = ((whole_height - 1) >> k) + 1;
   const uint32_t mask = (uint32_t{1} << k) - 1;
   assert(columns > 1 && rows > 1 && level.size() == size_t{columns} * rows);

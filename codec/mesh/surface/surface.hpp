@@ -49,6 +49,9 @@ struct CoarseSurface {
   SurfaceView view() const { return {width, height, heights}; }
 };
 
+/// Columns, or rows, of a coarse surface whose whole has `side` of them.
+uint32_t coarseSide(uint32_t side, uint32_t k);
+
 /// Columns 0, 2^k, 2 * 2^k ... and the last, rows likewise. Sides must be left with two samples.
 CoarseSurface coarsen(const SurfaceView& surface, uint32_t k);
 

@@ -304,6 +304,31 @@ class Mesh(ctypes.Structure):
     ]
 
 
+class Globe(ctypes.Structure):
+    """tks_globe."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("semi_major", c_double),
+        ("semi_minor", c_double),
+        ("degrees", c_double),
+        ("exaggeration", c_double),
+    ]
+
+
+class GlobeMesh(ctypes.Structure):
+    """tks_globe_mesh."""
+
+    _fields_ = [
+        ("vertex_count", c_uint32),
+        ("triangle_count", c_uint32),
+        ("position", POINTER(c_double)),
+        ("pixel", POINTER(c_double)),
+        ("height", POINTER(c_float)),
+        ("triangles", POINTER(c_uint32)),
+    ]
+
+
 class Pixel(ctypes.Structure):
     """tks_pixel."""
 
@@ -360,6 +385,8 @@ STRUCTS = {
     "tks_pixel": Pixel,
     "tks_ranges": Ranges,
     "tks_mesh": Mesh,
+    "tks_globe": Globe,
+    "tks_globe_mesh": GlobeMesh,
     "tks_screen_camera": ScreenCamera,
     "tks_screen": Screen,
     "tks_fetch": Fetch,
@@ -410,6 +437,11 @@ PROTOTYPES = {
     "tks_decode_mesh": (c_int, [c_void_p, c_int, c_uint32, POINTER(Mesh)]),
     "tks_free_mesh": (None, [POINTER(Mesh)]),
     "tks_decode_screen_mesh": (c_int, [c_void_p, POINTER(Screen), c_uint32, POINTER(Mesh)]),
+    "tks_decode_globe": (
+        c_int,
+        [c_void_p, c_int, c_uint32, POINTER(Globe), POINTER(GlobeMesh)],
+    ),
+    "tks_free_globe_mesh": (None, [POINTER(GlobeMesh)]),
     "tks_decode_mesh_tree": (c_int, [c_void_p, c_int, c_uint32, POINTER(c_void_p)]),
     "tks_view_mesh": (c_int, [c_void_p, POINTER(c_double), POINTER(Mesh)]),
     "tks_free_mesh_tree": (None, [c_void_p]),

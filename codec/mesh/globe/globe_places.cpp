@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/mesh/globe/globe_places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "base/portable_math.hpp"
+
+namespace tetrakis::inline globe {
+namespace {
+
+constexpr double kPole = 90;
+constexpr double kRowSlack = 1e-6;     // of a row: files write its height with few digits
+constexpr double kDegreeSlack = 1e-9;  // a tenth of a millimetre on the Earth
+
+/// Of an angle in degrees; exact at multiples of 90.
+struct Direction {
+  double cosine, sine;
+
+  explicit Direction(double degrees) {
+    const double quarters = std::round(degrees / 90);
+    const double rest = (degrees - 90 * quarters) * (std::numbers::pi / 180);
+    cosine = portable::cos(rest);
+    sine = portable::sin(rest);
+    const auto turns = static_cast<int>(quarters - 4 * std::floor(quarters / 4));
+    for (int turn = 0; turn < turns; ++turn) cosine = -std::exchange(sine, cosine);
+  }
+};
+
+}  // namespace
+
+bool GlobePlaces::onGlobe() const {
+  const double last = latitudes_.at(latitudes_.count - 1.0);
+  const double most = kPole + kRowSlack * std::abs(latitudes_.step);
+  return std::abs(latitudes_.first) <= most && std::abs(last) <= most;
+}
+
+std::optional<double> GlobePlaces::poleBeyond(double row, double outwards) const {
+  const double pole = latitudes_.step * outwards > 0 ? kPole : -kPole;
+  const double beyond = (pole - latitudes_.at(row)) / (latitudes_.step * outwards);
+  if (std::abs(beyond) <= kRowSlack) return row;
+  if (beyond > 1 + kRowSlack) return std::nullopt;
+  return row + outwards * beyond;
+}
+
+RoundGrid GlobePlaces::grid() const {
+  return {longitudes_.count, latitudes_.count, poleBeyond(0, -1),
+          poleBeyond(latitudes_.count - 1.0, 1)};
+}
+
+std::array<double, 3> GlobePlaces::at(const GridPlace& place, double height) const {
+  const double column = place.column < longitudes_.count ? place.column : 0;
+  double latitude = std::clamp(latitudes_.at(place.row), -kPole, kPole);
+  if (std::abs(latitude) > kPole - kDegreeSlack) latitude = std::copysign(kPole, latitude);
+  const Direction east(longitudes_.at(column)), north(latitude);
+  // N, the radius of curvature across the meridian, and its part along the axis.
+  const double a = spheroid_.equatorial, b = spheroid_.polar;
+  const double scaled_x = a * north.cosine, scaled_z = b * north.sine;
+  const double root = std::sqrt(scaled_x * scaled_x + scaled_z * scaled_z);
+  const double radius = (a * a / root + height) * north.cosine;
+  return {radius * east.cosine, radius * east.sine, (b * b / root + height) * north.sine};
+}
+
+}  // namespace tetrakis::inline globe
