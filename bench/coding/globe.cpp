@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_globe FILE...: global grids of heights, whose columns go round the Earth from pole to pole,
-// as planes and as cylinders: bytes at equal RMSE over the area of the Earth, bytes to the last
-// bit, and what is left of the seam between the last column and the first one.
+// as planes, as cylinders and on cubes: bytes at equal RMSE over the area of the Earth, bytes to the
+// last bit (of cubes: of their own samples), and what is left of the seam between the last
+// column and the first one. Errors of cubes are those of their grid: resampling has a part in them.
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -10,7 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/files.hpp"
+#include "apps/tools/files/stream.hpp"
 #include "base/samples.hpp"
 #include "bench/harness/arguments.hpp"
 #include "tetrakis/tetrakis.hpp"
@@ -21,6 +24,7 @@ namespace {
 struct Options {
   std::vector<std::string> files;
   std::vector<double> errors = {110, 80, 55};
+  uint32_t depth = 0;
 };
 
 std::vector<double> samplesOf(const tools::HeightFile& file, std::span<const std::byte> data) {
@@ -47,24 +51,23 @@ class Globe {
   explicit Globe(const tools::HeightFile& file)
       : file_(file), original_(samplesOf(file, file.data)) {}
 
-  /// bytes: 0, to the last bit.
-  Result<Buffer> coded(tks_domain domain, uint64_t bytes) const {
-    tks_heights heights = tools::asHeights(file_);
-    heights.domain = domain;
+  /// coded: the same heights on some domain. bytes: 0, to the last bit.
+  Result<Buffer> stream(const tools::HeightFile& coded, uint64_t bytes) const {
+    const tks_heights heights = tools::asHeights(coded);
     tks_encode_options options = makeEncodeOptions();
     options.bytes = bytes;
     options.lossless = bytes == 0;
     return encode(&heights, nullptr, options);
   }
 
-  Result<Figures> figures(tks_domain domain, uint64_t bytes) const {
-    const Result<Buffer> stream = coded(domain, bytes);
-    if (!stream.ok()) return stream.status();
-    Result<Decoder> decoder = Decoder::open(stream->bytes());
+  Result<Figures> figures(const tools::HeightFile& coded, uint64_t bytes) const {
+    const Result<Buffer> encoded = stream(coded, bytes);
+    if (!encoded.ok()) return encoded.status();
+    Result<Decoder> decoder = Decoder::open(encoded->bytes());
     if (!decoder.ok()) return decoder.status();
-    const Result<std::vector<std::byte>> samples = decoder->heights();
-    if (!samples.ok()) return samples.status();
-    const std::vector<double> values = samplesOf(file_, *samples);
+    const Result<tools::HeightFile> decoded = tools::decodeHeights(*decoder);
+    if (!decoded.ok()) return decoded.status();
+    const std::vector<double> values = samplesOf(file_, decoded->data);
     return Figures{rmse(values), jump(values)};
   }
   /// Between the two sides of the seam, as the ground has it.
@@ -102,11 +105,12 @@ struct AtError {
   Figures figures;
 };
 
-Result<AtError> atError(const Globe& globe, tks_domain domain, double error, uint64_t most) {
+Result<AtError> atError(const Globe& globe, const tools::HeightFile& coded, double error,
+                        uint64_t most) {
   AtError found{most, {0, globe.jump()}};
   for (uint64_t low = 0; found.bytes - low > 1 + found.bytes / 2000;) {
     const uint64_t middle = low + (found.bytes - low) / 2;
-    const Result<Figures> figures = globe.figures(domain, middle);
+    const Result<Figures> figures = globe.figures(coded, middle);
     if (!figures.ok()) return figures.status();
     if (figures->rmse <= error)
       found = {middle, *figures};
@@ -116,31 +120,38 @@ Result<AtError> atError(const Globe& globe, tks_domain domain, double error, uin
   return found;
 }
 
-const char* nameOf(tks_domain domain) {
-  return domain == TKS_DOMAIN_CYLINDER ? "cylinder" : "plane";
+Status measure(const Options& options, const Globe& globe, const tools::HeightFile& coded,
+               const char* name) {
+  const Result<Buffer> lossless = globe.stream(coded, 0);
+  if (!lossless.ok()) return lossless.status();
+  const uint64_t whole = lossless->bytes().size();
+  std::printf("%-9s to the last bit: %llu bytes\n", name, static_cast<unsigned long long>(whole));
+  for (const double error : options.errors) {
+    const Result<AtError> at = atError(globe, coded, error, whole);
+    if (!at.ok()) return at.status();
+    std::printf("  RMSE %5.1f: %7llu bytes, step at the seam %.1f\n", error,
+                static_cast<unsigned long long>(at->bytes), at->figures.seam);
+    std::fflush(stdout);
+  }
+  return {};
 }
 
 Status measure(const Options& options, const std::string& path) {
-  const Result<tools::HeightFile> file = tools::readHeights(path);
+  Result<tools::HeightFile> file = tools::readHeights(path);
   if (!file.ok()) return file.status();
   const Globe globe(*file);
   std::printf("%s: %u x %u, step at the seam %.1f\n", path.c_str(), file->width, file->height,
               globe.jump());
-  for (const tks_domain domain : {TKS_DOMAIN_PLANE, TKS_DOMAIN_CYLINDER}) {
-    const Result<Buffer> lossless = globe.coded(domain, 0);
-    if (!lossless.ok()) return lossless.status();
-    const uint64_t whole = lossless->bytes().size();
-    std::printf("%-9s to the last bit: %llu bytes\n", nameOf(domain),
-                static_cast<unsigned long long>(whole));
-    for (const double error : options.errors) {
-      const Result<AtError> at = atError(globe, domain, error, whole);
-      if (!at.ok()) return at.status();
-      std::printf("  RMSE %5.1f: %7llu bytes, step at the seam %.1f\n", error,
-                  static_cast<unsigned long long>(at->bytes), at->figures.seam);
-      std::fflush(stdout);
-    }
-  }
-  return {};
+  tools::HeightFile coded = *file;
+  if (Status status = measure(options, globe, coded, "plane"); !status.ok()) return status;
+  coded.domain = TKS_DOMAIN_CYLINDER;
+  if (Status status = measure(options, globe, coded, "cylinder"); !status.ok()) return status;
+  tools::CubeErrors errors;
+  const Result<tools::HeightFile> cube = tools::onCube(*file, options.depth, 1, errors);
+  if (!cube.ok()) return cube.status();
+  std::printf("cube of depth %u, resampled with an RMSE of %.2f, largest error %.0f\n",
+              cube->cube_depth, errors.rmse, errors.largest);
+  return measure(options, globe, *cube, "cube");
 }
 
 }  // namespace
@@ -149,9 +160,10 @@ Status measure(const Options& options, const std::string& path) {
 int main(int argc, char** argv) {
   using namespace tetrakis::bench;
   Options options;
-  Arguments arguments("Global grids of heights as planes and as cylinders.");
+  Arguments arguments("Global grids of heights as planes, as cylinders and on cubes.");
   arguments.required({"FILE", "global grids"}, options.files);
   arguments.numbers({"--errors", "RMSEs over the area of the Earth"}, options.errors);
+  arguments.within({"--depth", "of the cube; 0: chosen"}, options.depth, 0, TKS_MOST_CUBE_DEPTH);
   if (const auto code = arguments.parse(argc, argv)) return *code;
   for (const std::string& file : options.files) {
     const tetrakis::Status status = measure(options, file);

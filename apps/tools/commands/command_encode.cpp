@@ -13,6 +13,7 @@
 #include "apps/tools/commands/encode_notes.hpp"
 #include "apps/tools/commands/explained_plans.hpp"
 #include "apps/tools/commands/notes.hpp"
+#include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/place/given_crs.hpp"
 #include "apps/tools/files/place/ground_positions.hpp"
@@ -117,6 +118,17 @@ void addPlaces(const EncodeArguments& arguments, Reference& inputs, bool quiet) 
   const std::string remark = addPositions(heights, image, expected / kShare);
   const std::string& name = heights ? arguments.height : arguments.texture;
   if (!remark.empty()) tellNote(quoted(name) + ": " + remark, quiet);
+}
+
+/// Takes heights to a cube, if one is asked for.
+Status resample(const EncodeArguments& arguments, Reference& inputs, bool quiet) {
+  if (arguments.domain != "cube") return Status();
+  CubeErrors errors;
+  Result<HeightFile> cube = onCube(*inputs.heights, arguments.depth, arguments.threads, errors);
+  if (!cube.ok()) return cube.status();
+  tellNote(cubeNote(*cube, errors), quiet);
+  inputs.heights = std::move(*cube);
+  return Status();
 }
 
 /// Those that are asked for; none: the library looks from all sides.
@@ -272,6 +284,7 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
   Result<Reference> inputs = readInputs(arguments, quiet);
   if (!inputs.ok()) return inputs.status();
   addPlaces(arguments, *inputs, quiet);
+  if (Status status = resample(arguments, *inputs, quiet); !status.ok()) return status;
   if (Status status = checkEncodeMemory(arguments, *inputs); !status.ok()) return status;
   ExplainedPlans plans;
   const Result<Buffer> stream = encodeInputs(arguments, *inputs, quiet, plans);
