@@ -104,6 +104,8 @@ Status checkHeights(const tks_heights& h) {
       !std::isfinite(h.spacing_x) || !std::isfinite(h.spacing_y)) {
     return misuse("Step and spacing of the heights must be finite and not negative.");
   }
+  if (!(std::abs(h.first_latitude) <= 180) || !(std::abs(h.last_latitude) <= 180))
+    return misuse("The latitudes of the heights must lie within +-180 degrees.");
   if (Status place = checkPlace("heights", h); !place.ok()) return place;
   const Status forest = checkForest("plane of heights", h, tks_sample_bytes(h.sample));
   if (!forest.ok()) return forest;
@@ -176,11 +178,10 @@ Status checkOnForests(const tks_heights* heights, const tks_image* image,
   if (o.regions > 1 || o.index == TKS_INDEX_WINDOWS)
     return misuse("On a forest there are no regions.");
   if (heights == nullptr || image == nullptr) return {};
-  const bool alike = onForest(heights) && onForest(image) &&
-                     heights->forest.patches == image->forest.patches &&
-                     std::equal(heights->forest.sides,
-                                heights->forest.sides + 4 * size_t{heights->forest.patches},
-                                image->forest.sides);
+  const bool alike =
+      onForest(heights) && onForest(image) && heights->forest.patches == image->forest.patches &&
+      std::equal(heights->forest.sides, heights->forest.sides + 4 * size_t{heights->forest.patches},
+                 image->forest.sides);
   if (alike) return {};
   return misuse("Heights and texture on a forest have patches that are glued alike.");
 }

@@ -225,8 +225,8 @@ Status decodeForestMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_t
   const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
   if (!decoded.ok()) return decoded.status();
   const ForestLattice lattice(forest);
-  LatticeMesh mesh = meshOf(
-      lattice, chosenVertices(lattice, (*decoded)->geometry, kind, max_triangles));
+  LatticeMesh mesh =
+      meshOf(lattice, chosenVertices(lattice, (*decoded)->geometry, kind, max_triangles));
   std::vector<float> heights = surfaceAtVertices(decoder, **decoded, mesh);
   leaveOutVoids(mesh, heights);
   copyMesh(mesh, heights, out);

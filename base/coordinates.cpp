@@ -136,6 +136,18 @@ ColumnsRound columnsRound(const PlacedRaster& raster, double degrees) {
   return std::abs(more - 1) < kTolerance ? ColumnsRound::kRepeating : ColumnsRound::kNo;
 }
 
+std::array<double, 2> edgeLatitudes(const PlacedRaster& raster, double degrees) {
+  /// Edges of samples at a pole lie behind it. What is farther off is no latitude.
+  constexpr double kFarthest = 180;
+  if (raster.geotransform == nullptr) return {};
+  const double* const transform = raster.geotransform;
+  const double first = transform[3] * degrees;
+  const double last = first + raster.height * transform[5] * degrees;
+  const bool placed = std::abs(first) <= kFarthest && std::abs(last) <= kFarthest;
+  if (transform[2] != 0 || transform[4] != 0 || !placed) return {};
+  return {first, last};
+}
+
 double fineness(const PlacedRaster& ground, const PlacedRaster& raster) {
   const double *const g = ground.geotransform, *const t = raster.geotransform;
   if (t == nullptr)

@@ -4,6 +4,7 @@
 // reference system, and liesOn() compares the places of two rasters.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -38,7 +39,7 @@ std::optional<double> metresPerUnit(std::string_view unit);
 std::string lengthName(double metres);
 
 // liesOn() and fineness() compare two rasters on one ground: whether one lies on the other, and how
-// much finer it is. columnsRound() looks at one alone.
+// much finer it is. columnsRound() and edgeLatitudes() look at one alone.
 
 /// A raster and its geotransform, as GDAL has it: six numbers, from columns and rows to x and y.
 struct PlacedRaster {
@@ -60,6 +61,11 @@ enum class ColumnsRound : uint8_t {
 /// degrees: in the unit of the raster's x and y; 0 where x and y are no angles. Grids without a
 /// geotransform, with a gap, or that overlap by other than a column do not go round.
 ColumnsRound columnsRound(const PlacedRaster& raster, double degrees);
+
+/// The latitudes of the outer edges of the first row and of the last one, in degrees, as tks_heights
+/// takes them; degrees: as above. Both 0 where x and y are no angles, rows are no parallels, or y is
+/// no latitude.
+std::array<double, 2> edgeLatitudes(const PlacedRaster& raster, double degrees);
 
 /// How many samples of a raster lie along one of the ground that is under it, at least 1.
 double fineness(const PlacedRaster& ground, const PlacedRaster& raster);

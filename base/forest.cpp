@@ -135,8 +135,7 @@ Forest::Place Forest::owner(int64_t n, const Place& sample) const {
   if ((west || east) && (north || south)) {
     const uint32_t corner = first + (north ? (west ? kNw : kNe) : (west ? kSw : kSe));
     const uint32_t owner = corner_owners_[corner], kind = owner % kSides;
-    return {owner / kSides, kind == kNe || kind == kSe ? n : 0,
-            kind == kSe || kind == kSw ? n : 0};
+    return {owner / kSides, kind == kNe || kind == kSe ? n : 0, kind == kSe || kind == kSw ? n : 0};
   }
   if (!west && !east && !north && !south) return sample;
   const uint32_t side = first + (north ? kNorth : east ? kEast : south ? kSouth : kWest);

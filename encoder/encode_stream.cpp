@@ -117,6 +117,15 @@ Result<Selection> codeForTarget(const EncodeInputs& inputs) {
   return meetTarget(inputs, std::move(coded->heights), std::move(coded->texture));
 }
 
+/// What comes first: beside a texture what cameras look at, of heights alone what lies on much
+/// ground. A PSNR and a largest error count all samples alike.
+Priorities prioritiesOf(const EncodeInputs& inputs) {
+  const bool alike = inputs.options.psnr > 0 || inputs.options.max_error > 0;
+  if (alike || inputs.heights == nullptr) return {};
+  if (inputs.image != nullptr) return viewPriorities(inputs);
+  return {areaPriorities(inputs), {}};
+}
+
 /// Maps of priorities may take so large a part of the budget that they do not pay. Of a larger
 /// budget they take too little to be in doubt (docs/EXPERIMENTS.md), and coding twice takes twice
 /// the time.
@@ -125,10 +134,9 @@ bool mapsAreInDoubt(const EncodeInputs& inputs, const Selection& with) {
          bytesOfMaps(with) * kCertain > inputs.options.bytes;
 }
 
-/// The same as codeForTarget(), with the maps of priorities for the cameras, unless the maps do not
-/// pay.
+/// The same as codeForTarget(), with the maps of priorities, unless those for cameras do not pay.
 Result<Selection> codeWithPriorities(const EncodeInputs& inputs) {
-  const ViewPriorities priorities = prioritiesOf(inputs);
+  const Priorities priorities = prioritiesOf(inputs);
   Result<Selection> with = codeForTarget(inputs.with(inputs.options, &priorities));
   if (!with.ok() || !mapsAreInDoubt(inputs, *with)) return with;
   Result<Selection> without = codeForTarget(inputs.with(inputs.options, nullptr));

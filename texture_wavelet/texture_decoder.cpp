@@ -191,8 +191,8 @@ Texels decodeForest(const TextureHeader& header, const Codewords& codewords, con
                     const DecodeContext<TextureMemory>& context) {
   assert(view.level == 0);
   Texels texels = decodeLines(header, codewords, {}, context);
-  shareOwned(*header.wavelet.forest, std::span(texels.samples),
-             header.wavelet.forest->side() - 1, texels.channels);
+  shareOwned(*header.wavelet.forest, std::span(texels.samples), header.wavelet.forest->side() - 1,
+             texels.channels);
   if (!view.window) return texels;
   const Window& window = *view.window;
   std::vector<uint16_t> shown;

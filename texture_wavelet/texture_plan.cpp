@@ -92,8 +92,7 @@ uint32_t modelsOf(const TextureHeader& header, uint32_t plane) {
 
 TexturePlan::TexturePlan(const TextureHeader& header, const SharedBits& coded,
                          const std::optional<SynthesisNorms>& norms)
-    : layout_(specOf(header.wavelet),
-              pyramidOf(specOf(header.wavelet), coded, header.extent()),
+    : layout_(specOf(header.wavelet), pyramidOf(specOf(header.wavelet), coded, header.extent()),
               priorityMapOf(header.priorities, header.extent()), norms),
       regions_(regionsOf(header.width, header.height, header.regions.side_log2)),
       weights_(header.weights) {

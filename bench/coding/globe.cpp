@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_globe FILE...: global grids of heights, whose columns go round the Earth from pole to pole,
-// as planes, as cylinders and on cubes: bytes at equal RMSE over the area of the Earth, bytes to the
-// last bit (of cubes: of their own samples), and what is left of the seam between the last
-// column and the first one. Errors of cubes are those of their grid: resampling has a part in them.
+// as planes and as cylinders, with equal samples and with equal areas, and on cubes: bytes at equal
+// RMSE over the area of the Earth, bytes to the last bit (of cubes: of their own samples), and what
+// is left of the seam between the last column and the first one. Errors on cubes are those of the
+// grid that is made of them, what is lost by resampling among them.
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <numbers>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/files.hpp"
+#include "apps/tools/files/place/ground_spacing.hpp"
 #include "apps/tools/files/stream.hpp"
 #include "base/samples.hpp"
 #include "bench/harness/arguments.hpp"
@@ -40,6 +44,28 @@ std::vector<double> samplesOf(const tools::HeightFile& file, std::span<const std
   return values;
 }
 
+/// How a grid is coded.
+struct Coding {
+  const char* name;
+  tools::HeightFile heights;
+  bool by_area;  ///< the encoder is told the latitudes
+};
+
+Result<std::vector<Coding>> codingsOf(const tools::HeightFile& grid, uint32_t cube_depth) {
+  tools::HeightFile ring = grid;
+  ring.domain = TKS_DOMAIN_CYLINDER;
+  tools::CubeErrors errors;
+  Result<tools::HeightFile> cube = tools::onCube(grid, cube_depth, 1, errors);
+  if (!cube.ok()) return cube.status();
+  std::printf("cube of depth %u: resampled with an RMSE of %.2f, largest error %.0f\n",
+              cube->cube_depth, errors.rmse, errors.largest);
+  return std::vector<Coding>{{"plane", grid, false},
+                             {"plane, weights", grid, true},
+                             {"cylinder", ring, false},
+                             {"cylinder, weights", ring, true},
+                             {"cube", std::move(*cube), false}};
+}
+
 /// How decoded samples are off: over the area of the Earth, and from one side of the seam to the
 /// other, as root mean squares.
 struct Figures {
@@ -49,21 +75,27 @@ struct Figures {
 class Globe {
  public:
   explicit Globe(const tools::HeightFile& file)
-      : file_(file), original_(samplesOf(file, file.data)) {}
+      : file_(file),
+        latitudes_(tools::edgeLatitudes(file, file.height)),
+        original_(samplesOf(file, file.data)) {}
 
-  /// coded: the same heights on some domain. bytes: 0, to the last bit.
-  Result<Buffer> stream(const tools::HeightFile& coded, uint64_t bytes) const {
-    const tks_heights heights = tools::asHeights(coded);
+  /// bytes: 0, to the last bit.
+  Result<Buffer> coded(const Coding& coding, uint64_t bytes) const {
+    tks_heights heights = tools::asHeights(coding.heights);
+    if (coding.by_area) {
+      heights.first_latitude = latitudes_[0];
+      heights.last_latitude = latitudes_[1];
+    }
     tks_encode_options options = makeEncodeOptions();
     options.bytes = bytes;
     options.lossless = bytes == 0;
     return encode(&heights, nullptr, options);
   }
 
-  Result<Figures> figures(const tools::HeightFile& coded, uint64_t bytes) const {
-    const Result<Buffer> encoded = stream(coded, bytes);
-    if (!encoded.ok()) return encoded.status();
-    Result<Decoder> decoder = Decoder::open(encoded->bytes());
+  Result<Figures> figures(const Coding& coding, uint64_t bytes) const {
+    const Result<Buffer> stream = coded(coding, bytes);
+    if (!stream.ok()) return stream.status();
+    Result<Decoder> decoder = Decoder::open(stream->bytes());
     if (!decoder.ok()) return decoder.status();
     const Result<tools::HeightFile> decoded = tools::decodeHeights(*decoder);
     if (!decoded.ok()) return decoded.status();
@@ -96,6 +128,7 @@ class Globe {
   }
 
   const tools::HeightFile& file_;
+  std::array<double, 2> latitudes_;
   std::vector<double> original_;
 };
 
@@ -105,12 +138,11 @@ struct AtError {
   Figures figures;
 };
 
-Result<AtError> atError(const Globe& globe, const tools::HeightFile& coded, double error,
-                        uint64_t most) {
+Result<AtError> atError(const Globe& globe, const Coding& coding, double error, uint64_t most) {
   AtError found{most, {0, globe.jump()}};
   for (uint64_t low = 0; found.bytes - low > 1 + found.bytes / 2000;) {
     const uint64_t middle = low + (found.bytes - low) / 2;
-    const Result<Figures> figures = globe.figures(coded, middle);
+    const Result<Figures> figures = globe.figures(coding, middle);
     if (!figures.ok()) return figures.status();
     if (figures->rmse <= error)
       found = {middle, *figures};
@@ -120,38 +152,29 @@ Result<AtError> atError(const Globe& globe, const tools::HeightFile& coded, doub
   return found;
 }
 
-Status measure(const Options& options, const Globe& globe, const tools::HeightFile& coded,
-               const char* name) {
-  const Result<Buffer> lossless = globe.stream(coded, 0);
-  if (!lossless.ok()) return lossless.status();
-  const uint64_t whole = lossless->bytes().size();
-  std::printf("%-9s to the last bit: %llu bytes\n", name, static_cast<unsigned long long>(whole));
-  for (const double error : options.errors) {
-    const Result<AtError> at = atError(globe, coded, error, whole);
-    if (!at.ok()) return at.status();
-    std::printf("  RMSE %5.1f: %7llu bytes, step at the seam %.1f\n", error,
-                static_cast<unsigned long long>(at->bytes), at->figures.seam);
-    std::fflush(stdout);
-  }
-  return {};
-}
-
 Status measure(const Options& options, const std::string& path) {
-  Result<tools::HeightFile> file = tools::readHeights(path);
+  const Result<tools::HeightFile> file = tools::readHeights(path);
   if (!file.ok()) return file.status();
   const Globe globe(*file);
   std::printf("%s: %u x %u, step at the seam %.1f\n", path.c_str(), file->width, file->height,
               globe.jump());
-  tools::HeightFile coded = *file;
-  if (Status status = measure(options, globe, coded, "plane"); !status.ok()) return status;
-  coded.domain = TKS_DOMAIN_CYLINDER;
-  if (Status status = measure(options, globe, coded, "cylinder"); !status.ok()) return status;
-  tools::CubeErrors errors;
-  const Result<tools::HeightFile> cube = tools::onCube(*file, options.depth, 1, errors);
-  if (!cube.ok()) return cube.status();
-  std::printf("cube of depth %u, resampled with an RMSE of %.2f, largest error %.0f\n",
-              cube->cube_depth, errors.rmse, errors.largest);
-  return measure(options, globe, *cube, "cube");
+  const Result<std::vector<Coding>> codings = codingsOf(*file, options.depth);
+  if (!codings.ok()) return codings.status();
+  for (const Coding& coding : *codings) {
+    const Result<Buffer> lossless = globe.coded(coding, 0);
+    if (!lossless.ok()) return lossless.status();
+    const uint64_t whole = lossless->bytes().size();
+    std::printf("%-17s to the last bit: %llu bytes\n", coding.name,
+                static_cast<unsigned long long>(whole));
+    for (const double error : options.errors) {
+      const Result<AtError> at = atError(globe, coding, error, whole);
+      if (!at.ok()) return at.status();
+      std::printf("  RMSE %5.1f: %7llu bytes, step at the seam %.1f\n", error,
+                  static_cast<unsigned long long>(at->bytes), at->figures.seam);
+      std::fflush(stdout);
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -160,7 +183,8 @@ Status measure(const Options& options, const std::string& path) {
 int main(int argc, char** argv) {
   using namespace tetrakis::bench;
   Options options;
-  Arguments arguments("Global grids of heights as planes, as cylinders and on cubes.");
+  Arguments arguments(
+      "Global grids of heights as planes and as cylinders, by samples and by area, and on cubes.");
   arguments.required({"FILE", "global grids"}, options.files);
   arguments.numbers({"--errors", "RMSEs over the area of the Earth"}, options.errors);
   arguments.within({"--depth", "of the cube; 0: chosen"}, options.depth, 0, TKS_MOST_CUBE_DEPTH);

@@ -32,8 +32,8 @@ inline Domain domainOf(const WaveletHeader& wavelet, Extent extent) {
 inline ListedComponent listed(const StreamHeader& header, Component component) {
   const bool heights = component == Component::kGeometry;
   const auto fill = [&](const auto& of, uint8_t kind) {
-    return ListedComponent{component, kind, domainOf(of.wavelet, of.shown()),
-                           of.regions.side_log2, ""};
+    return ListedComponent{component, kind, domainOf(of.wavelet, of.shown()), of.regions.side_log2,
+                           ""};
   };
   return heights ? fill(*header.geometry, ListedComponent::kHeights)
                  : fill(*header.texture, ListedComponent::kColours);

@@ -60,10 +60,10 @@ struct Domain {
   static constexpr uint8_t kCylinder = 1;  ///< a grid whose last column lies beside its first one
   static constexpr uint8_t kForest = 2;    ///< patches, in a raster one below the other
 
-  uint8_t kind = kGrid;         ///< others are not known: components on them are passed over
-  Extent grid = {0, 0};         ///< of those that are known: columns and rows
-  SharedForest forest = {};     ///< of a forest alone
-  uint64_t number = 0;          ///< of others, which are told apart by it: as it was read
+  uint8_t kind = kGrid;      ///< others are not known: components on them are passed over
+  Extent grid = {0, 0};      ///< of those that are known: columns and rows
+  SharedForest forest = {};  ///< of a forest alone
+  uint64_t number = 0;       ///< of others, which are told apart by it: as it was read
 
   bool isKnown() const { return kind <= kForest; }
   bool operator==(const Domain& other) const {

@@ -145,8 +145,9 @@ Status checkForests(const StreamHeader& header) {
     all &= !header.texture->hidden && header.texture->overlay_bytes == 0 &&
            header.texture->bridge == 0;
   if (all) return {};
-  return {TKS_CORRUPT, "Corrupt stream: a forest has regions, repeated lines, flat areas or voids "
-                       "that are not lifted."};
+  return {TKS_CORRUPT,
+          "Corrupt stream: a forest has regions, repeated lines, flat areas or voids "
+          "that are not lifted."};
 }
 
 /// A decoder may lack what it takes for the components of a later version.

@@ -104,9 +104,9 @@ std::vector<BandPlan> PlaneLayout::plan(std::span<const BandPart> parts, int fir
       band.key_floor = priority;
     band.models = models + modelsOf(subband);
     const size_t parent = i - kBandsPerLevel;  // LL is nobody's
-    const bool has_parent =
-        i >= kBandsPerLevel && isParent(subbands()[parts[parent].subband], subband) &&
-        !parts[parent].shape().empty();
+    const bool has_parent = i >= kBandsPerLevel &&
+                            isParent(subbands()[parts[parent].subband], subband) &&
+                            !parts[parent].shape().empty();
     if (has_parent) band.parent = first + static_cast<int>(parent);
     if (band.orientation != Orientation::kLL)
       band.siblings = siblingsOf(parts, i, band.orientation, first);

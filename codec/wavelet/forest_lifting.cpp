@@ -85,8 +85,12 @@ void ForestLifting::step(size_t round, JointStep step) {
   const size_t samples = size_t{width_} * width_;
   const bool doubled = doubled_ && round + 1 == jointRounds(id_);
   parallelFor(threads_, forest_.patches(), [&](size_t patch) {
-    const JointBlock block{patches_.data() + patch * samples, width_, {width_, width_},
-                           Ends::kMirrored, doubled, round};
+    const JointBlock block{patches_.data() + patch * samples,
+                           width_,
+                           {width_, width_},
+                           Ends::kMirrored,
+                           doubled,
+                           round};
     JointLifting(block, id_, direction_, wide_).run(step, margin_, margin_ + n_ + 1);
   });
   copyAll(shared_);

@@ -55,7 +55,7 @@ struct Subband {
   uint32_t x = 0, y = 0;           ///< column and row of the plane that the first coefficient is in
   int splits_x = 0, splits_y = 0;  ///< how often each direction was split down to this band
   uint32_t patch = 0;              ///< of a forest, that the band belongs to
-  uint32_t patch_row = 0;          ///< the row of the plane that the patch begins in; y counts from it
+  uint32_t patch_row = 0;  ///< the row of the plane that the patch begins in; y counts from it
 
   bool isHighX() const {
     return orientation == Orientation::kHL || orientation == Orientation::kHH;
@@ -76,7 +76,7 @@ struct Subband {
 /// The low band that is left after so many levels.
 struct LowBand {
   Extent extent;
-  uint32_t patch_rows;  ///< of each patch of a forest; else all rows
+  uint32_t patch_rows;             ///< of each patch of a forest; else all rows
   int splits_x = 0, splits_y = 0;  ///< how often each direction was split; at most once a level
 };
 

@@ -11,14 +11,14 @@ std::vector<uint32_t> decodeCorrections(std::span<const uint8_t> codeword, const
   RangeDecoder decoder(codeword);
   CorrectionDecoder corrections(decoder, plane);
   std::vector<uint32_t> decoded(plane.values.size(), 0);
-  for (int y = 0; y < plane.height; ++y) {
-    for (int x = 0; x < plane.width; ++x) {
-      if (!plane.isValid(x, y)) continue;
-      const size_t i = static_cast<size_t>(y) * plane.width + x;
-      const std::optional<uint32_t> correction = corrections.next(hints[i], x, y);
-      if (!correction) return decoded;
-      decoded[i] = *correction;
+  try {
+    for (int y = 0; y < plane.height; ++y) {
+      for (int x = 0; x < plane.width; ++x) {
+        const size_t i = plane.index(x, y);
+        if (plane.isValid(x, y)) decoded[i] = corrections.next(hints[i], x, y);
+      }
     }
+  } catch (Undecided) {
   }
   return decoded;
 }

@@ -7,7 +7,6 @@
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
-#include <optional>
 #include <vector>
 
 #include "conformance/reference_decoder/range_decoder.hpp"
@@ -23,11 +22,9 @@ class CorrectionDecoder {
     corrections_.assign(plane_.values.size(), 0);
   }
 
-  /// The correction of the next valid sample; nothing if a decision does not count.
-  std::optional<uint32_t> next(int hint, int x, int y) {
-    const std::optional<uint32_t> correction = one(hint, x, y);
-    if (correction) corrections_[static_cast<size_t>(y) * plane_.width + x] = *correction;
-    return correction;
+  /// The correction of the next valid sample.
+  uint32_t next(int hint, int x, int y) {
+    return corrections_[static_cast<size_t>(y) * plane_.width + x] = one(hint, x, y);
   }
 
  private:
@@ -42,32 +39,21 @@ class CorrectionDecoder {
   }
   int signAt(int x, int y) const { return (at(x, y) > 0) - (at(x, y) < 0); }
 
-  std::optional<uint32_t> one(int hint, int x, int y) {
+  uint32_t one(int hint, int x, int y) {
     const int n = 2 * classAt(x - 1, y) + 2 * classAt(x, y - 1) + classAt(x - 1, y - 1) +
                   classAt(x + 1, y - 1);
     const int m = n < 6 ? n : std::min(6 + (n - 6) / 12, 9);
     const int t = 27 * signAt(x - 1, y) + 9 * signAt(x, y - 1) + 3 * signAt(x - 1, y - 1) +
                   signAt(x + 1, y - 1);
-    int bits = 0;
-    for (; bits < 32; ++bits) {
-      Model& model = bits == 0 && m < 6
-                         ? any_[static_cast<size_t>((hint * 6 + m) * 41 + std::abs(t))]
-                         : unary_[static_cast<size_t>((hint * 10 + m) * 32 + bits)];
-      const std::optional<int> more = model.decode(decoder_);
-      if (!more) return std::nullopt;
-      if (!*more) break;
-    }
+    const int bits = ones(32, [&](int i) {
+      Model& model = i == 0 && m < 6 ? any_[static_cast<size_t>((hint * 6 + m) * 41 + std::abs(t))]
+                                     : unary_[static_cast<size_t>((hint * 10 + m) * 32 + i)];
+      return model.decode(decoder_);
+    });
     if (bits == 0) return 0;
-    const std::optional<int> sign = sign_[static_cast<size_t>(std::abs(t))].decode(decoder_);
-    if (!sign) return std::nullopt;
-    uint32_t magnitude = 1;
-    for (int i = 1; i < bits; ++i) {
-      const std::optional<int> bit =
-          i == 1 ? high_[static_cast<size_t>(bits)].decode(decoder_) : decoder_.decode(1 << 15);
-      if (!bit) return std::nullopt;
-      magnitude = 2 * magnitude + static_cast<uint32_t>(*bit);
-    }
-    return (*sign != 0) != (t < 0) ? 0 - magnitude : magnitude;
+    const int sign = sign_[static_cast<size_t>(std::abs(t))].decode(decoder_);
+    const uint32_t magnitude = digits(decoder_, bits, high_);
+    return (sign != 0) != (t < 0) ? 0 - magnitude : magnitude;
   }
 
   RangeDecoder& decoder_;

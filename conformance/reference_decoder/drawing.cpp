@@ -9,44 +9,28 @@
 namespace tetrakis::reference {
 namespace {
 
-/// Thrown away with the vertex: the decision that was asked for does not count.
-struct TrackEnd {};
-
-int counted(std::optional<int> bit) {
-  if (!bit) throw TrackEnd{};
-  return *bit;
-}
-
 uint32_t hash(uint32_t context, int bits) {
   return (context * 2654435761u) >> (32 - bits);
 }
 
 }  // namespace
 
-Offset Drawing::coarser(bool centre, int s, int i) {
-  constexpr Offset kFirst[] = {{1, 0}, {2, 1}, {1, 2}};
-  Offset o = kFirst[i / 4];
-  for (int turn = 0; turn < i % 4; ++turn) o = {-o.y, o.x};
-  if (centre) o = {o.x - o.y, o.x + o.y};
-  return {s * o.x, s * o.y};
-}
-
 void Drawing::decodeIndices() {
   try {
-    forEachVertex([&](bool centre, int s, int x, int y) {
-      if (isValid(at(x, y))) indices_[at(x, y)] = next(candidatesOf(centre, s, x, y), centre);
+    forEachVertex(width_, height_, [&](const Vertex& v) {
+      if (isValid(at(v.x, v.y))) indices_[at(v.x, v.y)] = next(candidatesOf(v), v.centre);
     });
-  } catch (TrackEnd) {
+  } catch (Undecided) {
   }
 }
 
-std::vector<Candidate> Drawing::candidatesOf(bool centre, int s, int x, int y) const {
+std::vector<Candidate> Drawing::candidatesOf(const Vertex& v) const {
   std::vector<Candidate> found;
   uint32_t bit = 1;
   const auto meet = [&](Offset o) {
-    const bool there = inside(x + o.x, y + o.y) && isValid(at(x + o.x, y + o.y));
-    if (there) {
-      const int index = indices_[at(x + o.x, y + o.y)];
+    const int x = v.x + o.x, y = v.y + o.y;
+    if (inside(x, y) && isValid(at(x, y))) {
+      const int index = indices_[at(x, y)];
       auto same = std::find_if(found.begin(), found.end(),
                                [&](const Candidate& c) { return c.index == index; });
       if (same == found.end()) same = found.insert(found.end(), Candidate{index});
@@ -54,11 +38,11 @@ std::vector<Candidate> Drawing::candidatesOf(bool centre, int s, int x, int y) c
     }
     bit *= 2;
   };
-  if (s == 0) return found;
-  for (int i = 0; i < 4; ++i) meet(coarser(centre, s, i));
-  meet(centre ? Offset{-2 * s, 0} : Offset{-s, -s});
-  meet(centre ? Offset{0, -2 * s} : Offset{s, -s});
-  for (int i = 4; i < 12; ++i) meet(coarser(centre, s, i));
+  if (v.s == 0) return found;
+  for (int i = 0; i < 4; ++i) meet(v.coarser(i));
+  meet(v.c1());
+  meet(v.c2());
+  for (int i = 4; i < 12; ++i) meet(v.coarser(i));
   std::stable_sort(found.begin(), found.end(),
                    [](const Candidate& a, const Candidate& b) { return a.votes() > b.votes(); });
   return found;
@@ -68,7 +52,7 @@ int Drawing::next(const std::vector<Candidate>& candidates, bool centre) {
   for (size_t i = 0; i < std::min<size_t>(candidates.size(), 3); ++i) {
     if (isCandidate(candidates, i, centre)) return candidates[i].index;
   }
-  if (listed() == 0 || (listed() < 4096 && decide(fresh_))) {
+  if (listed() == 0 || (listed() < 4096 && fresh_.decode(decoder_))) {
     append(candidates);
     return static_cast<int>(listed()) - 1;
   }
@@ -96,7 +80,7 @@ bool Drawing::isCandidate(const std::vector<Candidate>& candidates, size_t i, bo
   Model* const models[5] = {shape[0], shape[1], shape[2],
                             &slope_[hash(slopeOf(candidates, i, asked), 16)],
                             &trio_[hash(trio, 16)]};
-  return mix(models, weights_[4 * asked + std::min<size_t>(n, 4) - 1]) != 0;
+  return decodeMixed(decoder_, models, weights_[4 * asked + std::min<size_t>(n, 4) - 1]) != 0;
 }
 
 uint32_t Drawing::slopeOf(const std::vector<Candidate>& candidates, size_t i,
@@ -119,18 +103,13 @@ int Drawing::known(const std::vector<Candidate>& candidates) {
   while (node < 4096) {
     Model* const models[3] = {&pair_[hash((k1 * 4099 + k2) * 4099 + node, 18)],
                               &single_[hash(k1 * 4099 + node, 16)], &plain_[node]};
-    node = 2 * node + static_cast<uint32_t>(mix(models, known_weights_));
+    node = 2 * node + static_cast<uint32_t>(decodeMixed(decoder_, models, known_weights_));
   }
   return std::min(static_cast<int>(node) - 4096, static_cast<int>(listed()) - 1);
 }
 
 int32_t Drawing::residual(std::span<Model> models) {
-  size_t size = 0;
-  while (size < models.size() && decide(models[size])) ++size;
-  if (size == 0) return 0;
-  uint32_t magnitude = 1;
-  for (size_t i = 1; i < size; ++i) magnitude = 2 * magnitude + static_cast<uint32_t>(even());
-  return static_cast<int32_t>(even() ? 0 - magnitude : magnitude);
+  return static_cast<int32_t>(signedNumber(decoder_, models));
 }
 
 /// FORMAT 9.1: "The first of three models".
@@ -138,23 +117,11 @@ int Drawing::decide(const std::array<Model*, 3>& models) {
   Model* asked = models[2];
   if (models[1]->seen() >= 2) asked = models[1];
   if (models[0]->seen() >= 2) asked = models[0];
-  const int bit = decide(*asked);
+  const int bit = asked->decode(decoder_);
   for (Model* model : models) {
     if (model != asked) model->learn(bit);
   }
   return bit;
-}
-
-int Drawing::mix(std::span<Model* const> models, std::span<int64_t> weights) {
-  return counted(decodeMixed(decoder_, models, weights));
-}
-
-int Drawing::decide(Model& model) {
-  return counted(model.decode(decoder_));
-}
-
-int Drawing::even() {
-  return counted(decoder_.decode(0x8000));
 }
 
 }  // namespace tetrakis::reference

@@ -11,14 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "conformance/reference_decoder/lattice.hpp"
 #include "conformance/reference_decoder/mixed.hpp"
 #include "conformance/reference_decoder/range_decoder.hpp"
 
 namespace tetrakis::reference {
-
-struct Offset {
-  int x, y;
-};
 
 struct Candidate {
   int index;
@@ -66,41 +63,17 @@ class Drawing {
   size_t at(int x, int y) const { return static_cast<size_t>(y) * width_ + x; }
   bool isValid(size_t vertex) const { return valid_.empty() || valid_[vertex] != 0; }
 
-  /// FORMAT 8.1, the order of the vertices; s = 0 for roots.
-  template <class Visit>
-  void forEachVertex(Visit visit) const {
-    int root = 1;
-    while (root < std::max(width_, height_) - 1) root *= 2;
-    for (int y = 0; y < height_; y += root) {
-      for (int x = 0; x < width_; x += root) visit(false, 0, x, y);
-    }
-    for (int s = root / 2; s >= 1; s /= 2) {
-      for (int y = s; y < height_; y += 2 * s) {
-        for (int x = s; x < width_; x += 2 * s) visit(true, s, x, y);
-      }
-      for (int y = 0; y < height_; y += s) {
-        for (int x = y / s % 2 == 0 ? s : 0; x < width_; x += 2 * s) visit(false, s, x, y);
-      }
-    }
-  }
-
-  /// The i-th of the twelve offsets of FORMAT 8.1.
-  static Offset coarser(bool centre, int s, int i);
-
   int width_, height_;
   std::vector<uint8_t> valid_;
   std::vector<int> indices_;  ///< -1: none
 
  private:
-  std::vector<Candidate> candidatesOf(bool centre, int s, int x, int y) const;
+  std::vector<Candidate> candidatesOf(const Vertex& vertex) const;
   int next(const std::vector<Candidate>& candidates, bool centre);
   bool isCandidate(const std::vector<Candidate>& candidates, size_t i, bool centre);
   uint32_t slopeOf(const std::vector<Candidate>& candidates, size_t i, uint32_t asked) const;
   int known(const std::vector<Candidate>& candidates);
   int decide(const std::array<Model*, 3>& models);
-  int mix(std::span<Model* const> models, std::span<int64_t> weights);
-  int decide(Model& model);
-  int even();
 
   RangeDecoder decoder_;
   std::array<Model, 3 * 4 * 5 * 3 * 9 * 2> count_;

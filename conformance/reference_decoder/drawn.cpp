@@ -34,10 +34,9 @@ class DrawnDecoder : Drawing {
   std::vector<Colour> decode() {
     decodeIndices();
     std::vector<Colour> texels(indices_.size());
-    forEachVertex([&](bool centre, int s, int x, int y) {
-      const int index = indices_[at(x, y)];
-      texels[at(x, y)] =
-          index >= 0 ? colours_[static_cast<size_t>(index)] : meanOf(texels, centre, s, x, y);
+    forEachVertex(width_, height_, [&](const Vertex& v) {
+      const int index = indices_[at(v.x, v.y)];
+      texels[at(v.x, v.y)] = index >= 0 ? colours_[static_cast<size_t>(index)] : meanOf(texels, v);
     });
     return texels;
   }
@@ -69,17 +68,17 @@ class DrawnDecoder : Drawing {
   }
 
   /// FORMAT 9.1, "Fill".
-  Colour meanOf(const std::vector<Colour>& texels, bool centre, int s, int x, int y) const {
-    if (s == 0) return {half_, half_, half_, half_};
+  Colour meanOf(const std::vector<Colour>& texels, const Vertex& v) const {
+    if (v.s == 0) return {half_, half_, half_, half_};
     Colour sum = {};
     int k = 0;
     for (int i = 0; i < 4; ++i) {
-      const Offset o = coarser(centre, s, i);
-      if (!inside(x + o.x, y + o.y)) continue;
-      for (size_t c = 0; c < 4; ++c) sum[c] += texels[at(x + o.x, y + o.y)][c];
+      const Offset o = v.coarser(i);
+      if (!inside(v.x + o.x, v.y + o.y)) continue;
+      for (size_t c = 0; c < 4; ++c) sum[c] += texels[at(v.x + o.x, v.y + o.y)][c];
       ++k;
     }
-    for (int& v : sum) v = (v + k / 2) / k;
+    for (int& channel : sum) channel = (channel + k / 2) / k;
     return sum;
   }
 

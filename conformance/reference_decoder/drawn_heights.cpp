@@ -18,10 +18,10 @@ class DrawnHeights : Drawing {
   std::vector<int32_t> decode() {
     decodeIndices();
     std::vector<int32_t> values(indices_.size());
-    forEachVertex([&](bool centre, int s, int x, int y) {
-      const int index = indices_[at(x, y)];
-      values[at(x, y)] = index >= 0 ? wrap(int64_t{steps_[static_cast<size_t>(index)]} * 16)
-                                    : fill(values, centre, s, x, y);
+    forEachVertex(width_, height_, [&](const Vertex& v) {
+      const int index = indices_[at(v.x, v.y)];
+      values[at(v.x, v.y)] =
+          index >= 0 ? wrap(int64_t{steps_[static_cast<size_t>(index)]} * 16) : fill(values, v);
     });
     for (size_t i = 0; i < values.size(); ++i) {
       if (!isValid(i)) values[i] = 0;
@@ -52,13 +52,13 @@ class DrawnHeights : Drawing {
   }
 
   /// FORMAT 8.4, "Fill".
-  int32_t fill(const std::vector<int32_t>& values, bool centre, int s, int x, int y) const {
-    if (s == 0) return 0;
+  int32_t fill(const std::vector<int32_t>& values, const Vertex& v) const {
+    if (v.s == 0) return 0;
     std::vector<int64_t> all, valid;
     for (int i = 0; i < 4; ++i) {
-      const Offset o = coarser(centre, s, i);
-      if (!inside(x + o.x, y + o.y)) continue;
-      const size_t near = at(x + o.x, y + o.y);
+      const Offset o = v.coarser(i);
+      if (!inside(v.x + o.x, v.y + o.y)) continue;
+      const size_t near = at(v.x + o.x, v.y + o.y);
       all.push_back(values[near]);
       if (isValid(near)) valid.push_back(values[near]);
     }

@@ -72,7 +72,7 @@ struct Nearby {
   int spread() const { return bitsOf(std::abs(w - nw) + std::abs(n - nw) + std::abs(n - ne)); }
 };
 
-/// The correction of a sample; nothing if a decision does not count.
+/// The correction of a sample.
 class ExactCorrections {
  public:
   explicit ExactCorrections(RangeDecoder& decoder) : decoder_(decoder) {
@@ -80,56 +80,29 @@ class ExactCorrections {
     for (auto& weights : farWeights_) weights.fill(kFirstWeight);
   }
 
-  std::optional<uint32_t> next(const Nearby& nearby, int l, int g) {
+  uint32_t next(const Nearby& nearby, int l, int g) {
     nearby_ = &nearby;
     z_ = 8 * l + g;
     const int64_t far[3] = {nearby.w, nearby.n, nearby.ne};
     for (int i = 0; i < 3; ++i) {
       if (std::abs(far[i]) <= 8 || std::find(far, far + i, far[i]) != far + i) continue;
-      const std::optional<int> same = askFar(i, far[i], l);
-      if (!same) return std::nullopt;
-      if (*same) return static_cast<uint32_t>(far[i]);
+      if (askFar(i, far[i], l)) return static_cast<uint32_t>(far[i]);
     }
-    const std::optional<int> any = ask(0, 0, 0);
-    if (!any) return std::nullopt;
-    if (*any == 0) return 0;
-    const std::optional<int> negative = ask(1, 1, 0);
-    if (!negative) return std::nullopt;
-    const int s = *negative ? -1 : 1;
-    uint32_t k = 1;
-    for (; k < 8; ++k) {
-      const int size = static_cast<int>(k);
-      const auto more = ask(1 + std::min(size, 4) + 4 * *negative, 2 + *negative, s * size);
-      if (!more) return std::nullopt;
-      if (!*more) break;
-    }
+    if (ask(0, 0, 0) == 0) return 0;
+    const int negative = ask(1, 1, 0), s = negative ? -1 : 1;
+    int k = 1 + ones(7, [&](int i) {
+              return ask(1 + std::min(i + 1, 4) + 4 * negative, 2 + negative, s * (i + 1));
+            });
+    uint32_t size = static_cast<uint32_t>(k);
     if (k == 8) {
-      const std::optional<uint32_t> rest = restOf(s);
-      if (!rest) return std::nullopt;
-      k = 7 + *rest;
+      k = 1 + ones(31, [&](int i) { return ask(9 + std::min(i + 1, 8), 4, 8 * s); });
+      size = 7 + digits(decoder_, k, high_);
     }
-    return s < 0 ? 0 - k : k;
+    return s < 0 ? 0 - size : size;
   }
 
  private:
-  std::optional<uint32_t> restOf(int s) {
-    int j = 1;
-    for (; j < 32; ++j) {
-      const std::optional<int> more = ask(9 + std::min(j, 8), 4, 8 * s);
-      if (!more) return std::nullopt;
-      if (!*more) break;
-    }
-    uint32_t rest = 1;
-    for (int i = 1; i < j; ++i) {
-      const std::optional<int> bit =
-          i == 1 ? high_[static_cast<size_t>(j)].decode(decoder_) : decoder_.decode(1 << 15);
-      if (!bit) return std::nullopt;
-      rest = 2 * rest + static_cast<uint32_t>(*bit);
-    }
-    return rest;
-  }
-
-  std::optional<int> askFar(int i, int64_t a, int l) {
+  int askFar(int i, int64_t a, int l) {
     const Nearby& q = *nearby_;
     const int64_t six[6] = {q.w, q.n, q.nw, q.ne, q.ww, q.nn};
     int which = 0;
@@ -140,7 +113,7 @@ class ExactCorrections {
     return decodeMixed(decoder_, models, farWeights_[std::min(q.spread(), 9) * 3 + i]);
   }
 
-  std::optional<int> ask(int i, int t, int64_t a) {
+  int ask(int i, int t, int64_t a) {
     const Nearby& q = *nearby_;
     const auto near = [&](int64_t step, int64_t k) {
       return static_cast<int>(std::clamp(step - a, -k, k) + k);
@@ -165,27 +138,23 @@ class ExactCorrections {
     return decodeMixed(decoder_, models, weights_[std::min(spread, 9) * 18 + i]);
   }
 
-  struct Models : std::vector<Model> {
-    using std::vector<Model>::vector;
-    Model& operator[](int i) { return at(static_cast<size_t>(i)); }
-  };
-
   RangeDecoder& decoder_;
   const Nearby* nearby_ = nullptr;
   int z_ = 0;
-  Models size_ = Models(160 * 18), lines_ = Models(11 * 11 * 11 * 5), plane_ = Models(21 * 8 * 5);
-  Models alike_ = Models(512 * 9 * 5), straight_ = Models(11 * 11 * 5);
-  Models around_ = Models(7 * 7 * 7 * 7 * 5), high_ = Models(33);
-  Models multiples_ = Models(41 * 2 * 10 * 5);
-  Models farSize_ = Models(20 * 16 * 3), farSix_ = Models(64 * 20 * 3);
-  Models farAlike_ = Models(512 * 16 * 3);
+  ModelTable size_ = ModelTable(160 * 18), lines_ = ModelTable(11 * 11 * 11 * 5),
+             plane_ = ModelTable(21 * 8 * 5);
+  ModelTable alike_ = ModelTable(512 * 9 * 5), straight_ = ModelTable(11 * 11 * 5);
+  ModelTable around_ = ModelTable(7 * 7 * 7 * 7 * 5), high_ = ModelTable(33);
+  ModelTable multiples_ = ModelTable(41 * 2 * 10 * 5);
+  ModelTable farSize_ = ModelTable(20 * 16 * 3), farSix_ = ModelTable(64 * 20 * 3);
+  ModelTable farAlike_ = ModelTable(512 * 16 * 3);
   std::array<std::array<int64_t, 7>, 10 * 18> weights_;
   std::array<std::array<int64_t, 3>, 10 * 3> farWeights_;
 };
 
 }  // namespace
 
-void makeExact(std::span<const uint8_t> codeword, Plane& plane, int f) {
+void makeExact(std::span<const uint8_t> codeword, Plane& plane, int f) try {
   RangeDecoder decoder(codeword);
   ExactCorrections corrections(decoder);
   KnownSteps known(plane);
@@ -200,15 +169,15 @@ void makeExact(std::span<const uint8_t> codeword, Plane& plane, int f) {
       const int g = static_cast<int>(std::min<int64_t>((std::abs(b) * 16) >> f, 7));
       const int d = b < 0 ? -1 : 1;
       const int l = std::min(levelOf(forecast.missedNearby(x, y)), 19);
-      const std::optional<uint32_t> c = corrections.next(Nearby(known, x, y, r, d), l, g);
-      if (!c) return;
-      const uint32_t q = d < 0 ? static_cast<uint32_t>(r) - *c : static_cast<uint32_t>(r) + *c;
+      const uint32_t c = corrections.next(Nearby(known, x, y, r, d), l, g);
+      const uint32_t q = d < 0 ? static_cast<uint32_t>(r) - c : static_cast<uint32_t>(r) + c;
       const auto whole = static_cast<int32_t>(q << f);
       known.put(x, y, static_cast<int32_t>(q));
       forecast.learn(x, y, int64_t{whole} - v);
       v = whole;
     }
   }
+} catch (Undecided) {
 }
 
 }  // namespace tetrakis::reference

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "conformance/reference_decoder/facets.hpp"
-
+// Reference decoder: corrections from facets (docs/FORMAT.md, section 8.1.12).
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdlib>
-#include <optional>
 
 #include "conformance/reference_decoder/error_forecast.hpp"
 #include "conformance/reference_decoder/mixed.hpp"
 #include "conformance/reference_decoder/range_decoder.hpp"
+#include "conformance/reference_decoder/sample_corrections.hpp"
 #include "conformance/reference_decoder/samples.hpp"
 #include "conformance/reference_decoder/units.hpp"
 
@@ -135,9 +134,7 @@ class FacetDecoder {
     for (auto& weights : rest_) weights.fill(kFirstWeight);
   }
 
-  /// Nothing if a decision does not count.
-  std::optional<Sample> next(const Ways& ways, const std::array<int, kWays>& before,
-                             const About& about) {
+  Sample next(const Ways& ways, const std::array<int, kWays>& before, const About& about) {
     std::array<bool, kWays> left;
     left.fill(true);
     for (int j = 0; std::count(left.begin(), left.end(), true) > 0; ++j) {
@@ -166,75 +163,49 @@ class FacetDecoder {
       Model* const models[2] = {
           &right_way_[(a * 64 + before[first]) * kWays + first],
           &right_far_[((a * 8 + b) * 16 + static_cast<int>(distance)) * 2 + last]};
-      const std::optional<int> right = decodeMixed(decoder_, models, right_[a]);
-      if (!right) return std::nullopt;
-      if (*right == 0) continue;
-      const std::optional<int> rest = restOf(b, nearest.g, first, before[first]);
-      if (!rest) return std::nullopt;
-      const uint32_t order = nearest.order + static_cast<uint32_t>(nearest.d * *rest);
+      if (decodeMixed(decoder_, models, right_[a]) == 0) continue;
+      const int rest = restOf(b, nearest.g, first, before[first]);
+      const uint32_t order = nearest.order + static_cast<uint32_t>(nearest.d * rest);
       const uint32_t bits = orderOf(header_, order);
       const int64_t there = units_.of(bits), half = units_.half(bits);
-      return Sample{bits, std::clamp(p + (there - p) / 4, there - half, there + half)};
+      return {bits, std::clamp(p + (there - p) / 4, there - half, there + half)};
     }
     return beyond(about);
   }
 
  private:
-  std::optional<int> restOf(int b, int g, int way, int before) {
+  int restOf(int b, int g, int way, int before) {
     const auto ask = [&](int t) {
       Model* const models[2] = {&rest_place_[(b * 8 + g) * 4 + t],
                                 &rest_way_[(way * 64 + before) * 4 + t]};
       return decodeMixed(decoder_, models, rest_[t]);
     };
-    const std::optional<int> any = ask(0);
-    if (!any || *any == 0) return any;
-    const std::optional<int> negative = ask(1);
-    if (!negative) return std::nullopt;
-    const std::optional<int> more = ask(2 + *negative);
-    if (!more) return std::nullopt;
-    return *negative ? -1 - *more : 1 + *more;
+    if (ask(0) == 0) return 0;
+    const int negative = ask(1), size = 1 + ask(2 + negative);
+    return negative ? -size : size;
   }
 
-  std::optional<Sample> beyond(const About& about) {
+  Sample beyond(const About& about) {
     const int64_t open =
         about.level + 2 * (Digits(header_.step).log2() - spacingOf(header_, about.bits));
     const int o = static_cast<int>(std::clamp<int64_t>(open, 0, 63));
-    int k = 0;
-    for (; k < 32; ++k) {
-      const std::optional<int> more = bits_[o * 32 + k].decode(decoder_);
-      if (!more) return std::nullopt;
-      if (*more == 0) break;
-    }
-    uint32_t size = 0;
-    int negative = 0;
-    if (k > 0) {
-      const std::optional<int> sign = sign_[o].decode(decoder_);
-      if (!sign) return std::nullopt;
-      negative = *sign;
-      size = 1;
-    }
-    for (int i = 1; i < k; ++i) {
-      const std::optional<int> digit =
-          i < 3 ? high_[k * 4 + static_cast<int>(size)].decode(decoder_) : decoder_.decode(1 << 15);
-      if (!digit) return std::nullopt;
-      size = 2 * size + static_cast<uint32_t>(*digit);
-    }
+    const int k = ones(32, [&](int i) { return bits_[o * 32 + i].decode(decoder_); });
+    if (k == 0) return {about.bits, units_.of(about.bits)};
+    const int negative = sign_[o].decode(decoder_);
+    const uint32_t size = digits(k, [&](int i, uint32_t number) {
+      return i < 3 ? high_[k * 4 + static_cast<int>(number)].decode(decoder_) : decoder_.even();
+    });
     const uint32_t order = orderOf(header_, about.bits);
     const uint32_t bits = orderOf(header_, negative ? order - size : order + size);
-    return Sample{bits, units_.of(bits)};
+    return {bits, units_.of(bits)};
   }
-
-  struct Models : std::vector<Model> {
-    using std::vector<Model>::vector;
-    Model& operator[](int i) { return at(static_cast<size_t>(i)); }
-  };
 
   const GeometryHeader& header_;
   const Units& units_;
   RangeDecoder& decoder_;
-  Models right_way_ = Models(6 * 64 * kWays), right_far_ = Models(6 * 8 * 16 * 2);
-  Models rest_place_ = Models(8 * 8 * 4), rest_way_ = Models(kWays * 64 * 4);
-  Models bits_ = Models(64 * 32), sign_ = Models(64), high_ = Models(33 * 4);
+  ModelTable right_way_ = ModelTable(6 * 64 * kWays), right_far_ = ModelTable(6 * 8 * 16 * 2);
+  ModelTable rest_place_ = ModelTable(8 * 8 * 4), rest_way_ = ModelTable(kWays * 64 * 4);
+  ModelTable bits_ = ModelTable(64 * 32), sign_ = ModelTable(64), high_ = ModelTable(33 * 4);
   std::array<std::array<int64_t, 2>, 6> right_;
   std::array<std::array<int64_t, 2>, 4> rest_;
 };
@@ -243,7 +214,7 @@ class FacetDecoder {
 
 void correctFromFacets(const GeometryHeader& header, const Layers& layers,
                        std::span<const uint8_t> codeword, const Plane& plane,
-                       std::vector<uint32_t>& samples) {
+                       std::vector<uint32_t>& samples) try {
   const Units units(layers.facetUnit);
   RangeDecoder decoder(codeword);
   FacetDecoder facets(header, units, decoder);
@@ -262,13 +233,13 @@ void correctFromFacets(const GeometryHeader& header, const Layers& layers,
       const Ways ways = known.waysTo(x, y, units.of(about.bits));
       std::array<int, kWays> before;
       for (int way = 0; way < kWays; ++way) before[way] = known.before(way, x, y);
-      const std::optional<Sample> sample = facets.next(ways, before, about);
-      if (!sample) return;
-      samples[i] = sample->bits;
-      known.put(x, y, sample->z, ways);
-      forecast.learn(x, y, stepsOf(header, sample->bits) - q);
+      const Sample sample = facets.next(ways, before, about);
+      samples[i] = sample.bits;
+      known.put(x, y, sample.z, ways);
+      forecast.learn(x, y, stepsOf(header, sample.bits) - q);
     }
   }
+} catch (Undecided) {
 }
 
 }  // namespace tetrakis::reference

@@ -34,48 +34,26 @@ std::vector<uint32_t> areasOf(const std::vector<uint8_t>& flat, int width, uint3
   return areas;
 }
 
-/// FORMAT 8.1, "Flat areas": the heights. Nothing: a decision does not count.
+/// FORMAT 8.1, "Flat areas": the heights.
 class AreaHeightDecoder {
  public:
   explicit AreaHeightDecoder(RangeDecoder& decoder) : decoder_(decoder) {}
 
-  std::optional<uint32_t> height() {
+  uint32_t height() {
     size_t place = 0;
     for (auto known = recent_.begin(); known != recent_.end(); ++known, ++place) {
-      const std::optional<int> hit = hit_[place].decode(decoder_);
-      if (!hit) return std::nullopt;
-      if (!*hit) continue;
+      if (!hit_[place].decode(decoder_)) continue;
       recent_.splice(recent_.begin(), recent_, known);
       return recent_.front();
     }
-    const std::optional<uint32_t> change = difference();
-    if (!change) return std::nullopt;
-    const uint32_t height = (recent_.empty() ? 0 : recent_.front()) + *change;
+    const uint32_t change = signedNumber(decoder_, bits_);
+    const uint32_t height = (recent_.empty() ? 0 : recent_.front()) + change;
     if (recent_.size() == 8) recent_.pop_back();
     recent_.push_front(height);
     return height;
   }
 
  private:
-  std::optional<uint32_t> difference() {
-    int k = 0;
-    for (; k < 32; ++k) {
-      const std::optional<int> more = bits_[static_cast<size_t>(k)].decode(decoder_);
-      if (!more) return std::nullopt;
-      if (!*more) break;
-    }
-    if (k == 0) return 0;
-    uint32_t magnitude = 1;
-    for (int i = 1; i < k; ++i) {
-      const std::optional<int> bit = decoder_.decode(1 << 15);
-      if (!bit) return std::nullopt;
-      magnitude = 2 * magnitude + static_cast<uint32_t>(*bit);
-    }
-    const std::optional<int> negative = decoder_.decode(1 << 15);
-    if (!negative) return std::nullopt;
-    return *negative ? 0 - magnitude : magnitude;
-  }
-
   RangeDecoder& decoder_;
   std::list<uint32_t> recent_;
   std::array<Model, 8> hit_;
@@ -92,10 +70,11 @@ Flat decodeFlat(std::span<const uint8_t> codeword, const Plane& plane, uint32_t 
   Flat flat{areasOf(*mask, plane.width, count), {}};
   if (count != areas) return {};
   AreaHeightDecoder heights(decoder);
-  for (uint32_t i = 0; i < areas; ++i) {
-    const std::optional<uint32_t> height = heights.height();
-    if (!height) return {};
-    flat.heights.push_back(static_cast<int32_t>(*height));
+  try {
+    for (uint32_t i = 0; i < areas; ++i)
+      flat.heights.push_back(static_cast<int32_t>(heights.height()));
+  } catch (Undecided) {
+    return {};
   }
   return flat;
 }

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 
-#include "conformance/reference_decoder/facets.hpp"
 #include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/regions.hpp"
-#include "conformance/reference_decoder/relative.hpp"
+#include "conformance/reference_decoder/sample_corrections.hpp"
 #include "conformance/reference_decoder/samples.hpp"
 #include "conformance/reference_decoder/units.hpp"
 

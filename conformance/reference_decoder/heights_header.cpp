@@ -60,6 +60,11 @@ bool suits(const GeometryHeader& geometry, const Layers& layers) {
   if (layers.flatBytes > 0 && uint64_t(geometry.width) * uint64_t(geometry.height) > 1u << 31)
     return false;
   if (hasTooManyTiles(geometry)) return false;
+  const bool all_lifted = layers.lateMask && layers.liftedBytes == 0;
+  const bool holes = !direct && layers.validityBytes > 0 && !all_lifted;
+  if (!geometry.wavelet.domain.forest.isGrid() &&
+      (holes || layers.bridge > 0 || layers.flatBytes > 0 || !suitsForest(geometry)))
+    return false;
   const bool others = layers.flatBytes > 0 || ground || geometry.regions.log2 > 0 ||
                       geometry.priorities.tileLog2 > 0;
   if (direct && (others || (layers.corrections != 0 && layers.corrections != 2))) return false;
@@ -111,7 +116,7 @@ void readHeights(Reader& in, const Domain& domain, RegionHeader regions, Stream&
     if (!p.ends()) p.f64();  // max_error
   });
   parts.end();
-  g.wavelet.ring = domain.kind == 1;
+  g.wavelet.domain = domain;
   if (!suits(g, stream.layers)) stream.suits = false;
 }
 

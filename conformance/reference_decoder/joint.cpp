@@ -11,71 +11,91 @@ namespace {
 /// A value of the level at a place of its own grid.
 using ValueAt = std::function<int32_t(int64_t x, int64_t y)>;
 
-/// "Mirrored about the first and the last sample (period 2n - 2)".
-int64_t mirrored(int64_t t, int64_t n) {
-  const int64_t period = 2 * n - 2;
-  t = (t % period + period) % period;
-  return t < n ? t : period - t;
-}
-
+/// A predict step of a filter and the update step behind it, on a level of one patch.
 class Joint {
  public:
-  Joint(const WaveletHeader& header, const JointLevel& of, Plane& plane)
+  Joint(const WaveletHeader& header, const JointLevel& of, size_t predict, int patch, Plane& plane)
       : filter_(filterOf(header, of.level)),
+        predict_(predict),
         exact_(of.level > 3 || header.sampleBits + 4 >= filter_.widest),
-        doubled_(doublesLow(header, of.level)),
-        ring_(header.ring),
+        doubled_(doublesLow(header, of.level) && predict + 2 == filter_.steps.size()),
+        ring_(header.domain.ring()),
+        forest_(header.domain.forest),
         of_(of),
+        patch_(patch),
+        rows_(plane.height / forest_.patches()),
         plane_(plane),
         width_((plane.width - 1) / of.stepX + 1),
-        height_((plane.height - 1) / of.stepY + 1) {}
+        height_((rows_ - 1) / of.stepY + 1) {}
 
-  void synthesise() {
-    const ValueAt whole = [this](int64_t x, int64_t y) { return at(x, y); };
-    const ValueAt raised = [&](int64_t x, int64_t y) {  // c + Py a
-      return wrap(sixteenths(x, y) + alongY(0, 4, x, y, whole));
+  void liftA() {
+    const ValueAt lowered = [&](int64_t x, int64_t y) {
+      return wrap(sixteenths(x, y) - alongY(kUpdate, 0, x, y, whole_));
     };
-    each(0, 0, [&](int64_t x, int64_t y) { corner(x, y, cornerBracket(x, y)); });
+    each(0, 0, [&](int64_t x, int64_t y) {
+      const int64_t v = alongX(kUpdate, 4, x, y, lowered) + alongY(kUpdate, 0, x, y, whole_);
+      if (!doubled_) return change(x, y, v);
+      const int32_t twice = wrap(at(x, y) - int64_t{wrap(wrap(v) + int64_t{4}) >> 3});
+      at(x, y) = wrap(twice + int64_t{1}) >> 1;
+    });
+  }
+  void liftBC() {
     each(1, 0, [&](int64_t x, int64_t y) {
-      change(x, y, wrap(int64_t{alongX(0, 4, x, y, whole)} + alongY(1, 4, x, y, whole)));
+      change(x, y, alongX(kPredict, 0, x, y, whole_) + alongY(kUpdate, 0, x, y, whole_));
     });
     each(0, 1, [&](int64_t x, int64_t y) {
-      change(x, y, wrap(int64_t{alongX(1, 4, x, y, whole)} + alongY(0, 4, x, y, whole)));
+      change(x, y, alongX(kUpdate, 0, x, y, whole_) + alongY(kPredict, 0, x, y, whole_));
     });
+  }
+  void liftD() {
+    const ValueAt raised = [&](int64_t x, int64_t y) {
+      return wrap(sixteenths(x, y) + alongY(kPredict, 0, x, y, whole_));
+    };
     each(1, 1, [&](int64_t x, int64_t y) {
-      change(x, y, wrap(int64_t{alongX(0, 8, x, y, raised)} + alongY(0, 4, x, y, whole)));
+      change(x, y, alongX(kPredict, 4, x, y, raised) + alongY(kPredict, 0, x, y, whole_));
     });
   }
 
  private:
-  size_t index(int64_t x, int64_t y) const {
-    return plane_.index(static_cast<int>(x) * of_.stepX, static_cast<int>(y) * of_.stepY);
+  enum Step { kPredict, kUpdate };
+
+  /// Of a sample of the patch, in the raster.
+  size_t index(const Place& at) const {
+    const auto x = static_cast<int>(at.x * of_.stepX), y = static_cast<int>(at.y * of_.stepY);
+    return plane_.index(x, static_cast<int>(at.patch) * rows_ + y);
   }
-  int32_t& at(int64_t x, int64_t y) { return plane_.values.at(index(x, y)); }
+  /// "Samples that are not owned become what the owned ones are": those are taken at once.
+  int32_t& at(int64_t x, int64_t y) {
+    const Place place = forest_.locate({patch_, x, y}, width_ - 1, height_ - 1);
+    return plane_.values.at(forest_.ownerOf(index(place)));
+  }
   int64_t sixteenths(int64_t x, int64_t y) { return wrap(int64_t{at(x, y)} * 16); }
 
-  /// All places of one parity in x and y.
+  /// All owned samples of one parity in x and y.
   void each(int64_t first_x, int64_t first_y, const std::function<void(int64_t, int64_t)>& call) {
     for (int64_t y = first_y; y < height_; y += 2) {
-      for (int64_t x = first_x; x < width_; x += 2) call(x, y);
+      for (int64_t x = first_x; x < width_; x += 2) {
+        const size_t sample = index({patch_, x, y});
+        if (forest_.ownerOf(sample) == sample) call(x, y);
+      }
     }
   }
-  /// A step of the filter with so many bits shifted out. value(t): of a place beside.
-  int32_t product(size_t step, int shift, const std::function<int64_t(int64_t)>& beside) const {
+  /// P or U of k. beside(t): the value so far away.
+  int64_t product(Step step, int k, const std::function<int64_t(int64_t)>& beside) const {
+    const int shift = filter_.shift - 4 + k;
     int64_t sum = int64_t{1} << (shift - 1), distance = 1;
-    for (const int weight : filter_.steps.at(step)) {
+    for (const int weight : filter_.steps.at(predict_ + step)) {
       sum += weight * (beside(-distance) + beside(distance));
       distance += 2;
     }
     return wrap((exact_ ? sum : wrap(sum)) >> shift);
   }
-  int32_t alongX(size_t step, int shift, int64_t x, int64_t y, const ValueAt& value) const {
-    return product(step, shift, [&](int64_t d) {
-      return ring_ ? round(x + d, y, value) : value(mirrored(x + d, width_), y);
-    });
+  int64_t alongX(Step step, int k, int64_t x, int64_t y, const ValueAt& value) const {
+    return product(step, k,
+                   [&](int64_t d) { return ring_ ? round(x + d, y, value) : value(x + d, y); });
   }
-  int32_t alongY(size_t step, int shift, int64_t x, int64_t y, const ValueAt& value) const {
-    return product(step, shift, [&](int64_t d) { return value(x, mirrored(y + d, height_)); });
+  int64_t alongY(Step step, int k, int64_t x, int64_t y, const ValueAt& value) const {
+    return product(step, k, [&](int64_t d) { return value(x, y + d); });
   }
 
   /// "Rings"
@@ -86,28 +106,19 @@ class Joint {
     return (int64_t{value(width_ - 2, y)} + value(1, y)) >> 1;
   }
 
-  /// Ux (b - Uy d) + Uy c
-  int32_t cornerBracket(int64_t x, int64_t y) {
-    const ValueAt whole = [this](int64_t u, int64_t v) { return at(u, v); };
-    const ValueAt lowered = [&](int64_t u, int64_t v) {
-      return wrap(sixteenths(u, v) - alongY(1, 4, u, v, whole));
-    };
-    return wrap(int64_t{alongX(1, 8, x, y, lowered)} + alongY(1, 4, x, y, whole));
-  }
-  void change(int64_t x, int64_t y, int32_t bracket) {
-    at(x, y) = wrap(int64_t{at(x, y)} - (wrap(int64_t{bracket} + 8) >> 4));
-  }
-  void corner(int64_t x, int64_t y, int32_t bracket) {
-    if (!doubled_) return change(x, y, bracket);
-    const int32_t twice = wrap(int64_t{at(x, y)} - (wrap(int64_t{bracket} + 4) >> 3));
-    at(x, y) = wrap(int64_t{twice} + 1) >> 1;
+  void change(int64_t x, int64_t y, int64_t v) {
+    at(x, y) = wrap(at(x, y) - int64_t{wrap(wrap(v) + int64_t{8}) >> 4});
   }
 
   const Filter& filter_;
+  size_t predict_;
   bool exact_, doubled_, ring_;
+  const Forest& forest_;
   JointLevel of_;
+  int patch_, rows_;
   Plane& plane_;
-  int64_t width_, height_;
+  int64_t width_, height_;  ///< of the level
+  const ValueAt whole_ = [this](int64_t x, int64_t y) { return at(x, y); };
 };
 
 }  // namespace
@@ -119,7 +130,12 @@ bool liftsJointly(const WaveletHeader& header, int level, const Plane& plane) {
 }
 
 void synthesiseJointly(const WaveletHeader& header, const JointLevel& of, Plane& plane) {
-  Joint(header, of, plane).synthesise();
+  for (size_t steps = filterOf(header, of.level).steps.size(); steps > 0; steps -= 2) {
+    for (const auto& lift : {&Joint::liftA, &Joint::liftBC, &Joint::liftD}) {
+      for (int patch = 0; patch < header.domain.forest.patches(); ++patch)
+        (Joint(header, of, steps - 2, patch, plane).*lift)();
+    }
+  }
 }
 
 }  // namespace tetrakis::reference

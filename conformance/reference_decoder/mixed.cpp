@@ -25,8 +25,7 @@ int stretch(int probability) {
 
 }  // namespace
 
-std::optional<int> decodeMixed(RangeDecoder& decoder, std::span<Model* const> models,
-                               std::span<int64_t> weights) {
+int decodeMixed(RangeDecoder& decoder, std::span<Model* const> models, std::span<int64_t> weights) {
   std::vector<int64_t> odds;
   int64_t sum = 0;
   for (size_t i = 0; i < models.size(); ++i) {
@@ -34,13 +33,12 @@ std::optional<int> decodeMixed(RangeDecoder& decoder, std::span<Model* const> mo
     sum += odds[i] * weights[i];
   }
   const int p = squash(static_cast<int>(std::clamp<int64_t>(sum >> 16, -2047, 2047)));
-  const std::optional<int> bit = decoder.decode(static_cast<uint32_t>(16 * p + 8));
-  if (!bit) return std::nullopt;
-  const int error = 16 * ((*bit ? 0 : 4095) - p);
+  const int bit = decoder.decode(static_cast<uint32_t>(16 * p + 8));
+  const int error = 16 * ((bit ? 0 : 4095) - p);
   for (size_t i = 0; i < models.size(); ++i) {
     const int64_t weight = weights[i] + ((odds[i] * error + 32768) >> 16);
     weights[i] = std::clamp<int64_t>(weight, -1048576, 1048576);
-    models[i]->learn(*bit);
+    models[i]->learn(bit);
   }
   return bit;
 }

@@ -100,6 +100,12 @@ bool hasTooManyTiles(const Header& c) {
   return (int64_t{(c.width - 1) >> log2} + 1) * (int64_t{(c.height - 1) >> log2} + 1) > 65536;
 }
 
+/// FORMAT 2: whether heights and textures may both have this on a forest.
+template <class Header>
+bool suitsForest(const Header& c) {
+  return c.wavelet.domain.forest.isGrid() || (c.regions.log2 == 0 && c.lines.columns.empty());
+}
+
 /// FORMAT 8.3: the size becomes that of the coded lines.
 template <class Header>
 void readLines(Reader& in, Header& g) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
-#include <optional>
 
 #include "conformance/reference_decoder/range_decoder.hpp"
 #include "conformance/reference_decoder/regions.hpp"
@@ -11,30 +10,21 @@
 namespace tetrakis::reference {
 namespace {
 
-/// FORMAT 5.2, the decisions of a tile. Nothing: one of them does not count.
+/// FORMAT 5.2, the decisions of a tile.
 class TileDecoder {
  public:
   explicit TileDecoder(std::span<const uint8_t> code) : decoder_(code) {}
 
-  std::optional<int> tile(int west, int north, int beyond) {
+  int tile(int west, int north, int beyond) {
     const int expected =
         std::clamp(west + north - beyond, std::min(west, north), std::max(west, north));
     const int d = std::min(2, std::abs(west - beyond) + std::abs(north - beyond));
-    const std::optional<int> same = same_[d].decode(decoder_);
-    if (!same) return std::nullopt;
-    if (*same) return expected;
-    std::optional<int> up = expected == 0;
+    if (same_[d].decode(decoder_)) return expected;
+    bool up = expected == 0;
     if (expected > 0 && expected < 7) up = up_[d].decode(decoder_);
-    if (!up) return std::nullopt;
-    const int most = *up ? 7 - expected : expected;
-    int off = 1;
-    while (off < most) {
-      const std::optional<int> more = more_[off].decode(decoder_);
-      if (!more) return std::nullopt;
-      if (!*more) break;
-      ++off;
-    }
-    return *up ? expected + off : expected - off;
+    const int most = up ? 7 - expected : expected;
+    const int off = 1 + ones(most - 1, [&](int i) { return more_[i + 1].decode(decoder_); });
+    return up ? expected + off : expected - off;
   }
 
  private:
@@ -65,19 +55,18 @@ PriorityMap priorityMapOf(const PriorityHeader& header, int width, int height) {
   const int columns = map.columns();
   map.tiles.resize(size_t(columns) * map.rows());
   TileDecoder decoder(header.code);
-  for (int y = 0; y < map.rows(); ++y) {
-    for (int x = 0; x < columns; ++x) {
-      const auto at = [&](int row, int column) {
-        return map.tiles[size_t(row) * columns + column];
-      };
-      int west = x > 0 ? at(y, x - 1) : 0;
-      const int north = y > 0 ? at(y - 1, x) : west;
-      if (x == 0) west = north;
-      const int beyond = x > 0 && y > 0 ? at(y - 1, x - 1) : north;
-      const std::optional<int> priority = decoder.tile(west, north, beyond);
-      if (!priority) return map;
-      map.tiles[size_t(y) * columns + x] = *priority;
+  const auto at = [&](int row, int column) { return map.tiles[size_t(row) * columns + column]; };
+  try {
+    for (int y = 0; y < map.rows(); ++y) {
+      for (int x = 0; x < columns; ++x) {
+        int west = x > 0 ? at(y, x - 1) : 0;
+        const int north = y > 0 ? at(y - 1, x) : west;
+        if (x == 0) west = north;
+        const int beyond = x > 0 && y > 0 ? at(y - 1, x - 1) : north;
+        map.tiles[size_t(y) * columns + x] = decoder.tile(west, north, beyond);
+      }
     }
+  } catch (Undecided) {
   }
   return map;
 }

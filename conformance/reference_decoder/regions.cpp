@@ -52,14 +52,17 @@ std::vector<Region> finestRegionsOf(int width, int height, int log2) {
   return regions;
 }
 
-std::vector<Part> partsOf(const std::vector<Subband>& subbands, const Region& region) {
+namespace {
+
+std::vector<Part> partsIn(const std::vector<Subband>& subbands, const Region& region) {
   std::vector<Part> parts;
   for (const Subband& subband : subbands) {
     const bool later = region.base || subband.level <= region.lastLevel;
     const bool held =
         subband.orientation == kLL ? region.base : subband.level >= region.firstLevel && later;
     if (!held) continue;
-    Part part{subband};
+    Part part;
+    part.subband = subband;
     const auto left = [&](int a) { return subband.x(a) < region.x0; };
     const auto above = [&](int r) { return subband.y(r) < region.y0; };
     while (part.firstColumn < subband.columns && left(part.firstColumn)) ++part.firstColumn;
@@ -70,6 +73,25 @@ std::vector<Part> partsOf(const std::vector<Subband>& subbands, const Region& re
     parts.push_back(part);
   }
   return parts;
+}
+
+}  // namespace
+
+std::vector<std::vector<Part>> partsOf(const Forest& forest, int width, int height,
+                                       const RegionHeader& header) {
+  const int rows = height / forest.patches();
+  const std::vector<Subband> subbands = subbandsOf(width, rows);
+  std::vector<std::vector<Part>> tracks;
+  for (const Region& region : regionsOf(width, height, header.log2)) {
+    std::vector<Part>& track = tracks.emplace_back();
+    for (int top = 0; top < height; top += rows) {
+      for (Part& part : partsIn(subbands, region)) {
+        part.top = top;
+        track.push_back(part);
+      }
+    }
+  }
+  return tracks;
 }
 
 std::vector<Band> bandsOf(const WaveletHeader& header, const std::vector<Part>& parts,
@@ -89,7 +111,7 @@ std::vector<Band> bandsOf(const WaveletHeader& header, const std::vector<Part>& 
     }
     for (size_t i = 0; i < parts.size() && subband.orientation != kLL; ++i) {
       const Subband& other = parts[i].subband;
-      if (other.level == subband.level && other.orientation != kLL &&
+      if (parts[i].top == part.top && other.level == subband.level && other.orientation != kLL &&
           other.orientation != subband.orientation)
         band.siblings.push_back(first + i);
     }
@@ -98,12 +120,15 @@ std::vector<Band> bandsOf(const WaveletHeader& header, const std::vector<Part>& 
   return bands;
 }
 
-void markAbsent(const std::vector<Part>& parts, const Plane& plane, std::span<Band> bands) {
+void markAbsent(const Forest& forest, const std::vector<Part>& parts, const Plane& plane,
+                std::span<Band> bands) {
   for (size_t i = 0; i < parts.size(); ++i) {
     for (int r = 0; r < parts[i].rows; ++r) {
       for (int a = 0; a < parts[i].columns; ++a) {
         const int x = parts[i].x(a), y = parts[i].y(r);
-        bands[i].at(r, a).absent = !plane.isValid(x, y) || plane.areaOf(x, y) > 0;
+        const size_t sample = plane.index(x, y);
+        bands[i].at(r, a).absent =
+            !plane.isValid(x, y) || plane.areaOf(x, y) > 0 || forest.ownerOf(sample) != sample;
       }
     }
   }

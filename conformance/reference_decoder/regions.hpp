@@ -37,20 +37,24 @@ std::vector<Region> finestRegionsOf(int width, int height, int log2);
 /// The rows and columns of a subband whose samples lie in a region.
 struct Part {
   Subband subband;
+  int top = 0;  ///< the first row of its patch in the raster
   int firstRow = 0, firstColumn = 0, rows = 0, columns = 0;
 
   int x(int a) const { return subband.x(firstColumn + a); }
-  int y(int r) const { return subband.y(firstRow + r); }
+  int y(int r) const { return top + subband.y(firstRow + r); }
 };
 
-std::vector<Part> partsOf(const std::vector<Subband>& subbands, const Region& region);
+/// Of one plane, by track.
+std::vector<std::vector<Part>> partsOf(const Forest& forest, int width, int height,
+                                       const RegionHeader& header);
 
 /// The bands of one plane in one track, as they follow `first` others; all but their companions.
 std::vector<Band> bandsOf(const WaveletHeader& header, const std::vector<Part>& parts,
                           size_t first);
 
-/// FORMAT 7, "Places": coefficients of voids do not exist.
-void markAbsent(const std::vector<Part>& parts, const Plane& plane, std::span<Band> bands);
+/// FORMAT 7, "Places", "Forests": which coefficients do not exist.
+void markAbsent(const Forest& forest, const std::vector<Part>& parts, const Plane& plane,
+                std::span<Band> bands);
 
 /// FORMAT 5.2: the priorities of coefficients, those of a plane of W x H samples.
 void setPriorities(const std::vector<Part>& parts, const PriorityMap& map, std::span<Band> bands);

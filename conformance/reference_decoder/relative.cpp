@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "conformance/reference_decoder/relative.hpp"
-
+// Reference decoder: corrections from relative steps (docs/FORMAT.md, section 8.1.11).
 #include <algorithm>
 #include <cstdint>
 #include <optional>
 
 #include "conformance/reference_decoder/corrections.hpp"
 #include "conformance/reference_decoder/range_decoder.hpp"
+#include "conformance/reference_decoder/sample_corrections.hpp"
 #include "conformance/reference_decoder/samples.hpp"
 #include "conformance/reference_decoder/units.hpp"
 
@@ -70,7 +70,7 @@ class KnownSamples {
 
 void correctFromRelative(const GeometryHeader& header, const Layers& layers,
                          std::span<const uint8_t> codeword, const Plane& plane,
-                         std::vector<uint32_t>& samples) {
+                         std::vector<uint32_t>& samples) try {
   constexpr int64_t kFarthest = 1 << 30;
   const Step step(layers.relativeStep);
   const int64_t g = step.g;
@@ -87,27 +87,26 @@ void correctFromRelative(const GeometryHeader& header, const Layers& layers,
       const int64_t k = std::clamp(floorDiv(t + g / 2, g), -kFarthest, kFarthest);
       const int64_t off = k * g - t, apart = std::min(off < 0 ? -off : off, g / 2);
       const int hint = static_cast<int>(std::min<int64_t>(apart * 16 / g, 7));
-      const std::optional<uint32_t> m = multiples.next(hint, x, y);
-      if (!m) return;
+      const uint32_t m = multiples.next(hint, x, y);
       const auto nearest = static_cast<uint32_t>(static_cast<int32_t>(k));
-      const auto number = static_cast<int32_t>(off > 0 ? nearest - *m : nearest + *m);
+      const auto number = static_cast<int32_t>(off > 0 ? nearest - m : nearest + m);
       const int64_t multiple = prediction.p + number * g;
       const uint32_t c = sampleAt(header, multiple, step.u);
       const int64_t beyond = multiple - unitsOf(header, c, step.u);
       const int spacing = spacingOf(header, c) - step.u;
-      const std::optional<uint32_t> r = rests.next(prediction.restHint(beyond, spacing), x, y);
-      if (!r) return;
+      const uint32_t r = rests.next(prediction.restHint(beyond, spacing), x, y);
       const uint32_t order = orderOf(header, c);
-      sample = narrow(header, orderOf(header, beyond < 0 ? order - *r : order + *r));
+      sample = narrow(header, orderOf(header, beyond < 0 ? order - r : order + r));
       if (!isNumber(header, sample)) continue;
       const int64_t s = unitsOf(header, sample, step.u);
       if (s <= -kFar || s >= kFar) continue;
-      const auto rest = static_cast<int32_t>(*r);
+      const auto rest = static_cast<int32_t>(r);
       const bool rounded = rest >= -1 && rest <= 1 && multiple > -2 * kFar && multiple < 2 * kFar;
       const int64_t pull = rounded ? (s - multiple) * layers.relativeQuarters + 2 : 0;
       known.put(x, y, rounded ? multiple + (pull >> 2) : s);
     }
   }
+} catch (Undecided) {
 }
 
 }  // namespace tetrakis::reference

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference decoder: repeated lines (docs/FORMAT.md, section 8.3).
 #include <algorithm>
-#include <optional>
 #include <span>
 
 #include "conformance/reference_decoder/range_decoder.hpp"
@@ -19,10 +18,12 @@ LineMap::LineMap(std::span<const uint8_t> code, int width, int height) {
     side->assign(side == &columns ? width : height, 0);
     int run = 1, last = 0, before = 0;
     for (size_t i = 1; i < side->size(); ++i) {
-      std::optional<int> repeats;
-      if (counts) repeats = models[3 * order(run, last) + order(run, before)].decode(decoder);
-      counts = counts && repeats;
-      const bool repeated = repeats.value_or(0);
+      bool repeated = false;
+      try {
+        if (counts) repeated = models[3 * order(run, last) + order(run, before)].decode(decoder);
+      } catch (Undecided) {
+        counts = false;
+      }
       (*side)[i] = (*side)[i - 1] + !repeated;
       if (!repeated) {
         before = last;

@@ -7,6 +7,7 @@
 #include "conformance/reference_decoder/regions.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tetrakis::reference {
 namespace {
@@ -66,13 +67,33 @@ int levelOf(const Stream& stream) {
   return level;
 }
 
+/// FORMAT 2, domain_kind 2.
+Domain readForest(Reader& in) {
+  constexpr int kUnknown = -1;
+  const int depth = in.u8(1, 18), side = (1 << depth) + 1;
+  const int patches = static_cast<int>(in.varint(1, (1 << 20) / side));
+  std::vector<int> glued(size_t(4) * patches, kUnknown);
+  const int sides = static_cast<int>(glued.size());
+  for (int here = 0; here < sides; ++here) {
+    if (glued[here] != kUnknown) continue;
+    const int other = here + static_cast<int>(in.varint(0, sides - 1 - here));
+    if (glued[other] != kUnknown) in.fail(Outcome::kCorrupt);
+    glued[here] = other;
+    glued[other] = here;
+  }
+  if (in.outcome() != Outcome::kDone) return {};
+  return {2, side, patches * side, Forest(depth, std::move(glued))};
+}
+
 /// FORMAT 2, Domain: one of the known ones, or the next.
 Domain readDomain(Reader& in, std::vector<Domain>& known) {
   const uint64_t number = in.varint(0, known.size());
   if (number < known.size()) return known[number];
   Domain domain;
   domain.kind = in.byte();
-  if (domain.known()) {
+  if (domain.kind == 2) {
+    domain = readForest(in);
+  } else if (domain.known()) {
     domain.width = static_cast<int>(in.varint(1, 1 << 20));
     domain.height = static_cast<int>(in.varint(1, 1 << 20));
   }
@@ -96,7 +117,7 @@ void readComponent(Reader& in, std::vector<Domain>& domains, Stream& stream) {
   stream.components.push_back(component);
 }
 
-/// FORMAT 2, parts 64 to 72 of the body.
+/// FORMAT 2, parts 64 to 73 of the body.
 void skipInformation(Parts& parts, const Stream& stream) {
   parts.take(64, [](Reader&) {});                              // lossless
   parts.take(65, [](Reader& p) { p.littleEndian(4); });        // payload_crc
@@ -108,6 +129,9 @@ void skipInformation(Parts& parts, const Stream& stream) {
   parts.take(70, [&](Reader& p) { skipIndex(p, stream); });
   parts.take(71, [](Reader& p) { restOf(p); });  // positions: no status depends on them
   parts.take(72, [](Reader& p) { restOf(p); });
+  parts.take(73, [](Reader& p) {  // source grid
+    for (int side = 0; side < 2; ++side) p.varint(1, 1 << 20);
+  });
 }
 
 /// FORMAT 2, Body. Returns `payload_bytes`.
@@ -199,11 +223,18 @@ Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples, Levels leve
   Decoded decoded;
   decoded.outcome = stream.outcome;
   if (decoded.outcome != Outcome::kDone) return decoded;
-  if (stream.geometry)
-    decoded.heights =
-        decodeShownHeights(*stream.geometry, stream.layers, stream.codewords[0], levels.heights);
-  if (stream.texture)
-    decoded.texture = decodeShownTexture(*stream.texture, stream.codewords[1], levels.texture);
+  const auto level = [](const Forest& forest, int of) { return forest.isGrid() ? of : 0; };
+  if (const auto& g = stream.geometry) {
+    const Forest& forest = g->wavelet.domain.forest;
+    const int at = level(forest, levels.heights);
+    forest.share(
+        decoded.heights.emplace(decodeShownHeights(*g, stream.layers, stream.codewords[0], at)));
+  }
+  if (const auto& t = stream.texture) {
+    const Forest& forest = t->wavelet.domain.forest;
+    const int at = level(forest, levels.texture);
+    forest.share(decoded.texture.emplace(decodeShownTexture(*t, stream.codewords[1], at)));
+  }
   return decoded;
 }
 

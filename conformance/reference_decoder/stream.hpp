@@ -10,17 +10,27 @@
 #include <vector>
 
 #include "conformance/reference_decoder.hpp"
+#include "conformance/reference_decoder/forest.hpp"
 
 namespace tetrakis::reference {
 
 enum SampleType { kU8, kI8, kU16, kI16, kU32, kI32, kF32 };
+
+/// FORMAT 2, Domain.
+struct Domain {
+  int kind = 0, width = 0, height = 0;
+  Forest forest = {};
+
+  bool known() const { return kind <= 2; }
+  bool ring() const { return kind == 1; }
+};
 
 /// FORMAT 2, table Wavelet.
 struct WaveletHeader {
   std::array<int, 3> filters = {};
   int fractionBits = 0, sampleBits = 0, firstDoubled = 0;
   uint64_t roundedBytes = 0;
-  bool ring = false;  ///< the domain is a cylinder
+  Domain domain;
 };
 
 /// FORMAT 2, table Regions.
@@ -106,13 +116,6 @@ struct TextureHeader {
 
 /// The codewords of a component's tracks.
 using Codewords = std::vector<std::vector<uint8_t>>;
-
-/// FORMAT 2, Domain.
-struct Domain {
-  int kind = 0, width = 0, height = 0;
-
-  bool known() const { return kind == 0 || kind == 1; }
-};
 
 /// FORMAT 2, what every component begins with.
 struct Component {

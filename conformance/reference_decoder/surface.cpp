@@ -36,7 +36,6 @@ Surface decodeSurface(const GeometryHeader& header, const std::vector<uint8_t>& 
                       const std::vector<std::span<const uint8_t>>& coefficients, Plane known,
                       int level) {
   Surface surface;
-  const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
   surface.plane = std::move(known);
   if (header.drawn) {
     surface.plane.values = decodeDrawnHeights(header, coefficients[0], surface.plane.valid);
@@ -48,14 +47,14 @@ Surface decodeSurface(const GeometryHeader& header, const std::vector<uint8_t>& 
   const std::vector<uint8_t> valid = surface.plane.valid;
   surface.plane.valid = lifted;
   const PriorityMap priorities = priorityMapOf(header.priorities, header.width, header.height);
-  for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
-    const size_t track = surface.parts.size();
-    surface.parts.push_back(partsOf(subbands, region));
-    std::vector<Band>& bands = surface.bands.emplace_back();
-    bands = bandsOf(header.wavelet, surface.parts.back(), 0);
-    markAbsent(surface.parts.back(), surface.plane, bands);
-    setPriorities(surface.parts.back(), priorities, bands);
-    dropFiner(surface.parts.back(), level, bands);
+  const Forest& forest = header.wavelet.domain.forest;
+  surface.parts = partsOf(forest, header.width, header.height, header.regions);
+  for (const std::vector<Part>& parts : surface.parts) {
+    const size_t track = surface.bands.size();
+    std::vector<Band>& bands = surface.bands.emplace_back(bandsOf(header.wavelet, parts, 0));
+    markAbsent(forest, parts, surface.plane, bands);
+    setPriorities(parts, priorities, bands);
+    dropFiner(parts, level, bands);
     decodeTrack(coefficients[track], header.planes, bands);
   }
   surface.f = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);
@@ -64,10 +63,10 @@ Surface decodeSurface(const GeometryHeader& header, const std::vector<uint8_t>& 
           surface.plane);
   }
   for (int32_t& height : surface.plane.flat.heights) height = wrap(int64_t{height} << surface.f);
-  synthesise(header.wavelet, subbands, level, surface.plane);
+  synthesise(header.wavelet, level, surface.plane);
   surface.plane.valid = valid;
   const Plane whole = surface.plane;
-  if (level > 0) surface.plane = levelOf(header.wavelet, subbands, level, surface.plane);
+  if (level > 0) surface.plane = levelOf(header.wavelet, level, surface.plane);
   putFlat(whole, level, surface.plane);
   return surface;
 }

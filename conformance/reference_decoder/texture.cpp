@@ -50,15 +50,14 @@ void unshear(const std::array<int, 6>& h, Sums sums, std::array<int32_t*, 3> c) 
 }
 
 /// FORMAT 9, "Levels": before the inverse wavelet.
-void unshearLevels(const TextureHeader& header, const std::vector<Subband>& subbands,
+void unshearLevels(const TextureHeader& header, const std::vector<Part>& parts,
                    std::vector<Plane>& planes) {
-  if (header.shears.size() < 2) return;
-  for (const Subband& band : subbands) {
-    if (band.level < 2) continue;
-    const size_t set = std::min<size_t>(band.level - 1, header.shears.size() - 1);
-    for (int r = 0; r < band.rows; ++r) {
-      for (int a = 0; a < band.columns; ++a) {
-        const int x = band.x(a), y = band.y(r);
+  for (const Part& part : parts) {
+    if (header.shears.size() < 2 || part.subband.level < 2) continue;
+    const size_t set = std::min<size_t>(part.subband.level - 1, header.shears.size() - 1);
+    for (int r = 0; r < part.rows; ++r) {
+      for (int a = 0; a < part.columns; ++a) {
+        const int x = part.x(a), y = part.y(r);
         unshear(header.shears[set], Sums::kOfCoefficients,
                 {&planes[0].at(x, y), &planes[1].at(x, y), &planes[2].at(x, y)});
       }
@@ -131,7 +130,7 @@ std::vector<Band> bandsBefore(const TextureHeader& header, const std::vector<Par
   std::vector<Band> bands = bandsOfAll(header, parts);
   for (int c = 0; c < header.colourPlanes; ++c) {
     const auto own = std::span(bands).subspan(c * parts.size(), parts.size());
-    markAbsent(parts, lifted, own);
+    markAbsent(header.wavelet.domain.forest, parts, lifted, own);
     setPriorities(parts, priorities, own);
     dropFiner(parts, level, own);
   }
@@ -174,13 +173,12 @@ struct Tracks {
 Tracks decodeTracks(const TextureHeader& header,
                     const std::vector<std::span<const uint8_t>>& coefficients, const Plane& lifted,
                     int level) {
-  const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
   const PriorityMap priorities = priorityMapOf(header.priorities, header.width, header.height);
-  Tracks tracks;
-  for (const Region& region : regionsOf(header.width, header.height, header.regions.log2)) {
-    const std::span<const uint8_t> codeword = coefficients[tracks.parts.size()];
-    tracks.parts.push_back(partsOf(subbands, region));
-    tracks.bands.push_back(bandsBefore(header, tracks.parts.back(), lifted, priorities, level));
+  Tracks tracks{partsOf(header.wavelet.domain.forest, header.width, header.height, header.regions),
+                {}};
+  for (const std::vector<Part>& parts : tracks.parts) {
+    const std::span<const uint8_t> codeword = coefficients[tracks.bands.size()];
+    tracks.bands.push_back(bandsBefore(header, parts, lifted, priorities, level));
     decodeTrack(codeword, header.planes, tracks.bands.back());
   }
   return tracks;
@@ -189,7 +187,6 @@ Tracks decodeTracks(const TextureHeader& header,
 /// The colour planes of a level, in units of 2^-f.
 std::vector<Plane> planesOf(const TextureHeader& header, const Tracks& tracks, const Plane& lifted,
                             int f, int level) {
-  const std::vector<Subband> subbands = subbandsOf(header.width, header.height);
   std::vector<Plane> planes(header.colourPlanes, lifted);
   for (int c = 0; c < header.colourPlanes; ++c) {
     planes[c].values.resize(static_cast<size_t>(header.width) * header.height);
@@ -199,10 +196,10 @@ std::vector<Plane> planesOf(const TextureHeader& header, const Tracks& tracks, c
             f - header.wavelet.fractionBits, planes[c]);
     }
   }
-  unshearLevels(header, subbands, planes);
+  for (const std::vector<Part>& parts : tracks.parts) unshearLevels(header, parts, planes);
   for (Plane& plane : planes) {
-    synthesise(header.wavelet, subbands, level, plane);
-    plane = levelOf(header.wavelet, subbands, level, plane);
+    synthesise(header.wavelet, level, plane);
+    plane = levelOf(header.wavelet, level, plane);
   }
   return planes;
 }

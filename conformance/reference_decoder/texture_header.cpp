@@ -49,6 +49,7 @@ bool suits(const TextureHeader& t, const Domain& domain) {
   const bool cutout = t.alphaBytes > 0;
   if ((cutout || t.opaque) && (t.channels % 2 == 1 || (cutout && t.opaque))) return false;
   if (t.planes == kDrawnPlanes && (t.regions.log2 > 0 || t.priorities.tileLog2 > 0)) return false;
+  if (!domain.forest.isGrid() && (t.hidden || t.overlayBytes > 0 || !suitsForest(t))) return false;
   return t.bridge == 0 || t.hidden || t.overlayBytes > 0;
 }
 
@@ -85,7 +86,7 @@ void readTexture(Reader& in, const Domain& domain, RegionHeader regions, Stream&
   const bool white = parts.take(21, [&](Reader& p) { t.white = int(p.varint(1, 65534)); });
   const bool weights = parts.take(22, [&](Reader& p) { readWeights(p, t); });
   parts.end();
-  t.wavelet.ring = domain.kind == 1;
+  t.wavelet.domain = domain;
   const bool opening = cutout || t.overlayBytes > 0;
   if (!lifted && (opening || tables || weights)) stream.suits = false;
   if (white && t.sample == kU8) stream.suits = false;

@@ -84,34 +84,29 @@ class PassOrder {
   std::vector<Pass> pending_;
 };
 
-/// Decodes one track. Its functions return false, or nothing, when the track ends.
+/// Decodes one track.
 class TrackDecoder {
  public:
   TrackDecoder(std::span<const uint8_t> codeword, std::vector<Band>& bands)
       : decoder_(codeword), bands_(bands) {}
 
   /// FORMAT 6, "Band", and the order of blocks.
-  bool run(const Pass& pass) {
+  void run(const Pass& pass) {
     pass_ = pass;
     Band& band = bands_.at(pass.band);
     if (!band.marked.at(pass.priority)) {
-      if (pass.kind != kRest) return true;
-      const std::optional<int> answer = models().band.decode(decoder_);
-      if (!answer) return false;
-      if (*answer == 0) {
+      if (pass.kind != kRest) return;
+      if (models().band.decode(decoder_) == 0) {
         for (Coefficient& c : band.coefficients) {
           if (c.priority == pass.priority) c.plane = pass.plane;
         }
-        return true;
+        return;
       }
       band.marked.at(pass.priority) = true;
     }
     for (int row = 0; row < band.blockRows(); ++row) {
-      for (int column = 0; column < band.blockColumns(); ++column) {
-        if (!runBlock(row, column)) return false;
-      }
+      for (int column = 0; column < band.blockColumns(); ++column) runBlock(row, column);
     }
-    return true;
   }
 
  private:
@@ -119,7 +114,7 @@ class TrackDecoder {
   Models& models() { return models_[band().modelClass]; }
 
   /// FORMAT 6, "Block": whether one of its coefficients becomes significant.
-  std::optional<int> decodeBlock(int row, int column) {
+  int decodeBlock(int row, int column) {
     const Band& b = band();
     if (b.blocks.size() == 1) return 1;
     if (!existsIn(row, column)) return 0;
@@ -138,37 +133,31 @@ class TrackDecoder {
     return false;
   }
 
-  bool runBlock(int row, int column) {
-    std::optional<int> answer = 1;
+  void runBlock(int row, int column) {
+    int answer = 1;
     auto& marked = band().blocks.at(size_t(row) * band().blockColumns() + column);
     if (!marked.at(pass_.priority)) {
-      if (pass_.kind != kRest) return true;
+      if (pass_.kind != kRest) return;
       answer = decodeBlock(row, column);
-      if (!answer) return false;
-      if (*answer) marked.at(pass_.priority) = true;
+      if (answer) marked.at(pass_.priority) = true;
     }
     const int rowEnd = std::min(8 * row + 8, band().rows);
     const int columnEnd = std::min(32 * column + 32, band().columns);
     for (int r = 8 * row; r < rowEnd; ++r) {
       for (int a = 32 * column; a < columnEnd; ++a) {
-        if (*answer == 0) {
-          Coefficient& c = band().at(r, a);
-          if (c.priority == pass_.priority) c.plane = pass_.plane;
-        } else if (!visit(r, a)) {
-          return false;
-        }
+        Coefficient& c = band().at(r, a);
+        if (answer) visit(r, a);
+        if (!answer && c.priority == pass_.priority) c.plane = pass_.plane;
       }
     }
-    return true;
   }
 
   /// FORMAT 6: which coefficients a pass decides on.
-  bool visit(int r, int a) {
+  void visit(int r, int a) {
     const Coefficient& c = band().at(r, a);
-    if (!isOpen(c)) return true;
-    if ((c.magnitude > 0) != (pass_.kind == kRefine)) return true;
+    if (!isOpen(c) || (c.magnitude > 0) != (pass_.kind == kRefine)) return;
     if (pass_.kind == kRefine) return refine(r, a);
-    if (pass_.kind == kLikely && isQuiet(r, a)) return true;
+    if (pass_.kind == kLikely && isQuiet(r, a)) return;
     return pass_.kind == kRest && isGroup(r, a) ? decodeGroup(r, a) : decodeSignificance(r, a);
   }
 
@@ -235,55 +224,42 @@ class TrackDecoder {
     return 2;
   }
 
-  bool decodeGroup(int r, int a) {
+  void decodeGroup(int r, int a) {
     Model& model = models().group[reachOf(r, a)][hintClass(bitsOfHints(r, a))];
-    const std::optional<int> any = model.decode(decoder_);
-    if (!any) return false;
     int zeros = 4;
-    if (*any) {
-      const std::optional<int> high = models().place[0].decode(decoder_);
-      if (!high) return false;
-      const std::optional<int> low = models().place[1 + *high].decode(decoder_);
-      if (!low) return false;
-      zeros = 2 * *high + *low;
-      if (!becomeSignificant(r, a + zeros)) return false;
+    if (model.decode(decoder_)) {
+      const int high = models().place[0].decode(decoder_);
+      zeros = 2 * high + models().place[1 + high].decode(decoder_);
+      becomeSignificant(r, a + zeros);
     }
     for (int i = 0; i < zeros; ++i) band().at(r, a + i).plane = pass_.plane;
-    return true;
   }
 
-  bool decodeSignificance(int r, int a) {
+  void decodeSignificance(int r, int a) {
     Model& model = models().significance[levelAt(r, a)][hintClass(sumOfHints(r, a))];
-    const std::optional<int> significant = model.decode(decoder_);
-    if (!significant) return false;
-    if (*significant) return becomeSignificant(r, a);
+    if (model.decode(decoder_)) return becomeSignificant(r, a);
     band().at(r, a).plane = pass_.plane;
-    return true;
   }
 
   /// FORMAT 6, "Sign".
-  bool becomeSignificant(int r, int a) {
+  void becomeSignificant(int r, int a) {
     const Neighbours n = band().neighboursOf(r, a);
     const int context = 3 * std::clamp(n.along[0].sign + n.along[1].sign, -1, 1) +
                         std::clamp(n.across[0].sign + n.across[1].sign, -1, 1);
-    const std::optional<int> bit = models().sign[std::abs(context)].decode(decoder_);
-    if (!bit) return false;
-    const bool negative = (*bit == 1) != (context < 0);
+    const int bit = models().sign[std::abs(context)].decode(decoder_);
+    const bool negative = (bit == 1) != (context < 0);
     band().at(r, a) = {1u << pass_.plane, negative ? -1 : 1, pass_.plane, pass_.priority};
-    return true;
   }
 
   /// FORMAT 6, "refine".
-  bool refine(int r, int a) {
+  void refine(int r, int a) {
     Coefficient& c = band().at(r, a);
     const uint32_t known = c.magnitude >> (pass_.plane + 1);
     const int level = levelAt(r, a);
     const int context = known == 1 ? level / 2 : known <= 3 ? 6 + (level > 6) : 8;
-    const std::optional<int> bit = models().refinement[context].decode(decoder_);
-    if (!bit) return false;
-    c.magnitude |= static_cast<uint32_t>(*bit) << pass_.plane;
+    const int bit = models().refinement[context].decode(decoder_);
+    c.magnitude |= static_cast<uint32_t>(bit) << pass_.plane;
     c.plane = pass_.plane;
-    return true;
   }
 
   RangeDecoder decoder_;
@@ -300,10 +276,13 @@ void decodeTrack(std::span<const uint8_t> codeword, int planes, std::vector<Band
   }
   TrackDecoder decoder(codeword, bands);
   PassOrder passes(planes, bands);
-  while (passes.neededPending()) {
-    const Pass pass = passes.next();
-    if (!decoder.run(pass)) return;
-    passes.hasRun(pass);
+  try {
+    while (passes.neededPending()) {
+      const Pass pass = passes.next();
+      decoder.run(pass);
+      passes.hasRun(pass);
+    }
+  } catch (Undecided) {
   }
 }
 

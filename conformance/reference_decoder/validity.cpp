@@ -1,33 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference decoder: which samples there are, level by level of the 4-8 lattice (docs/FORMAT.md,
 // section 8.1).
-#include <algorithm>
 #include <array>
 #include <optional>
 
+#include "conformance/reference_decoder/lattice.hpp"
 #include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/range_decoder.hpp"
 
 namespace tetrakis::reference {
 namespace {
-
-struct Offset {
-  int x, y;
-};
-
-/// FORMAT 8.1: "12 coarser neighbours", as offsets on the grid.
-std::array<Offset, 12> neighboursOf(bool centre, int s) {
-  std::array<Offset, 12> offsets = {};
-  size_t count = 0;
-  for (Offset o : {Offset{1, 0}, {2, 1}, {1, 2}}) {
-    for (int turn = 0; turn < 4; ++turn) {
-      const Offset mapped = centre ? Offset{o.x - o.y, o.x + o.y} : o;
-      offsets[count++] = {s * mapped.x, s * mapped.y};
-      o = {-o.y, o.x};
-    }
-  }
-  return offsets;
-}
 
 class ValidityDecoder {
  public:
@@ -45,20 +27,10 @@ class ValidityDecoder {
   bool ended() const { return ended_; }
 
   std::vector<uint8_t> decode() {
-    int d = 0;
-    while (1 << d < std::max(width_, height_) - 1) ++d;
-    const int root = 1 << d;
-    for (int y = 0; y < height_; y += root) {
-      for (int x = 0; x < width_; x += root) at(x, y) = next(x, y, root_, 1);
-    }
-    for (int s = root / 2; s >= 1; s /= 2) {
-      for (int y = s; y < height_; y += 2 * s) {
-        for (int x = s; x < width_; x += 2 * s) decide(true, s, x, y);
-      }
-      for (int y = 0; y < height_; y += s) {
-        for (int x = y / s % 2 == 0 ? s : 0; x < width_; x += 2 * s) decide(false, s, x, y);
-      }
-    }
+    forEachVertex(width_, height_, [&](const Vertex& v) {
+      if (v.s == 0) at(v.x, v.y) = next(v, root_, 1);
+      if (v.s > 0) decide(v);
+    });
     return valid_;
   }
 
@@ -74,35 +46,35 @@ class ValidityDecoder {
     return at(x + o.x, y + o.y);
   }
 
-  void decide(bool centre, int s, int x, int y) {
+  void decide(const Vertex& v) {
     int near = 0, nearCount = 0, there = 0, ring = 0;
-    const std::array<Offset, 12> offsets = neighboursOf(centre, s);
-    for (size_t i = 0; i < offsets.size(); ++i) {
-      const std::optional<int> v = neighbour(x, y, offsets[i]);
+    for (int i = 0; i < 12; ++i) {
+      const std::optional<int> n = neighbour(v.x, v.y, v.coarser(i));
       if (i >= 4) {
-        ring += v.value_or(0);
-      } else if (v) {
-        near |= *v << i;
-        nearCount += *v;
+        ring += n.value_or(0);
+      } else if (n) {
+        near |= *n << i;
+        nearCount += *n;
         ++there;
       }
     }
     const int majority = 2 * nearCount >= there;
-    const auto before = [&](int dx, int dy) {
-      return inside(x + dx, y + dy) ? at(x + dx, y + dy) : majority;
+    const auto before = [&](Offset o) {
+      return inside(v.x + o.x, v.y + o.y) ? at(v.x + o.x, v.y + o.y) : majority;
     };
-    const int first = centre ? before(-2 * s, 0) : before(-s, -s);
-    const int second = centre ? before(0, -2 * s) : before(s, -s);
     constexpr int kClass[] = {0, 1, 1, 2, 2, 2, 3, 3, 4};
-    const int context = (near * 4 + 2 * first + second) * 5 + kClass[ring];
-    at(x, y) = next(x, y, models_[centre][static_cast<size_t>(context)], majority);
+    const int context = (near * 4 + 2 * before(v.c1()) + before(v.c2())) * 5 + kClass[ring];
+    at(v.x, v.y) = next(v, models_[v.centre][static_cast<size_t>(context)], majority);
   }
 
-  uint8_t next(int x, int y, Model& model, int otherwise) {
-    if (none_ != nullptr && !none_->isValid(x, y)) return 0;
-    const std::optional<int> bit = ended_ ? std::nullopt : model.decode(decoder_);
-    ended_ = !bit;
-    return static_cast<uint8_t>(bit.value_or(undecided_.value_or(otherwise)));
+  uint8_t next(const Vertex& v, Model& model, int otherwise) {
+    if (none_ != nullptr && !none_->isValid(v.x, v.y)) return 0;
+    try {
+      if (!ended_) return static_cast<uint8_t>(model.decode(decoder_));
+    } catch (Undecided) {
+      ended_ = true;
+    }
+    return static_cast<uint8_t>(undecided_.value_or(otherwise));
   }
 
   RangeDecoder& decoder_;

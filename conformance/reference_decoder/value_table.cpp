@@ -2,7 +2,6 @@
 // Reference decoder: tables of values (docs/FORMAT.md, sections 8.1 and 9).
 #include <array>
 #include <list>
-#include <optional>
 
 #include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/range_decoder.hpp"
@@ -15,62 +14,36 @@ class TableDecoder {
  public:
   explicit TableDecoder(std::span<const uint8_t> codeword) : decoder_(codeword) {}
 
-  /// Nothing: a decision does not count.
-  std::optional<std::vector<uint32_t>> table(uint32_t values, int bits) {
+  std::vector<uint32_t> table(uint32_t values, int bits) {
     std::vector<uint32_t> words;
-    for (uint32_t i = 0; i < values; ++i) {
-      const std::optional<uint32_t> next = i == 0 ? firstWord(bits) : gap();
-      if (!next) return std::nullopt;
-      words.push_back(i == 0 ? *next : words.back() + *next);
-    }
+    for (uint32_t i = 0; i < values; ++i)
+      words.push_back(i == 0 ? firstWord(bits) : words.back() + gap());
     return words;
   }
 
  private:
-  std::optional<uint32_t> firstWord(int bits) {
+  uint32_t firstWord(int bits) {
     uint32_t word = 0;
-    for (int i = 0; i < bits; ++i) {
-      const std::optional<int> bit = decoder_.decode(1 << 15);
-      if (!bit) return std::nullopt;
-      word = 2 * word + static_cast<uint32_t>(*bit);
-    }
+    for (int i = 0; i < bits; ++i) word = 2 * word + static_cast<uint32_t>(decoder_.even());
     return word;
   }
 
-  std::optional<uint32_t> gap() {
+  uint32_t gap() {
     int place = 0;
     for (auto known = recent_.begin(); known != recent_.end(); ++known, ++place) {
-      const std::optional<int> hit = hit_[place_][place].decode(decoder_);
-      if (!hit) return std::nullopt;
-      if (!*hit) continue;
+      if (!hit_[place_][place].decode(decoder_)) continue;
       recent_.splice(recent_.begin(), recent_, known);
       place_ = place;
       return recent_.front();
     }
     place_ = place;
-    const std::optional<uint32_t> fresh = freshGap();
-    if (!fresh) return std::nullopt;
-    recent_.pop_back();
-    recent_.push_front(*fresh);
-    return fresh;
-  }
-
-  std::optional<uint32_t> freshGap() {
-    int k = 1;
-    for (; k < 32; ++k) {
-      const std::optional<int> more = more_[bits_][k - 1].decode(decoder_);
-      if (!more) return std::nullopt;
-      if (!*more) break;
-    }
+    const int k = 1 + ones(31, [&](int i) { return more_[bits_][i].decode(decoder_); });
     bits_ = k;
-    uint32_t gap = 1;
-    for (int i = 1; i < k; ++i) {
-      const std::optional<int> bit =
-          gap < 8 ? high_[k][gap].decode(decoder_) : decoder_.decode(1 << 15);
-      if (!bit) return std::nullopt;
-      gap = 2 * gap + static_cast<uint32_t>(*bit);
-    }
-    return gap;
+    recent_.pop_back();
+    recent_.push_front(digits(k, [&](int, uint32_t number) {
+      return number < 8 ? high_[k][number].decode(decoder_) : decoder_.even();
+    }));
+    return recent_.front();
   }
 
   RangeDecoder decoder_;
@@ -87,10 +60,9 @@ std::vector<std::vector<uint32_t>> decodeTables(std::span<const uint8_t> codewor
                                                 const std::vector<uint32_t>& values, int bits) {
   TableDecoder decoder(codeword);
   std::vector<std::vector<uint32_t>> tables(values.size());
-  for (size_t i = 0; i < values.size(); ++i) {
-    const std::optional<std::vector<uint32_t>> table = decoder.table(values[i], bits);
-    if (!table) break;
-    tables[i] = *table;
+  try {
+    for (size_t i = 0; i < values.size(); ++i) tables[i] = decoder.table(values[i], bits);
+  } catch (Undecided) {
   }
   return tables;
 }

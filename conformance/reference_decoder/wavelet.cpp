@@ -122,7 +122,7 @@ void synthesisePlaces(const WaveletHeader& header, int level, const Places& plac
   const Filter& filter = filterOf(header, level);
   const bool exact = isExact(header, level, plane);
   Line line;
-  line.ring = header.ring && places.row();
+  line.ring = header.domain.ring() && places.row();
   for (int i = 0; i < places.count; ++i) {
     const int x = places.x + i * places.stepX, y = places.y + i * places.stepY;
     line.values.push_back(plane.at(x, y));
@@ -229,17 +229,23 @@ int fractionOf(const WaveletHeader& header, int planes, uint64_t bytes, int leve
   return std::clamp(19 - planes, 0, 4);
 }
 
-void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands, int target,
-                Plane& plane) {
+void synthesise(const WaveletHeader& header, int target, Plane& plane) {
+  const Forest& forest = header.domain.forest;
+  const std::vector<Subband> subbands = subbandsOf(plane.width, plane.height / forest.patches());
   for (const Subband& subband : subbands) {
-    if (subband.orientation == kHH && subband.level > target) {
-      synthesiseLevel(header, subband, heldValues(header, subbands, subband.level, plane), plane);
+    const int level = subband.level, step = 1 << (level - 1);
+    if (subband.orientation != kHH || level <= target) continue;
+    if (forest.isGrid()) {
+      synthesiseLevel(header, subband, heldValues(header, subbands, level, plane), plane);
+    } else {
+      synthesiseJointly(header, {level, step, step}, plane);
     }
   }
+  forest.share(plane.values);
 }
 
-Plane levelOf(const WaveletHeader& header, const std::vector<Subband>& subbands, int level,
-              const Plane& plane) {
+Plane levelOf(const WaveletHeader& header, int level, const Plane& plane) {
+  const std::vector<Subband> subbands = subbandsOf(plane.width, plane.height);
   int64_t weight = int64_t{1} << 30;
   for (int l = 1; l <= level; ++l) {
     const auto hh = std::find_if(subbands.begin(), subbands.end(), [l](const Subband& subband) {

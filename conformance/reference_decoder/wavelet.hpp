@@ -66,7 +66,7 @@ struct Plane {
 };
 
 /// FORMAT 7, "Joint lifting": one level, which splits both directions. The low band of the level
-/// before has its samples at multiples of the two steps.
+/// before has its samples at multiples of the two steps, of a forest in each patch.
 struct JointLevel {
   int level, stepX, stepY;
 };
@@ -76,11 +76,9 @@ void synthesiseJointly(const WaveletHeader& header, const JointLevel& of, Plane&
 
 /// The inverse transform, of the levels above the target alone, of values that lie at their places.
 /// Levels of flat areas are in units of 2^-f.
-void synthesise(const WaveletHeader& header, const std::vector<Subband>& subbands, int target,
-                Plane& plane);
+void synthesise(const WaveletHeader& header, int target, Plane& plane);
 
 /// FORMAT 7.1: what the inverse transform down to a level has made, as an image of its own.
-Plane levelOf(const WaveletHeader& header, const std::vector<Subband>& subbands, int level,
-              const Plane& plane);
+Plane levelOf(const WaveletHeader& header, int level, const Plane& plane);
 
 }  // namespace tetrakis::reference

@@ -166,11 +166,10 @@ namespace {
 CodedHeights tryHeights(std::shared_ptr<const QuantisedHeights> quantised,
                         const HeightTarget& target, const CoefficientOptions& options) {
   const HeightSteps& steps = quantised->steps;
-  FlatChoice choice =
-      chooseFlatAreas(steps.lifting(extentOf(*quantised->samples)), quantised->mayBeFlat(),
-                      {steps.range_bits, target.purpose, target.bytes, target.mean_square,
-                       options.threads, target.purpose == Purpose::kLossy,
-                       quantised->forest != nullptr});
+  FlatChoice choice = chooseFlatAreas(
+      steps.lifting(extentOf(*quantised->samples)), quantised->mayBeFlat(),
+      {steps.range_bits, target.purpose, target.bytes, target.mean_square, options.threads,
+       target.purpose == Purpose::kLossy, quantised->forest != nullptr});
   if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
   HeightLayers layers = layersAround(*quantised, std::move(choice), options.priorities);
   layers.mask_room = target.mask_room;

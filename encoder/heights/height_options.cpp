@@ -16,9 +16,8 @@ CoefficientOptions heightOptions(const EncodeInputs& inputs) {
   const Extent extent = extentOf(*inputs.heights);
   const bool large = extent.samples() > kOneRegionHeights;
   const bool whole = inputs.heights->domain == TKS_DOMAIN_FOREST;
-  const RegionChoice regions =
-      whole ? RegionChoice() : chooseRegions(options, extent, large);
-  const ViewPriorities* const priorities = inputs.priorities;
+  const RegionChoice regions = whole ? RegionChoice() : chooseRegions(options, extent, large);
+  const Priorities* const priorities = inputs.priorities;
   const bool some_first = priorities != nullptr && !priorities->heights.empty();
   return {.limit = limitOf(inputs),
           .region_log2 = regions.side_log2,

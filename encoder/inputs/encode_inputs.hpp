@@ -47,7 +47,7 @@ struct CodedLines {
 // derive from it what both components need alike.
 
 /// The coefficients that come earlier in each component; empty maps: none do.
-struct ViewPriorities {
+struct Priorities {
   PriorityMap heights, texture;
 };
 
@@ -57,7 +57,7 @@ struct EncodeInputs {
   const tks_heights* heights;  ///< null: there are none
   const tks_image* image;      ///< null: there is none
   const tks_encode_options& options;
-  const ViewPriorities* priorities = nullptr;  ///< null: none; else it outlives this as well
+  const Priorities* priorities = nullptr;  ///< null: none; else it outlives this as well
   /// The caller's heights, of which `heights` are some lines; null: they are all lines.
   const tks_heights* whole = nullptr;
   const CodedLines* lines = nullptr;
@@ -101,7 +101,7 @@ struct EncodeInputs {
     return inputs;
   }
   /// The same inputs under other options, which outlive the result, and with other priorities.
-  EncodeInputs with(const tks_encode_options& other, const ViewPriorities* others) const {
+  EncodeInputs with(const tks_encode_options& other, const Priorities* others) const {
     return {.heights = heights,
             .image = image,
             .options = other,
@@ -166,5 +166,13 @@ struct SampleGrid {
 /// The lines to code in an encoding. All lines are coded for a judge of pictures, who takes whole
 /// inputs, and for budgets of which the map of lines would take too much.
 CodedLines linesThatPay(const tks_encode_options& options, const SampleGrid& grid, uint32_t least);
+
+// areaPriorities() makes a map of priorities for heights whose rows have latitudes. An error counts
+// by the area of its sample, which falls towards the poles as the cosine of the latitude does: on a
+// globe half of the samples lie on 29 % of the ground.
+
+/// The map has no tiles if the heights have no latitudes, if the areas of their rows differ so
+/// little that errors over the ground would hardly fall, or if it takes too many bytes.
+PriorityMap areaPriorities(const EncodeInputs& inputs);
 
 }  // namespace tetrakis::inline inputs

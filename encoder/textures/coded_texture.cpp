@@ -29,9 +29,8 @@ TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) 
   const Extent extent = texels.extent();
   const bool whole = inputs.image->domain == TKS_DOMAIN_FOREST;
   const RegionChoice regions =
-      whole ? RegionChoice()
-            : chooseRegions(options, extent, extent.samples() > kOneRegionTexels);
-  const ViewPriorities* const priorities = inputs.priorities;
+      whole ? RegionChoice() : chooseRegions(options, extent, extent.samples() > kOneRegionTexels);
+  const Priorities* const priorities = inputs.priorities;
   const bool some_first = priorities != nullptr && !priorities->texture.empty();
   const bool to_psnr = options.psnr > 0;
   const double heaviest = inputs.heaviestTexel();

@@ -2,6 +2,7 @@
 #include "encoder/views/view_inputs.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -96,11 +97,10 @@ class TileWorths {
 
 }  // namespace
 
-ViewPriorities prioritiesOf(const EncodeInputs& inputs) {
+Priorities viewPriorities(const EncodeInputs& inputs) {
+  assert(inputs.heights != nullptr && inputs.image != nullptr);
   const tks_encode_options& options = inputs.options;
-  const bool alike = options.psnr > 0 || options.max_error > 0;
-  if (options.camera_count == 0 || inputs.heights == nullptr || inputs.image == nullptr || alike)
-    return {};
+  if (options.camera_count == 0) return {};
   const Result<std::vector<uint8_t>> valid = findVoids(*inputs.heights);
   if (!valid.ok()) return {};
   const tks_heights& heights = *inputs.heights;

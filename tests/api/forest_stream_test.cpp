@@ -25,8 +25,7 @@ const std::vector<Shape>& shapes() {
   static const std::vector<Shape> all = {
       {"octahedron", {5, 4, 7, 6, 1, 0, 3, 2}},
       {"torus", {2, 3, 0, 1}},
-      {"plane",
-       {kNone, 7, 8, kNone, kNone, kNone, 12, 1, 2, 15, kNone, kNone, 6, kNone, kNone, 9}},
+      {"plane", {kNone, 7, 8, kNone, kNone, kNone, 12, 1, 2, 15, kNone, kNone, 6, kNone, kNone, 9}},
       {"patch", {kNone, kNone, kNone, kNone}},
       {"cylinder", {kNone, 3, kNone, 1}},
       {"cone", {3, kNone, kNone, 0}}};
@@ -144,7 +143,8 @@ struct Picture {
       : forest(depth, shape.sides), channels(count), texels(forest.raster().samples() * count) {
     const uint32_t side = forest.side();
     for (uint32_t i = 0; i < texels.size(); ++i) {
-      const auto x = static_cast<double>(i / count % side), y = static_cast<double>(i / count / side);
+      const auto x = static_cast<double>(i / count % side),
+                 y = static_cast<double>(i / count / side);
       const double waves = 60 * std::sin(x / 7 + i % count) + 50 * std::cos(y / 9);
       texels[i] = static_cast<uint8_t>(std::lround(waves + 120) + samples::hash(i, 2, 7) % 9);
     }
@@ -314,8 +314,7 @@ int64_t characteristic(const tks_mesh& mesh, const Edges& edges) {
 TEST(ForestStream, MakesClosedMeshesOfAnyNumberOfTriangles) {
   for (const Shape& shape : shapes()) {
     const Surface surface(shape, 5);
-    const bool is_closed =
-        std::count(shape.sides.begin(), shape.sides.end(), kNone) == 0;
+    const bool is_closed = std::count(shape.sides.begin(), shape.sides.end(), kNone) == 0;
     const Bytes bytes = encodeHeights(surface.heights(), budget(1800));
     Stream stream(bytes);
     uint32_t before = 0;

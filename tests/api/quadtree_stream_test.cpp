@@ -10,7 +10,7 @@
 namespace tetrakis::test {
 namespace {
 
-constexpr uint32_t kWidth = 70, kHeight = 45;
+constexpr uint32_t kGridWidth = 70, kGridHeight = 45;
 using Clip = std::array<double, 16>;
 /// Grid samples and heights of a triangle's corners, the smallest sample first.
 using Triangle = std::array<std::pair<uint32_t, float>, 3>;
@@ -49,7 +49,7 @@ class MeshTrees : public testing::Test {
  protected:
   const Bytes bytes_ = [] {
     const samples::Raster surface =
-        samples::make({samples::Pattern::kRidges, kWidth, kHeight, 1, TKS_I16});
+        samples::make({samples::Pattern::kRidges, kGridWidth, kGridHeight, 1, TKS_I16});
     return encode(&surface, nullptr, lossless());
   }();
   tks_mesh_tree* tree_ = nullptr;
@@ -84,8 +84,8 @@ TEST_F(MeshTrees, TilesOfTheMapCoverTheMeshAndMeetWithoutCracks) {
   makeTree(TKS_MESH_BUDGET, 900, &whole);
   const std::set<Triangle> expected = whole.triangles();
   std::set<Triangle> joined;
-  for (double x = 0; x < kWidth - 1; x += 11.5)
-    for (double y = 0; y < kHeight - 1; y += 11) {
+  for (double x = 0; x < kGridWidth - 1; x += 11.5)
+    for (double y = 0; y < kGridHeight - 1; y += 11) {
       MeshOwner part;
       ASSERT_EQ(tks_view_mesh(tree_, window(x, y, x + 11.5, y + 11).data(), &part.mesh), TKS_OK);
       EXPECT_LT(part.mesh.triangle_count, whole.mesh.triangle_count / 3);
@@ -95,12 +95,13 @@ TEST_F(MeshTrees, TilesOfTheMapCoverTheMeshAndMeetWithoutCracks) {
 }
 
 TEST_F(MeshTrees, VoidsAreLeftOutAsInTheMeshesOfTheDecoder) {
-  samples::Raster coast = samples::make({samples::Pattern::kRidges, kWidth, kHeight, 1, TKS_I16});
+  samples::Raster coast =
+      samples::make({samples::Pattern::kRidges, kGridWidth, kGridHeight, 1, TKS_I16});
   constexpr int16_t kVoid = -32768;
-  for (uint32_t y = 0; y < kHeight; ++y)
-    for (uint32_t x = 0; x < kWidth; ++x)
+  for (uint32_t y = 0; y < kGridHeight; ++y)
+    for (uint32_t x = 0; x < kGridWidth; ++x)
       if (x + 2 * y > 90)
-        std::memcpy(coast.data.data() + 2 * (y * kWidth + x), &kVoid, sizeof kVoid);
+        std::memcpy(coast.data.data() + 2 * (y * kGridWidth + x), &kVoid, sizeof kVoid);
   tks_heights heights = coast.heights();
   heights.has_nodata = 1;
   heights.nodata = kVoid;
@@ -109,7 +110,7 @@ TEST_F(MeshTrees, VoidsAreLeftOutAsInTheMeshesOfTheDecoder) {
   MeshOwner mesh, all, sea;
   ASSERT_EQ(tks_decode_mesh_tree(stream.get(), TKS_MESH_BUDGET, 700, &tree_), TKS_OK);
   ASSERT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_BUDGET, 700, &mesh.mesh), TKS_OK);
-  ASSERT_EQ(tks_view_mesh(tree_, window(0, 0, kWidth, kHeight).data(), &all.mesh), TKS_OK);
+  ASSERT_EQ(tks_view_mesh(tree_, window(0, 0, kGridWidth, kGridHeight).data(), &all.mesh), TKS_OK);
   EXPECT_EQ(all.triangles(), mesh.triangles());
   EXPECT_GT(all.mesh.triangle_count, 100u);
   ASSERT_EQ(tks_view_mesh(tree_, window(62, 37, 69, 44).data(), &sea.mesh), TKS_OK);

@@ -62,6 +62,8 @@ TEST_F(Arguments, Heights) {
       [](Call& c) { c.heights.step = kNan; },
       [](Call& c) { c.heights.spacing_x = -30; },
       [](Call& c) { c.heights.spacing_y = kNan; },
+      [](Call& c) { c.heights.first_latitude = 181; },
+      [](Call& c) { c.heights.last_latitude = kNan; },
   };
   for (size_t i = 0; i < std::size(spoils); ++i) {
     EXPECT_EQ(encodeWith(spoils[i]), TKS_USAGE) << "case " << i;

@@ -74,10 +74,29 @@ class StructSizes : public testing::Test {
                 "1024=1",
                 nullptr,
                 0,
-                TKS_DOMAIN_CYLINDER};
-    image_ = {
-        sizeof image_,         9,   5,        2, TKS_U8, samples_.data(), {}, 1,
-        TKS_REGISTRATION_AREA, "y", "1024=2", 1, 255,    nullptr,         0,  TKS_DOMAIN_CYLINDER};
+                TKS_DOMAIN_CYLINDER,
+                {},
+                0,
+                0};
+    image_ = {sizeof image_,
+              9,
+              5,
+              2,
+              TKS_U8,
+              samples_.data(),
+              {},
+              1,
+              TKS_REGISTRATION_AREA,
+              "y",
+              "1024=2",
+              1,
+              255,
+              nullptr,
+              0,
+              TKS_DOMAIN_CYLINDER,
+              60,
+              -60,
+              {}};
     std::copy(std::begin(transform), std::end(transform), heights_.geotransform);
     std::copy(std::begin(transform), std::end(transform), image_.geotransform);
     options_.size = sizeof options_;

@@ -83,6 +83,27 @@ TEST_F(CliDomain, IsWhatTheUserSays) {
   EXPECT_EQ(encode(world, " --domain sphere").code, 1);
 }
 
+/// Rows of a geographic grid have latitudes, whether they run south or north; others have none.
+TEST_F(CliDomain, TheGroundOfAGlobeComesFirst) {
+  const auto ordered = [&](double north, double degrees, const char* crs) {
+    tools::HeightFile file = ground(128, -180, 360. / 128, crs);
+    file.data.clear();
+    file.height = 64;
+    for (uint32_t i = 0; i < 128 * 64; ++i)
+      appendSample(file, static_cast<uint16_t>(400 + 300 * std::sin(i / 9.) * std::cos(i / 700.)));
+    file.geotransform = tools::GeoTransform{-180, 360. / 128, 0, north, 0, degrees};
+    const Outcome run = encode(file, " --explain");
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.out.find("priorities") != std::string::npos;
+  };
+  EXPECT_TRUE(ordered(90, -180. / 64, "EPSG:4326"));
+  EXPECT_TRUE(ordered(-90, 180. / 64, "EPSG:4326"));
+  EXPECT_FALSE(ordered(5, -10. / 64, "EPSG:4326"));
+  EXPECT_FALSE(ordered(90, -180. / 64, "EPSG:3857"));
+  EXPECT_FALSE(ordered(90, -180. / 64, ""));
+  EXPECT_FALSE(ordered(400, -180. / 64, "EPSG:4326"));
+}
+
 TEST_F(CliDomain, TexturesLieAsTheHeightsDoUnlessTheySayOtherwise) {
   tools::ImageFile image;
   image.width = 72;

@@ -14,7 +14,7 @@
 #include "codec/geometry/facets/facet_coder.hpp"
 #include "codec/geometry/facets/facets_encoder.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
-#include "conformance/reference_decoder/facets.hpp"
+#include "conformance/reference_decoder/sample_corrections.hpp"
 #include "conformance/reference_decoder/samples.hpp"
 #include "conformance/samples/facets.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The library against the reference decoder (agreement.hpp): heights and textures whose columns go
-// round.
+// round, and globes whose ground comes first.
 #include <utility>
 
 #include "conformance/samples/few_values.hpp"
@@ -52,6 +52,20 @@ TEST(ReferenceRing, AgreesOnOtherGroundAndInRegions) {
       expectAgreementOnLayers(heights, options);
       if (HasFatalFailure()) return;
     }
+  }
+}
+
+TEST(ReferenceRing, AgreesOnGlobesByArea) {
+  const Raster raster = make({Pattern::kRidges, 320, 160, 1, TKS_I16, 5});
+  const tks_heights globe = goingRound(raster.heights());
+  tks_heights placed = globe;
+  placed.first_latitude = 90;
+  placed.last_latitude = -90;
+  for (const tks_encode_options& options : {lossless(), budget(9000), inRegions(lossless())}) {
+    const Bytes stream = encodeHeights(placed, options);
+    ASSERT_NE(stream, encodeHeights(globe, options));
+    expectAgreementOnPrefixes(stream);
+    if (HasFatalFailure()) return;
   }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A band of GDAL as heights.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -23,6 +24,21 @@ double scaleOf(const std::string& name, GDALRasterBand& band) {
   return 1;
 }
 
+/// In the unit of the system; 0: it has no angles, or is unknown.
+double degreesOf(const OGRSpatialReference* system) {
+  if (system == nullptr || !system->IsGeographic()) return 0;
+  return system->GetAngularUnits() * (180 / std::numbers::pi);
+}
+
+/// Of the rows of a geographic grid, so that errors count by area as those of the command line do.
+void takeLatitudes(const Place& place, const OGRSpatialReference* system, tks_heights& heights) {
+  if (!place.has_geotransform) return;
+  const std::array<double, 2> latitudes =
+      edgeLatitudes({1, heights.height, place.geotransform}, degreesOf(system));
+  heights.first_latitude = latitudes[0];
+  heights.last_latitude = latitudes[1];
+}
+
 /// What the dataset says of its band, but for voids.
 void takeFacts(const std::string& name, GDALDataset& dataset, CopiedHeights& copy) {
   GDALRasterBand& band = *dataset.GetRasterBand(1);
@@ -40,6 +56,7 @@ void takeFacts(const std::string& name, GDALDataset& dataset, CopiedHeights& cop
   heights.has_geotransform = place.has_geotransform;
   heights.registration = place.registration;
   heights.domain = domainOf(place, dataset.GetSpatialRef(), heights.width);
+  takeLatitudes(place, dataset.GetSpatialRef(), heights);
   setGroundSpacing(dataset.GetSpatialRef(), heights);
   copy.ground = WebGround::of(dataset, copy.crs.crs);
   heights.unit = copy.unit.c_str();
@@ -61,10 +78,8 @@ Place placeOf(GDALDataset& dataset) {
 }
 
 tks_domain domainOf(const Place& place, const OGRSpatialReference* system, uint32_t width) {
-  if (!place.has_geotransform || system == nullptr || !system->IsGeographic())
-    return TKS_DOMAIN_PLANE;
-  const double degrees = system->GetAngularUnits() * (180 / std::numbers::pi);
-  return columnsRound({width, 1, place.geotransform}, degrees) == ColumnsRound::kOnce
+  if (!place.has_geotransform) return TKS_DOMAIN_PLANE;
+  return columnsRound({width, 1, place.geotransform}, degreesOf(system)) == ColumnsRound::kOnce
              ? TKS_DOMAIN_CYLINDER
              : TKS_DOMAIN_PLANE;
 }

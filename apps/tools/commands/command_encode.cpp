@@ -186,6 +186,17 @@ Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
   return options;
 }
 
+/// The rows of a cube have no latitudes.
+tks_heights encodedHeights(const EncodeArguments& arguments, const HeightFile& file) {
+  tks_heights heights = asHeights(file);
+  heights.step = arguments.step;
+  if (file.cube_depth > 0) return heights;
+  const std::array<double, 2> latitudes = edgeLatitudes(file, file.height);
+  heights.first_latitude = latitudes[0];
+  heights.last_latitude = latitudes[1];
+  return heights;
+}
+
 /// plans: are told, if they are asked for.
 Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& inputs, bool quiet,
                             ExplainedPlans& plans) {
@@ -207,8 +218,8 @@ Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& i
   options->progress = &Progress::report;
   options->user = &progress;
   if (arguments.explain) plans.askFor(*options);
-  tks_heights heights = inputs.heights ? asHeights(*inputs.heights) : tks_heights{};
-  heights.step = arguments.step;
+  const tks_heights heights =
+      inputs.heights ? encodedHeights(arguments, *inputs.heights) : tks_heights{};
   const tks_image image = inputs.image ? asImage(*inputs.image) : tks_image{};
   Result<Buffer> stream = tetrakis::encode(inputs.heights ? &heights : nullptr,
                                            inputs.image ? &image : nullptr, *options);

@@ -194,8 +194,8 @@ class FlatTrials {
 FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, Mask valid,
                            const HeightPurpose& purpose) {
   if (purpose.free)
-    return {{}, chooseWavelet(heights, purpose.range_bits, purpose.purpose,
-                              rateOf(heights, purpose))};
+    return {{},
+            chooseWavelet(heights, purpose.range_bits, purpose.purpose, rateOf(heights, purpose))};
   return FlatTrials(heights, valid, purpose).choose();
 }
 

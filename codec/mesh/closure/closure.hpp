@@ -111,8 +111,7 @@ std::vector<double> hullSides(const Lattice& lattice, std::span<const VertexId> 
                               std::span<const double> gains, uint32_t triangles);
 
 /// The same of any graph. triangles: beyond those of the mesh without vertices.
-std::vector<double> hullSides(ClosureGraph graph, std::span<const double> gains,
-                              int64_t triangles);
+std::vector<double> hullSides(ClosureGraph graph, std::span<const double> gains, int64_t triangles);
 
 /// The same vertices by their ids.
 std::vector<VertexId> ascending(std::span<const VertexId> order);

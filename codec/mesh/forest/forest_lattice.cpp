@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-namespace tetrakis::inline forest_mesh {
+namespace tetrakis::inline forest {
 
 namespace {
 
@@ -132,4 +132,4 @@ LatticeMesh meshOf(const ForestLattice& lattice, std::span<const ForestVertex> v
   return joined.take();
 }
 
-}  // namespace tetrakis::inline forest_mesh
+}  // namespace tetrakis::inline forest

@@ -18,7 +18,7 @@
 #include "codec/mesh/topology/lattice.hpp"
 #include "codec/mesh/topology/lattice_mesh.hpp"
 
-namespace tetrakis::inline forest_mesh {
+namespace tetrakis::inline forest {
 
 /// Vertices of a forest other than corners of patches, level after level from coarse to fine:
 /// parents before children.
@@ -62,4 +62,4 @@ std::vector<ForestVertex> closureOfMarks(const ForestLattice& lattice,
 /// Its vertices are samples of the raster; no edge is open but at borders.
 LatticeMesh meshOf(const ForestLattice& lattice, std::span<const ForestVertex> vertices);
 
-}  // namespace tetrakis::inline forest_mesh
+}  // namespace tetrakis::inline forest

@@ -7,7 +7,7 @@
 #include "codec/mesh/gains/gains.hpp"
 #include "codec/mesh/surface/surface.hpp"
 
-namespace tetrakis::inline forest_mesh {
+namespace tetrakis::inline forest {
 
 namespace {
 
@@ -104,8 +104,7 @@ std::vector<ForestVertex> forestBudgetVertices(const ForestLattice& lattice,
     return withinBudget(lattice, lattice.graph(), forestGains(lattice, heights), max_triangles);
   const Forest coarse_forest(forest.depth() - skipped, forest.sides());
   const ForestLattice coarse(coarse_forest);
-  const std::vector<double> gains =
-      forestGains(coarse, everyOther(forest, heights, skipped));
+  const std::vector<double> gains = forestGains(coarse, everyOther(forest, heights, skipped));
   // Coarse levels come first, in the same order.
   return withinBudget(coarse, coarse.graph(), gains, max_triangles);
 }
@@ -116,4 +115,4 @@ uint64_t forestMeshBytes(const Forest& forest) {
          kMoments * forest.side() * uint64_t{forest.side()};
 }
 
-}  // namespace tetrakis::inline forest_mesh
+}  // namespace tetrakis::inline forest

@@ -9,7 +9,7 @@
 
 #include "codec/mesh/forest/forest_lattice.hpp"
 
-namespace tetrakis::inline forest_mesh {
+namespace tetrakis::inline forest {
 
 /// What each vertex takes off the squared error of a mesh, in squared height steps (thesis 5.3):
 /// the sum over the patches that it splits triangles of. heights: of the raster.
@@ -27,4 +27,4 @@ std::vector<ForestVertex> forestBudgetVertices(const ForestLattice& lattice,
 /// The bytes that meshes of a forest take at most beside its heights.
 uint64_t forestMeshBytes(const Forest& forest);
 
-}  // namespace tetrakis::inline forest_mesh
+}  // namespace tetrakis::inline forest

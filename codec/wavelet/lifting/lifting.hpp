@@ -128,10 +128,10 @@ size_t jointRounds(FilterId id);
 /// low half of each row lies before the high half.
 struct JointBlock {
   int32_t* first;
-  size_t pitch;   ///< from one row to the next, in values
-  Extent extent;  ///< two samples or more in each direction
-  Ends ends;      ///< of the rows
-  bool doubled;   ///< a becomes 2 a + [2 (...)]: coarser levels then round half as much
+  size_t pitch;      ///< from one row to the next, in values
+  Extent extent;     ///< two samples or more in each direction
+  Ends ends;         ///< of the rows
+  bool doubled;      ///< a becomes 2 a + [2 (...)]: coarser levels then round half as much
   size_t round = 0;  ///< of the filter's; a is doubled in the last one
 };
 

@@ -280,6 +280,21 @@ def test_texts_become_utf8(tmp_path):
     assert band.GetDescription() == "Hö he"
 
 
+def test_the_ground_of_a_globe_comes_first(tmp_path):
+    """Errors of geographic grids that reach a pole count by area, as on the command line."""
+    heights = terrain(128, 256, "i2")
+    area = np.cos(np.radians(90 - (np.arange(128) + 0.5) * 180 / 128))[:, np.newaxis]
+
+    def squares(north, row):
+        place = {"transform": (-180, 360 / 256, 0, north, 0, row), "crs": "EPSG:4326"}
+        written = copy(memory(heights, **place), tmp_path / "a.tks", "BYTES=3000", "DOMAIN=PLANE")
+        return (area * (written.ReadAsArray().astype("f8") - heights) ** 2).sum()
+
+    by_samples = squares(5, -10 / 128)
+    assert squares(90, -180 / 128) < by_samples
+    assert squares(-90, 180 / 128) < by_samples
+
+
 def test_grids_that_go_round_are_cylinders(tmp_path):
     """Geographic grids of 360 degrees, of any origin, and pictures on them; no others."""
     heights, picture = terrain(20, 72, "i2"), terrain(20, 72, "u1")

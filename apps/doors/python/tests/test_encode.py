@@ -294,6 +294,22 @@ def test_progress_reports_and_raises(heights):
         tetrakis.encode(heights, bytes=2000, progress=interrupted)
 
 
+def test_latitudes_put_the_ground_first():
+    globe = terrain(128, 256)
+    area = np.cos(np.radians(90 - (np.arange(128) + 0.5) * 180 / 128))[:, np.newaxis]
+
+    def squares(**place):
+        stream = tetrakis.encode(globe, bytes=3000, **place)
+        with tetrakis.open(stream) as opened:
+            return (area * (opened.heights() - globe.astype("f8")) ** 2).sum()
+
+    assert squares(latitudes=(90, -90)) < squares()
+    assert squares(latitudes=(5, -5)) == squares()
+    for refused in (90, (90,), (200, -90), ("north", "south")):
+        with pytest.raises(tetrakis.TksUsageError):
+            tetrakis.encode(globe, latitudes=refused)
+
+
 def test_columns_that_go_round(heights, texture):
     stream = tetrakis.encode(heights, texture, lossless=True, domain="cylinder")
     with tetrakis.open(stream) as opened:

@@ -57,6 +57,12 @@ ColumnsRound columnsRound(const Georeference& place, uint32_t width) {
   return columnsRound(PlacedRaster{width, 1, place.geotransform->data()}, degrees);
 }
 
+std::array<double, 2> edgeLatitudes(const Georeference& place, uint32_t height) {
+  if (!place.geotransform) return {};
+  const double degrees = gridUnitOf(place.geo_keys, place.crs).degrees;
+  return edgeLatitudes(PlacedRaster{1, height, place.geotransform->data()}, degrees);
+}
+
 std::array<double, 2> spacingOf(const tks_info& info) {
   const std::array<double, 2> stated{info.spacing_x, info.spacing_y};
   if (stated[0] > 0 || stated[1] > 0 || !info.has_geotransform) return stated;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // groundSpacing() gives the metres between the samples of a placed raster. It is the only function
 // that turns degrees and feet of a grid into metres. columnsRound() tells whether degrees make a
-// whole turn.
+// whole turn, edgeLatitudes() between which of them the rows lie.
 #pragma once
 
 #include <array>
@@ -45,6 +45,9 @@ GridUnit gridUnitOf(const std::string& geo_keys, const std::string& crs);
 /// Whether the columns of a file go round the Earth, by its transform and the unit of its CRS.
 /// Files without a place, and maps, do not go round.
 ColumnsRound columnsRound(const Georeference& place, uint32_t width);
+
+/// The latitudes between which the rows of a file lie (base/coordinates.hpp), by the same.
+std::array<double, 2> edgeLatitudes(const Georeference& place, uint32_t height);
 
 /// Of heights, as the stream states it, or else from their place, keys and CRS as far as these
 /// tell: not every encoder knows what a CRS means. 0: unknown.

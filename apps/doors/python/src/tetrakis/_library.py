@@ -68,6 +68,8 @@ class Heights(ctypes.Structure):
         ("positions", c_void_p),
         ("positions_size", c_size_t),
         ("domain", c_int),
+        ("first_latitude", c_double),
+        ("last_latitude", c_double),
     ]
 
 

@@ -109,6 +109,19 @@ def spacing(value: Any) -> Tuple[float, float]:
     return real(given[0], "spacing"), real(given[1], "spacing")
 
 
+def latitudes(value: Any) -> Tuple[float, float]:
+    """Of the first and the last row; both 0 are unknown."""
+    if value is None:
+        return 0.0, 0.0
+    try:
+        given = list(value)
+    except TypeError:
+        given = []
+    if len(given) != 2:
+        raise TksUsageError(f"latitudes takes two numbers, (first, last), not {told(value)}.")
+    return real(given[0], "latitudes"), real(given[1], "latitudes")
+
+
 def geotransform(values: Optional[Sequence[float]], what: str) -> Tuple[Any, int]:
     """The six numbers, and whether there are any."""
     if values is None:

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reference decoder: patches whose sides are glued (docs/FORMAT.md, sections 2 and 7, "Forests").
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tetrakis::reference {
+
+/// Column x and row y of a patch.
+struct Place {
+  int64_t patch, x, y;
+};
+
+/// FORMAT 2, "A forest". A grid is one patch whose sides are borders.
+class Forest {
+ public:
+  Forest() = default;  ///< a grid
+  /// glued: of each side the other one, of a border itself.
+  Forest(int depth, std::vector<int> glued);
+
+  bool isGrid() const { return depth_ == 0; }
+  int patches() const { return static_cast<int>(glued_.size() / 4); }
+  /// FORMAT 7, "locate", among patches with such a last column and row.
+  Place locate(Place place, int64_t lastX, int64_t lastY) const;
+  /// Both are numbers of samples of the raster, row by row.
+  size_t ownerOf(size_t sample) const;
+
+  /// Samples that are not owned become what the owned ones are. of: as many for each sample.
+  template <class T>
+  void share(std::vector<T>& of) const {
+    const size_t samples = isGrid() ? 0 : patches() * side() * side();
+    for (size_t i = 0; i < samples; ++i) {
+      const size_t each = of.size() / samples;
+      std::copy_n(of.begin() + ownerOf(i) * each, each, of.begin() + i * each);
+    }
+  }
+
+ private:
+  size_t side() const { return (size_t{1} << depth_) + 1; }
+  /// Where sample `along` of a side is on the other one.
+  int64_t across(int side, int64_t along, int64_t last) const;
+
+  int depth_ = 0;
+  std::vector<int> glued_ = {0, 1, 2, 3};
+  std::vector<int> corners_;   ///< of each corner the lowest one that is the same
+  std::vector<bool> regular_;  ///< of each lowest corner: four meet there, and no border
+};
+
+}  // namespace tetrakis::reference
