@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // bench_globe FILE...: global grids of heights, whose columns go round the Earth from pole to pole,
-// as planes and as cylinders, with equal samples and with equal areas: bytes at equal RMSE over the
-// area of the Earth, bytes to the last bit, and what is left of the seam between the last column
-// and the first one.
+// as planes and as cylinders, with equal samples and with equal areas, and on cubes: bytes at equal
+// RMSE over the area of the Earth, bytes to the last bit (of cubes: of their own samples), and what
+// is left of the seam between the last column and the first one. Errors on cubes are those of the
+// grid that is made of them, what is lost by resampling among them.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -10,10 +11,13 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/files/place/ground_spacing.hpp"
+#include "apps/tools/files/stream.hpp"
 #include "base/samples.hpp"
 #include "bench/harness/arguments.hpp"
 #include "tetrakis/tetrakis.hpp"
@@ -24,6 +28,7 @@ namespace {
 struct Options {
   std::vector<std::string> files;
   std::vector<double> errors = {110, 80, 55};
+  uint32_t depth = 0;
 };
 
 std::vector<double> samplesOf(const tools::HeightFile& file, std::span<const std::byte> data) {
@@ -42,13 +47,24 @@ std::vector<double> samplesOf(const tools::HeightFile& file, std::span<const std
 /// How a grid is coded.
 struct Coding {
   const char* name;
-  tks_domain domain;
+  tools::HeightFile heights;
   bool by_area;  ///< the encoder is told the latitudes
 };
-constexpr std::array<Coding, 4> kCodings = {{{"plane", TKS_DOMAIN_PLANE, false},
-                                             {"plane, weights", TKS_DOMAIN_PLANE, true},
-                                             {"cylinder", TKS_DOMAIN_CYLINDER, false},
-                                             {"cylinder, weights", TKS_DOMAIN_CYLINDER, true}}};
+
+Result<std::vector<Coding>> codingsOf(const tools::HeightFile& grid, uint32_t cube_depth) {
+  tools::HeightFile ring = grid;
+  ring.domain = TKS_DOMAIN_CYLINDER;
+  tools::CubeErrors errors;
+  Result<tools::HeightFile> cube = tools::onCube(grid, cube_depth, 1, errors);
+  if (!cube.ok()) return cube.status();
+  std::printf("cube of depth %u: resampled with an RMSE of %.2f, largest error %.0f\n",
+              cube->cube_depth, errors.rmse, errors.largest);
+  return std::vector<Coding>{{"plane", grid, false},
+                             {"plane, weights", grid, true},
+                             {"cylinder", ring, false},
+                             {"cylinder, weights", ring, true},
+                             {"cube", std::move(*cube), false}};
+}
 
 /// How decoded samples are off: over the area of the Earth, and from one side of the seam to the
 /// other, as root mean squares.
@@ -65,8 +81,7 @@ class Globe {
 
   /// bytes: 0, to the last bit.
   Result<Buffer> coded(const Coding& coding, uint64_t bytes) const {
-    tks_heights heights = tools::asHeights(file_);
-    heights.domain = coding.domain;
+    tks_heights heights = tools::asHeights(coding.heights);
     if (coding.by_area) {
       heights.first_latitude = latitudes_[0];
       heights.last_latitude = latitudes_[1];
@@ -82,9 +97,9 @@ class Globe {
     if (!stream.ok()) return stream.status();
     Result<Decoder> decoder = Decoder::open(stream->bytes());
     if (!decoder.ok()) return decoder.status();
-    const Result<std::vector<std::byte>> samples = decoder->heights();
-    if (!samples.ok()) return samples.status();
-    const std::vector<double> values = samplesOf(file_, *samples);
+    const Result<tools::HeightFile> decoded = tools::decodeHeights(*decoder);
+    if (!decoded.ok()) return decoded.status();
+    const std::vector<double> values = samplesOf(file_, decoded->data);
     return Figures{rmse(values), jump(values)};
   }
   /// Between the two sides of the seam, as the ground has it.
@@ -143,7 +158,9 @@ Status measure(const Options& options, const std::string& path) {
   const Globe globe(*file);
   std::printf("%s: %u x %u, step at the seam %.1f\n", path.c_str(), file->width, file->height,
               globe.jump());
-  for (const Coding& coding : kCodings) {
+  const Result<std::vector<Coding>> codings = codingsOf(*file, options.depth);
+  if (!codings.ok()) return codings.status();
+  for (const Coding& coding : *codings) {
     const Result<Buffer> lossless = globe.coded(coding, 0);
     if (!lossless.ok()) return lossless.status();
     const uint64_t whole = lossless->bytes().size();
@@ -167,9 +184,10 @@ int main(int argc, char** argv) {
   using namespace tetrakis::bench;
   Options options;
   Arguments arguments(
-      "Global grids of heights as planes and as cylinders, by samples and by area.");
+      "Global grids of heights as planes and as cylinders, by samples and by area, and on cubes.");
   arguments.required({"FILE", "global grids"}, options.files);
   arguments.numbers({"--errors", "RMSEs over the area of the Earth"}, options.errors);
+  arguments.within({"--depth", "of the cube; 0: chosen"}, options.depth, 0, TKS_MOST_CUBE_DEPTH);
   if (const auto code = arguments.parse(argc, argv)) return *code;
   for (const std::string& file : options.files) {
     const tetrakis::Status status = measure(options, file);

@@ -11,8 +11,8 @@ namespace tetrakis::inline globe {
 namespace {
 
 /// On a cube with two thirds of the samples of a rough grid (ETOPO at 20') the RMSE falls from 60 m
-/// through 41 to 36, and in ten more rounds to 32.5; with 2.7 times its samples from 12.5 to 6.0, and
-/// to 4.1. More rounds take more bytes at an RMSE of 55 m and above.
+/// through 41 to 36, and in ten more rounds to 32.5; with 2.7 times its samples from 12.5 to 6.0,
+/// and to 4.1. More rounds take more bytes at an RMSE of 55 m and above.
 constexpr int kRounds = 2;
 
 double squaresOf(const std::vector<float>& values) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which rasters the command line takes for cylinders, by where they lie.
+// Which rasters the command line takes for cylinders, by where they lie, and which go to cubes.
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_fixture.hpp"
@@ -123,6 +124,82 @@ TEST_F(CliDomain, TexturesLieAsTheHeightsDoUnlessTheySayOtherwise) {
   ASSERT_EQ(encode(world, " --texture half.tif").code, 0);
   EXPECT_EQ(domainOf("heights"), "cylinder");
   EXPECT_EQ(domainOf("texture"), "plane");
+}
+
+class CliCube : public CliDomain {
+ protected:
+  CliCube() {
+    world_.width = 72;
+    world_.height = 36;
+    world_.sample = TKS_I16;
+    world_.crs = "EPSG:4326";
+    world_.unit = "m";
+    world_.geotransform = tools::GeoTransform{-180, 5, 0, 90, 0, -5};
+    for (uint32_t i = 0; i < 72 * 36; ++i)
+      appendSample(world_, static_cast<uint16_t>(1000 * std::sin((i / 72 + 0.5) * 0.0872664626) *
+                                                     std::cos(i % 72 * 0.0872664626) +
+                                                 2000));
+  }
+  Outcome encodeCube(const std::string& options) {
+    EXPECT_TRUE(tools::writeHeights(path("g.tif"), world_).ok());
+    return cli("encode g.tif --domain cube -f -o s.tks" + options);
+  }
+  tools::HeightFile decoded(const std::string& options = "") {
+    EXPECT_EQ(cli("decode s.tks -f --height d.tif" + options).code, 0);
+    return *tools::readHeights(path("d.tif"));
+  }
+  int sampleOf(const tools::HeightFile& file, size_t i) {
+    int16_t sample = 0;
+    std::memcpy(&sample, file.data.data() + i * sizeof sample, sizeof sample);
+    return sample;
+  }
+
+  tools::HeightFile world_;
+};
+
+TEST_F(CliCube, GivesTheGridBack) {
+  const Outcome run = encodeCube(" --psnr 60");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("cube of depth 5"), std::string::npos) << run.err;
+  const Json heights = Json::parse(cli("info --json s.tks").out)["heights"];
+  EXPECT_EQ(heights["domain"], "forest");
+  EXPECT_EQ(heights["forest"]["depth"], 5);
+  EXPECT_EQ(heights["forest"]["cube"], true);
+  EXPECT_EQ(heights["forest"]["grid_width"], 72);
+  const tools::HeightFile back = decoded();
+  ASSERT_EQ(back.width, 72u);
+  ASSERT_EQ(back.height, 36u);
+  EXPECT_EQ(back.geotransform, world_.geotransform);
+  EXPECT_EQ(back.crs, world_.crs);
+  for (size_t i = 0; i < 72 * 36; ++i) ASSERT_NEAR(sampleOf(back, i), sampleOf(world_, i), 12);
+}
+
+TEST_F(CliCube, GivesWindowsOfTheGrid) {
+  ASSERT_EQ(encodeCube(" --bytes 3000 --depth 4").code, 0);
+  const tools::HeightFile whole = decoded(), part = decoded(" --window 60 30 12 6");
+  ASSERT_EQ(part.width, 12u);
+  EXPECT_EQ(*part.geotransform, (tools::GeoTransform{120, 5, 0, -60, 0, -5}));
+  for (size_t i = 0; i < 12 * 6; ++i)
+    EXPECT_EQ(sampleOf(part, i), sampleOf(whole, (30 + i / 12) * 72 + 60 + i % 12));
+  EXPECT_EQ(cli("decode s.tks -f --height d.tif --window 60 30 13 6").code, 1);
+  for (const char* other : {"--mesh m.glb", "--normal-map n.png", "--height d.r16 --size unity"})
+    EXPECT_EQ(cli(std::string("decode s.tks -f ") + other).code, 1) << other;
+}
+
+TEST_F(CliCube, RefusesWhatDoesNotGoWithIt) {
+  const auto refuses = [&](const std::string& options, const char* word) {
+    const Outcome run = encodeCube(options);
+    EXPECT_EQ(run.code, 1) << options;
+    EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
+  };
+  refuses(" --lossless", "--lossless");
+  refuses(" --max-error 3", "--max-error");
+  refuses(" --bytes 3000 --regions 64", "--regions");
+  refuses(" --bytes 3000 --nodata 2000", "void");
+  refuses(" --bytes 3000 --crs EPSG:3857", "angles");
+  (*world_.geotransform)[1] = 4;
+  refuses(" --bytes 3000", "round");
+  EXPECT_EQ(cli("encode g.tif --depth 4 --bytes 3000 -f -o s.tks").code, 1);
 }
 
 }  // namespace

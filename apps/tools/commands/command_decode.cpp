@@ -16,6 +16,7 @@
 #include "apps/tools/commands/decoded_texture.hpp"
 #include "apps/tools/commands/engine_output.hpp"
 #include "apps/tools/commands/notes.hpp"
+#include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/place/ground_spacing.hpp"
 #include "apps/tools/files/plain_heights.hpp"
@@ -190,12 +191,22 @@ class Decoding {
   uint64_t beside_bytes_ = 0;  ///< that the texture takes meanwhile
 };
 
+/// Meshes, normals and terrains of engines are those of a plane, which a cube is not.
+Status checkCube(const DecodeArguments& arguments, const tks_info& info) {
+  const bool plain =
+      arguments.mesh.empty() && arguments.normal_map.empty() && arguments.size.empty();
+  if (plain || !isGridOnCube(info)) return Status();
+  return Status(TKS_USAGE,
+                "the heights lie on a cube, which gives --height and its --window alone");
+}
+
 Status decode(const DecodeArguments& arguments, bool quiet) {
   if (Status status = checkArguments(arguments); !status.ok()) return status;
   Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
   stream->decoder.setThreads(arguments.threads);
   if (Status status = checkWindow(arguments, stream->decoder.info()); !status.ok()) return status;
+  if (Status status = checkCube(arguments, stream->decoder.info()); !status.ok()) return status;
   const bool no_heights = arguments.height.empty() && arguments.normal_map.empty();
   const uint32_t heights_level = no_heights ? 0 : arguments.level,
                  texture_level = arguments.texture.empty() ? 0 : arguments.level;

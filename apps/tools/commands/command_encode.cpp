@@ -13,6 +13,7 @@
 #include "apps/tools/commands/encode_notes.hpp"
 #include "apps/tools/commands/explained_plans.hpp"
 #include "apps/tools/commands/notes.hpp"
+#include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/place/given_crs.hpp"
 #include "apps/tools/files/place/ground_positions.hpp"
@@ -119,6 +120,17 @@ void addPlaces(const EncodeArguments& arguments, Reference& inputs, bool quiet) 
   if (!remark.empty()) tellNote(quoted(name) + ": " + remark, quiet);
 }
 
+/// Takes heights to a cube, if one is asked for.
+Status resample(const EncodeArguments& arguments, Reference& inputs, bool quiet) {
+  if (arguments.domain != "cube") return Status();
+  CubeErrors errors;
+  Result<HeightFile> cube = onCube(*inputs.heights, arguments.depth, arguments.threads, errors);
+  if (!cube.ok()) return cube.status();
+  tellNote(cubeNote(*cube, errors), quiet);
+  inputs.heights = std::move(*cube);
+  return Status();
+}
+
 /// Those that are asked for; none: the library looks from all sides.
 Result<std::vector<Camera>> wantedCameras(const EncodeArguments& arguments,
                                           const Reference& inputs) {
@@ -174,9 +186,11 @@ Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
   return options;
 }
 
+/// The rows of a cube have no latitudes.
 tks_heights encodedHeights(const EncodeArguments& arguments, const HeightFile& file) {
   tks_heights heights = asHeights(file);
   heights.step = arguments.step;
+  if (file.cube_depth > 0) return heights;
   const std::array<double, 2> latitudes = edgeLatitudes(file, file.height);
   heights.first_latitude = latitudes[0];
   heights.last_latitude = latitudes[1];
@@ -281,6 +295,7 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
   Result<Reference> inputs = readInputs(arguments, quiet);
   if (!inputs.ok()) return inputs.status();
   addPlaces(arguments, *inputs, quiet);
+  if (Status status = resample(arguments, *inputs, quiet); !status.ok()) return status;
   if (Status status = checkEncodeMemory(arguments, *inputs); !status.ok()) return status;
   ExplainedPlans plans;
   const Result<Buffer> stream = encodeInputs(arguments, *inputs, quiet, plans);

@@ -11,6 +11,7 @@
 
 #include "apps/tools/commands/command.hpp"
 #include "apps/tools/commands/options.hpp"
+#include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/plain_heights.hpp"
 #include "apps/tools/output/json.hpp"
 
@@ -55,13 +56,23 @@ Json registrationJson(tks_registration registration) {
 constexpr std::array<const char*, 4> kCodings = {"wavelet", "drawn", "overlay", "stored"};
 
 /// What tks_domain stands for.
-constexpr std::array<const char*, 2> kDomains = {"plane", "cylinder"};
+constexpr std::array<const char*, 3> kDomains = {"plane", "cylinder", "forest"};
+
+Json forestJson(const tks_info& info) {
+  if (info.forest.patches == 0) return {};
+  return {{"depth", info.forest.depth},
+          {"patches", info.forest.patches},
+          {"cube", isGridOnCube(info)},
+          {"grid_width", info.grid_width > 0 ? Json(info.grid_width) : Json()},
+          {"grid_height", info.grid_height > 0 ? Json(info.grid_height) : Json()}};
+}
 
 Json heightsJson(const tks_info& info) {
   if (!info.has_heights) return {};
   return {{"width", info.width},
           {"height", info.height},
           {"domain", kDomains.at(static_cast<size_t>(info.domain))},
+          {"forest", forestJson(info)},
           {"sample", sampleName(info.sample)},
           {"scale", info.scale},
           {"offset", info.offset},

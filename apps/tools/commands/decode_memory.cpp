@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "apps/tools/commands/decode_windows.hpp"
+#include "apps/tools/files/cube_heights.hpp"
 
 namespace tetrakis::tools {
 
@@ -17,7 +18,9 @@ Status DecodeMemory::check() {
 }
 
 Status DecodeMemory::checkHeights(uint64_t beside) {
-  return check(TKS_PART_HEIGHTS, heightWindow(arguments_), heights() + beside);
+  const bool whole = isGridOnCube(info_);
+  return check(TKS_PART_HEIGHTS, whole ? std::nullopt : heightWindow(arguments_),
+               heights() + beside);
 }
 
 Status DecodeMemory::checkMesh(uint64_t beside) {

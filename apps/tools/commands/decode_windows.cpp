@@ -4,6 +4,7 @@
 #include <string>
 
 #include "apps/tools/files/place/texture_place.hpp"
+#include "apps/tools/files/stream.hpp"
 
 namespace tetrakis::tools {
 
@@ -31,8 +32,9 @@ std::optional<tks_window> textureWindow(const DecodeArguments& arguments, const 
 Status checkWindow(const DecodeArguments& arguments, const tks_info& info) {
   const std::optional<tks_window> w = heightWindow(arguments);
   if (!w) return Status();
-  const uint64_t width = info.has_heights ? info.width : info.texture_width;
-  const uint64_t height = info.has_heights ? info.height : info.texture_height;
+  const Extent heights = shownHeights(info);
+  const uint64_t width = info.has_heights ? heights.width : info.texture_width;
+  const uint64_t height = info.has_heights ? heights.height : info.texture_height;
   if (w->width > 0 && w->height > 0 && uint64_t{w->x} + w->width <= width &&
       uint64_t{w->y} + w->height <= height) {
     const bool both = wantsTexture(arguments) && info.has_heights && info.has_texture;

@@ -56,9 +56,13 @@ void addTuning(CLI::App& verb, EncodeArguments& arguments) {
       ->type_name("WEIGHTS");
   verb.add_option("--domain", arguments.domain,
                   "Whether the last column lies beside the first one: cylinder, plane, or auto (as "
-                  "the CRS and the place tell)")
-      ->check(silent(CLI::IsMember({"auto", "plane", "cylinder"})))
+                  "the CRS and the place tell); or cube: the globe is resampled on one")
+      ->check(silent(CLI::IsMember({"auto", "plane", "cylinder", "cube"})))
       ->type_name("DOMAIN");
+  verb.add_option("--depth", arguments.depth,
+                  "With --domain cube: its faces have 2^N x 2^N squares; else chosen")
+      ->check(silent(CLI::Range(1, TKS_MOST_CUBE_DEPTH)))
+      ->type_name("N");
   addThreads(verb, arguments.threads);
   verb.add_flag("--index", arguments.index, "Write the front index of all packets");
   verb.add_flag(
@@ -100,6 +104,7 @@ Status checkHeightOptions(const EncodeArguments& arguments) {
       {"--nodata", arguments.nodata.has_value()},
       {"--step", arguments.step > 0},
       {"--spacing", !arguments.spacing.empty()},
+      {"--domain cube", arguments.domain == "cube"},
       {"--unit", arguments.unit.has_value()},
       {"--vertical-datum", arguments.vertical_datum.has_value()},
       {"--crs", arguments.crs.has_value()},
@@ -118,6 +123,26 @@ Status checkMaxError(const std::string& max_error) {
   if (!length.ok()) return length.status();
   if (*length > 0) return Status();
   return Status(TKS_USAGE, "--max-error must be above 0; --lossless keeps everything");
+}
+
+/// A cube has other samples than the file, and few of its streams' tools.
+Status checkCube(const EncodeArguments& arguments) {
+  if (arguments.domain != "cube") {
+    if (arguments.depth == 0) return Status();
+    return Status(TKS_USAGE, "--depth is about a cube: give --domain cube");
+  }
+  const std::pair<const char*, bool> others[] = {
+      {"--texture", !arguments.texture.empty()},
+      {"--lossless", arguments.lossless},
+      {"--max-error", !arguments.max_error.empty()},
+      {"--report", !arguments.report.empty()},
+      {"--regions", arguments.regions != "auto" && arguments.regions != "off"}};
+  for (const auto& [name, given] : others) {
+    if (given)
+      return Status(TKS_USAGE, "--domain cube resamples heights, so that " + std::string(name) +
+                                   " does not go with it");
+  }
+  return Status();
 }
 
 }  // namespace
@@ -148,6 +173,7 @@ Status checkArguments(const EncodeArguments& arguments) {
   if (Status status = checkMaxError(arguments.max_error); !status.ok()) return status;
   if (arguments.white_level > 0 && arguments.texture.empty())
     return Status(TKS_USAGE, "--white-level is about a texture: give --texture");
+  if (Status status = checkCube(arguments); !status.ok()) return status;
   return arguments.height.empty() ? checkHeightOptions(arguments) : Status();
 }
 

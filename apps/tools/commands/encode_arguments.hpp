@@ -17,6 +17,7 @@ struct EncodeArguments {
   double psnr = 0;
   std::string max_error;
   bool lossless = false;
+  uint32_t depth = 0;  ///< of a cube; 0: chosen
   uint32_t triangles = 0, threads = hardwareThreads();
   std::string regions = "auto", weights = "psnr", engine = "modelled", domain = "auto";
   double step = 0;

@@ -2,9 +2,11 @@
 #include "apps/tools/commands/encode_notes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 
 #include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/place/crs_units.hpp"
@@ -65,6 +67,17 @@ std::string repeatNote(const std::string& name, const HeightFile& heights) {
          "is coded as a plane, with a seam; without that column (gdal_translate -srcwin 0 0 " +
          std::to_string(heights.width - 1) + " " + std::to_string(heights.height) +
          ") it is a cylinder";
+}
+
+std::string cubeNote(const HeightFile& cube, const CubeErrors& errors) {
+  const auto rounded = [](double error) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g", error);
+    return std::string(text.data());
+  };
+  return "the heights go to a cube of depth " + std::to_string(cube.cube_depth) +
+         ", which gives them back within " + rounded(errors.largest) +
+         (cube.unit.empty() ? "" : " " + cube.unit) + ", with an RMSE of " + rounded(errors.rmse);
 }
 
 std::string whiteNote(const std::string& texture, const ImageFile& image) {

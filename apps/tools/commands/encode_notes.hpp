@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/tools/commands/encode_arguments.hpp"
+#include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/files.hpp"
 
 namespace tetrakis::tools {
@@ -19,6 +20,9 @@ Notes guesses(const EncodeArguments& arguments, const HeightFile& heights, const
 
 /// That columns go round the Earth, and one of them is there twice.
 std::string repeatNote(const std::string& name, const HeightFile& heights);
+
+/// How large a cube is, and how far it is from the heights that it was made of.
+std::string cubeNote(const HeightFile& cube, const CubeErrors& errors);
 
 /// What counts as white of a texture, if it is not the largest value.
 std::string whiteNote(const std::string& texture, const ImageFile& image);

@@ -2,6 +2,7 @@
 // What files hold, as the encoder takes it.
 #include <algorithm>
 
+#include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/files.hpp"
 #include "tetrakis/tetrakis.hpp"
 
@@ -45,6 +46,12 @@ tks_heights asHeights(const HeightFile& file) {
   setPlace(file, heights);
   heights.has_nodata = file.nodata.has_value();
   heights.nodata = file.nodata.value_or(0);
+  if (file.cube_depth > 0) {
+    heights.domain = TKS_DOMAIN_FOREST;
+    heights.forest = {file.cube_depth, kCubePatches, tks_cube_sides()};
+    heights.grid_width = file.grid_width;
+    heights.grid_height = file.grid_height;
+  }
   return heights;
 }
 

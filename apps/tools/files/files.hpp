@@ -54,6 +54,8 @@ struct HeightFile : Georeference {
   double spacing_x = 0, spacing_y = 0;            ///< metres per sample; 0: unknown
   std::optional<double> nodata;                   ///< the file's declared nodata value
   std::string unit, vertical_datum, description;  ///< "" when unknown
+  uint32_t cube_depth = 0;  ///< of heights on a cube, of which the file does not hold the place,
+  uint32_t grid_width = 0, grid_height = 0;  ///< but that of this grid; 0: they are no cube
 };
 
 /// Something about a file that is read that its user should know.

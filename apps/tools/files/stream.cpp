@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/memory_limit.hpp"
 
@@ -22,6 +23,31 @@ std::optional<GeoTransform> placedAt(const double* given, const std::optional<tk
   GeoTransform transform;
   std::copy_n(given, transform.size(), transform.begin());
   return window ? movedTo(transform, window->x, window->y) : transform;
+}
+
+Result<std::vector<std::byte>> samplesOf(Decoder& decoder, const std::optional<tks_window>& window,
+                                         uint64_t copies) {
+  const Result<uint64_t> fits =
+      decoder.checkMemory(TKS_PART_HEIGHTS, window ? &*window : nullptr, 0,
+                          heightsBytes(decoder.info(), window) + copies);
+  if (!fits) return fits.status();
+  return window ? decoder.heights(*window) : decoder.heights();
+}
+
+/// Of heights on a cube, which are decoded whole.
+Result<std::vector<std::byte>> gridSamples(Decoder& decoder,
+                                           const std::optional<tks_window>& window,
+                                           uint64_t copies) {
+  const tks_info& info = decoder.info();
+  const Extent all = shownHeights(info);
+  const uint64_t asked = window ? uint64_t{window->width} * window->height : all.samples();
+  const uint64_t floats = sizeof(float) * (uint64_t{info.width} * info.height + asked);
+  const Result<uint64_t> fits = decoder.checkMemory(TKS_PART_HEIGHTS, nullptr, 0,
+                                                    floats + heightsBytes(info, window) + copies);
+  if (!fits) return fits.status();
+  const Result<std::vector<float>> surface = decoder.surface();
+  if (!surface) return surface.status();
+  return gridOfCube(info, *surface, window);
 }
 
 }  // namespace
@@ -50,9 +76,14 @@ Result<OpenStream> openStream(const StreamSource& source) {
   return OpenStream{std::move(*bytes), std::move(*decoder)};
 }
 
+Extent shownHeights(const tks_info& info) {
+  return isGridOnCube(info) ? Extent{info.grid_width, info.grid_height}
+                            : Extent{info.width, info.height};
+}
+
 uint64_t heightsBytes(const tks_info& info, const std::optional<tks_window>& window) {
-  const uint64_t samples =
-      window ? uint64_t{window->width} * window->height : uint64_t{info.width} * info.height;
+  const Extent all = shownHeights(info);
+  const uint64_t samples = window ? uint64_t{window->width} * window->height : all.samples();
   return samples * tks_sample_bytes(info.sample);
 }
 
@@ -66,14 +97,13 @@ Result<HeightFile> decodeHeights(Decoder& decoder, const std::optional<tks_windo
                                  uint64_t copies) {
   const tks_info& info = decoder.info();
   if (!info.has_heights) return Status(TKS_USAGE, "the stream has no heights");
-  const Result<uint64_t> fits = decoder.checkMemory(TKS_PART_HEIGHTS, window ? &*window : nullptr,
-                                                    0, heightsBytes(info, window) + copies);
-  if (!fits) return fits.status();
-  Result<std::vector<std::byte>> samples = window ? decoder.heights(*window) : decoder.heights();
+  Result<std::vector<std::byte>> samples = isGridOnCube(info) ? gridSamples(decoder, window, copies)
+                                                              : samplesOf(decoder, window, copies);
   if (!samples) return samples.status();
+  const Extent all = shownHeights(info);
   HeightFile file;
-  file.width = window ? window->width : info.width;
-  file.height = window ? window->height : info.height;
+  file.width = window ? window->width : all.width;
+  file.height = window ? window->height : all.height;
   file.sample = info.sample;
   file.data = std::move(*samples);
   file.scale = info.scale;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/tools/files/files.hpp"
+#include "base/plane.hpp"
 #include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.hpp"
 
@@ -39,7 +40,11 @@ Result<Decoder> openDecoder(std::span<const uint8_t> bytes);
 /// Reads, checks (strict), cuts and opens. A cut that leaves no whole header gives TKS_TRUNCATED.
 Result<OpenStream> openStream(const StreamSource& source);
 
-/// Decoded heights with the metadata of the stream, of a window of samples or all of them. copies:
+/// Columns and rows of heights as files hold them: those of the grid that a cube was made of.
+Extent shownHeights(const tks_info& info);
+
+/// Decoded heights with the metadata of the stream, of a window of samples or all of them. Of
+/// heights on a cube that were made of a grid they are the grid's. copies:
 /// what the caller makes of them, in bytes, which has to fit beside them. TKS_USAGE if the stream
 /// has none, or not that window; TKS_LIMIT.
 Result<HeightFile> decodeHeights(Decoder& decoder, const std::optional<tks_window>& window = {},
