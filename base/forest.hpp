@@ -3,8 +3,8 @@
 // of squares (L. Balmelli, thesis, sections 3.2.2 and 4.6). It says which samples of which patches
 // are one, and which sample lies where a line leaves a patch.
 //
-// A patch has (2^depth + 1)^2 samples. The raster of a forest holds the patches one below the other.
-// Sides and corners are numbered clockwise, patch by patch, y pointing down:
+// A patch has (2^depth + 1)^2 samples. The raster of a forest holds the patches one below the
+// other. Sides and corners are numbered clockwise, patch by patch, y pointing down:
 //
 //   side    4 patch + 0 north, 1 east, 2 south, 3 west      north and south run eastwards, east and
 //   corner  4 patch + 0 nw, 1 ne, 2 se, 3 sw                west southwards

@@ -104,7 +104,7 @@ def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
         registration=values.choice(place["registration"], c.REGISTRATIONS, "registration"),
         description=values.text(place["description"], "description"),
         geo_keys=values.text(place["geo_keys"], "geo_keys"),
-        domain=values.choice(place["domain"], c.DOMAINS, "domain"),
+        domain=values.choice(place["domain"], c.DOMAINS[:2], "domain"),
         first_latitude=first_latitude,
         last_latitude=last_latitude,
     )
@@ -152,7 +152,7 @@ def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
         geo_keys=values.text(place["geo_keys"], "texture_geo_keys"),
         opaque=not values.flag(place["alpha"], "texture_alpha"),
         white_level=values.unsigned(place["white_level"], "texture_white_level"),
-        domain=values.choice(place["domain"], c.DOMAINS, "texture_domain"),
+        domain=values.choice(place["domain"], c.DOMAINS[:2], "texture_domain"),
     ), data
 
 

@@ -35,10 +35,16 @@ GEOTRANSFORM = c_double * 6
 REGISTRATIONS = (None, "area", "point")
 WEIGHTS = ("psnr", "visual")
 INDEXES = (False, True, "windows")
-DOMAINS = ("plane", "cylinder")
+DOMAINS = ("plane", "cylinder", "forest")
 
 PART_HEIGHTS, PART_VALIDITY, PART_TEXTURE = 0, 1, 2
 MESH_BUDGET = 1
+
+
+class Forest(ctypes.Structure):
+    """tks_forest."""
+
+    _fields_ = [("depth", c_uint32), ("patches", c_uint32), ("sides", POINTER(c_uint32))]
 
 
 class Heights(ctypes.Structure):
@@ -70,6 +76,9 @@ class Heights(ctypes.Structure):
         ("domain", c_int),
         ("first_latitude", c_double),
         ("last_latitude", c_double),
+        ("forest", Forest),
+        ("grid_width", c_uint32),
+        ("grid_height", c_uint32),
     ]
 
 
@@ -93,6 +102,7 @@ class Image(ctypes.Structure):
         ("positions", c_void_p),
         ("positions_size", c_size_t),
         ("domain", c_int),
+        ("forest", Forest),
     ]
 
 
@@ -277,6 +287,10 @@ class StreamInfo(ctypes.Structure):
         ("texture_positions_size", c_size_t),
         ("domain", c_int),
         ("texture_domain", c_int),
+        ("forest", Forest),
+        ("texture_forest", Forest),
+        ("grid_width", c_uint32),
+        ("grid_height", c_uint32),
     ]
 
 
@@ -284,6 +298,17 @@ class Window(ctypes.Structure):
     """tks_window."""
 
     _fields_ = [("x", c_uint32), ("y", c_uint32), ("width", c_uint32), ("height", c_uint32)]
+
+
+class GeographicGrid(ctypes.Structure):
+    """tks_geographic_grid."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("width", c_uint32),
+        ("height", c_uint32),
+        ("geotransform", GEOTRANSFORM),
+    ]
 
 
 class Ranges(ctypes.Structure):
@@ -370,6 +395,7 @@ class Screen(ctypes.Structure):
 
 
 STRUCTS = {
+    "tks_forest": Forest,
     "tks_heights": Heights,
     "tks_image": Image,
     "tks_camera": Camera,
@@ -382,6 +408,7 @@ STRUCTS = {
     "tks_range": Range,
     "tks_info": StreamInfo,
     "tks_window": Window,
+    "tks_geographic_grid": GeographicGrid,
     "tks_pixel": Pixel,
     "tks_ranges": Ranges,
     "tks_mesh": Mesh,
