@@ -83,6 +83,8 @@ Status checkForest(const std::string& whose, const Raster& raster, size_t bytes)
   if (depth < 1 || depth > Forest::kMostDepth || patches < 1 || sides == nullptr ||
       raster.width != side || raster.height != patches * side)
     return misuse("The " + whose + " is not the raster of its forest.");
+  if (patches > Forest::kMostPatches)
+    return misuse("A forest has at most " + std::to_string(Forest::kMostPatches) + " patches.");
   if (!Forest::isSound({sides, size_t{Forest::kSides} * patches}))
     return misuse("The sides of the forest are not glued in pairs.");
   if (!sharesSamples(raster.data, bytes, *forestOf(raster)))

@@ -44,17 +44,21 @@ inline uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint3
   const bool known = header.planes > 0 && header.planes < kDrawnPlanes &&
                      !decoder.packets.payload.nothingOf(component);
   const bool ordered = !header.priorities.none();
-  const TrackNeeds needs{header.extent(), header.regions.side_log2, planes, masked, ordered, known,
-                         decoder.threads, decoder.remembers};
+  const Forest* const forest = header.wavelet.forest.get();
+  const TrackNeeds needs{header.extent(), forest, header.regions.side_log2, planes,
+                         masked || forest != nullptr, ordered, known, decoder.threads,
+                         decoder.remembers};
   const TrackMemory& memory = component == Component::kTexture ? decoder.texture_memory.tracks
                                                                : decoder.heights_memory.tracks;
   const uint64_t state = needs.bytes();
   return state - std::min(state, memory.bytes()) + (ordered ? mapBytes(header) : 0);
 }
 
-/// What there is for each track all the time.
+/// What there is for each track all the time, and for the patches of a forest.
 inline uint64_t trackBytes(const auto& header) {
-  return kTrackBytes * regionCount(header.width, header.height, header.regions.side_log2);
+  const SharedForest& forest = header.wavelet.forest;
+  return kTrackBytes * regionCount(header.width, header.height, header.regions.side_log2) +
+         (forest != nullptr ? Pyramid::bytesOf(*forest) : 0);
 }
 
 /// What the planes of a view take until its samples are there.

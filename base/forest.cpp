@@ -143,12 +143,13 @@ Forest::Place Forest::owner(int64_t n, const Place& sample) const {
   return across(n, side, north || south ? x : y, 0);
 }
 
-std::vector<uint8_t> ownedSamples(const Forest& forest) {
+BitPlane ownedSamples(const Forest& forest) {
   const uint32_t side = forest.side();
-  std::vector<uint8_t> owned(forest.raster().samples(), 1);
+  BitPlane owned(forest.raster());
+  owned.invert();
   forest.forEachShared(side - 1, [&](const Forest::Place& sample, const Forest::Place&) {
-    owned[(size_t{sample.patch} * side + static_cast<size_t>(sample.y)) * side +
-          static_cast<size_t>(sample.x)] = 0;
+    const auto x = static_cast<uint32_t>(sample.x), y = static_cast<uint32_t>(sample.y);
+    owned.row(sample.patch * side + y)[x / kWordBits] &= ~(uint64_t{1} << x % kWordBits);
   });
   return owned;
 }

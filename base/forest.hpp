@@ -21,6 +21,7 @@
 #include <span>
 #include <vector>
 
+#include "base/bit_plane.hpp"
 #include "base/plane.hpp"
 
 namespace tetrakis::inline base {
@@ -30,6 +31,12 @@ class Forest {
   static constexpr uint32_t kBorder = UINT32_MAX;  ///< in the place of a side: none is glued here
   static constexpr uint32_t kSides = 4;
   static constexpr int kMostDepth = 18;
+  static constexpr uint32_t kMostPatches = 4096, kMostRows = 1 << 20;
+
+  /// The patches that a forest may have whose raster has no more than kMostRows rows.
+  static uint32_t mostPatches(int depth) {
+    return std::min(kMostPatches, kMostRows / ((uint32_t{1} << depth) + 1));
+  }
 
   /// A sample of a patch, or of what lies around it.
   struct Place {
@@ -117,6 +124,6 @@ void shareOwned(const Forest& forest, std::span<T> raster, uint32_t n, size_t va
 }
 
 /// Marks the samples of a raster that no other one owns.
-std::vector<uint8_t> ownedSamples(const Forest& forest);
+BitPlane ownedSamples(const Forest& forest);
 
 }  // namespace tetrakis::inline base

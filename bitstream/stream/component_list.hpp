@@ -78,7 +78,7 @@ void visitForest(V& v, Domain& domain) {
   }
   v.u8("depth", depth, 1, Forest::kMostDepth);
   if (!v.ok()) return;
-  v.varint("patches", patches, 1, kMaxSide / ((uint64_t{1} << depth) + 1));
+  v.varint("patches", patches, 1, Forest::mostPatches(static_cast<int>(depth)));
   if (!v.ok()) return;
   const auto count = static_cast<uint32_t>(Forest::kSides * patches);
   if constexpr (V::kReads) sides.assign(count, Forest::kBorder);

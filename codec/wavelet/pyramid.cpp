@@ -35,11 +35,12 @@ Pyramid::Pyramid(SharedBits valid, Extent plane, HeldSamples held)
 }
 
 Pyramid::Pyramid(const Forest& forest)
-    : valid_(sharedBits(ownedSamples(forest), forest.raster())),
+    : valid_(shared(ownedSamples(forest))),
       lows_{{{forest.side(), forest.side()}, forest.side(), 0, 0}} {
   splitAll();
   addSubbands();
   const size_t of_patch = subbands_.size();
+  subbands_.reserve(forest.patches() * of_patch);
   for (uint32_t patch = 1; patch < forest.patches(); ++patch) {
     for (size_t i = 0; i < of_patch; ++i) {
       Subband& subband = subbands_.emplace_back(subbands_[i]);
@@ -48,6 +49,11 @@ Pyramid::Pyramid(const Forest& forest)
     }
   }
   for (LowBand& low : lows_) low.extent.height *= forest.patches();
+}
+
+uint64_t Pyramid::bytesOf(const Forest& forest) {
+  const size_t of_patch = Pyramid({forest.side(), forest.side()}).subbands().size();
+  return BitPlane::bytesOf(forest.raster()) + forest.patches() * of_patch * sizeof(Subband);
 }
 
 void Pyramid::splitAll() {

@@ -90,6 +90,8 @@ class Pyramid {
   /// The raster of a forest: each patch has a pyramid of its own, in which the samples exist that
   /// it owns.
   explicit Pyramid(const Forest& forest);
+  /// What that pyramid takes.
+  static uint64_t bytesOf(const Forest& forest);
 
   Extent plane() const { return lows_.front().extent; }
   bool allExist() const { return valid_ == nullptr; }

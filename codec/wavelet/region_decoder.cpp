@@ -11,6 +11,9 @@ namespace tetrakis::inline wavelet {
 
 namespace {
 
+constexpr uint64_t kOnce = 64 << 10;  // plans and models
+constexpr uint64_t kBand = 512;       // a band of a plane, and its plan, without coefficients
+
 uint64_t bytesOf(const Codewords& codewords) {
   uint64_t bytes = 0;
   for (const auto& codeword : codewords) bytes += codeword.size();
@@ -35,23 +38,39 @@ uint64_t TrackMemory::bytes() const {
   return sum;
 }
 
-uint64_t TrackNeeds::bytes() const {
-  constexpr uint64_t kOnce = 64 << 10;  // plans and models
-  const Pyramid pyramid(plane);
+uint64_t TrackNeeds::ofBands(const std::vector<BandPart>& parts, uint64_t& largest) const {
+  uint64_t sum = 0;
+  for (const BandPart& part : parts) {
+    const uint64_t one = known ? Band::bytesOf(part.shape(), masked) : 0;
+    largest = std::max(largest, one);
+    sum += planes * one;
+    if (masked) sum += planes * part.shape().wordCells() * sizeof(uint32_t);  // of the plan
+    if (ordered) sum += BandTiers::bytesOf(part.shape());  // likewise, of all planes
+  }
+  return sum;
+}
+
+/// Each patch has bands of its own, many of them small, and all are in one track.
+uint64_t TrackNeeds::ofForest() const {
+  const Pyramid patch({forest->side(), forest->side()});
   uint64_t largest = 0;
+  const uint64_t bands =
+      ofBands(partsOf(patch.subbands(), {0, 0, plane.width, plane.width}), largest);
+  const uint64_t each = bands + kBand * (planes + 1) * patch.subbands().size();
+  return kOnce + forest->patches() * each + (kept ? largest : 0);
+}
+
+uint64_t TrackNeeds::bytes() const {
+  if (forest != nullptr) return ofForest();
+  const Pyramid pyramid(plane);
+  uint64_t most = 0;
   const uint64_t count = regionCount(plane.width, plane.height, side_log2);
   for (const Region& region : largestRegions(plane.width, plane.height, side_log2)) {
-    uint64_t sum = kOnce, band = 0;
-    for (const BandPart& part : partsOf(pyramid.subbands(), region)) {
-      const uint64_t one = known ? Band::bytesOf(part.shape(), masked) : 0;
-      band = std::max(band, one);
-      sum += planes * one;
-      if (masked) sum += planes * part.shape().wordCells() * sizeof(uint32_t);  // of the plan
-      if (ordered) sum += BandTiers::bytesOf(part.shape());  // likewise, of all planes
-    }
-    largest = std::max(largest, kept ? sum + band : sum);
+    uint64_t band = 0;
+    const uint64_t sum = kOnce + ofBands(partsOf(pyramid.subbands(), region), band);
+    most = std::max(most, kept ? sum + band : sum);
   }
-  return kept ? largest * count : largest * std::clamp<uint64_t>(threads, 1, count);
+  return kept ? most * count : most * std::clamp<uint64_t>(threads, 1, count);
 }
 
 bool RegionDecoder::nothingKnown(const Codewords& codewords) const {

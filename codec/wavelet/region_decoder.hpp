@@ -41,7 +41,8 @@ struct TrackMemory {
 /// What RegionDecoder::run() needs for the tracks of a component.
 struct TrackNeeds {
   Extent plane;
-  int side_log2;    ///< of the regions; 0: there is one track
+  const Forest* forest;  ///< whose raster the plane is; null: it is a grid
+  int side_log2;         ///< of the regions; 0: there is one track
   uint32_t planes;  ///< that a track has bands of: 1, or the colour planes of a texture
   bool masked;      ///< some samples do not exist, and their coefficients are absent
   bool ordered;     ///< coefficients have priorities
@@ -52,6 +53,11 @@ struct TrackNeeds {
   /// The bytes that the largest track takes at most, on each thread; or that all take, each
   /// with a copy of its largest band, if they are kept.
   uint64_t bytes() const;
+
+ private:
+  uint64_t ofForest() const;
+  /// Of the bands alone; largest grows to the bytes of the largest one.
+  uint64_t ofBands(const std::vector<BandPart>& parts, uint64_t& largest) const;
 };
 
 /// What the header says about the tracks of a component.

@@ -71,7 +71,7 @@ int levelOf(const Stream& stream) {
 Domain readForest(Reader& in) {
   constexpr int kUnknown = -1;
   const int depth = in.u8(1, 18), side = (1 << depth) + 1;
-  const int patches = static_cast<int>(in.varint(1, (1 << 20) / side));
+  const int patches = static_cast<int>(in.varint(1, std::min(4096, (1 << 20) / side)));
   std::vector<int> glued(size_t(4) * patches, kUnknown);
   const int sides = static_cast<int>(glued.size());
   for (int here = 0; here < sides; ++here) {

@@ -109,7 +109,7 @@ typedef enum tks_domain TKS_INT {
 #define TKS_BORDER UINT32_MAX /* in the place of a side: nothing is glued here */
 typedef struct tks_forest {
   uint32_t depth;        /* 1 to 18 */
-  uint32_t patches;      /* patches * (2^depth + 1) is at most 2^20; 0: no forest */
+  uint32_t patches;      /* to 4096, patches * (2^depth + 1) to 2^20; 0: no forest */
   const uint32_t* sides; /* 4 * patches: for each side the one that it is glued to, or TKS_BORDER */
 } tks_forest;
 

@@ -11,6 +11,8 @@
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/decode_calls.hpp"
+#include "tests/support/forest_raster.hpp"
+#include "tests/support/forest_shapes.hpp"
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {
@@ -267,6 +269,22 @@ TEST(DecodeMemory, TexturesOfEveryKindStayBelowTheBound) {
   samples::cutOut(holes, samples::validity(samples::VoidShape::kHoles, 190, 201));
   expectWithinBounds(encode(nullptr, &holes, budget(9000)), "bridged cut-out");
   expectWithinBounds(encode(nullptr, &holes, inRegions(budget(9000), 32)), "and regions");
+}
+
+/// Cubes, and more patches than samples in a patch.
+TEST(DecodeMemory, ForestsStayBelowTheBound) {
+  const auto rasterOf = [](const ForestShape& shape, int depth, samples::Recipe recipe) {
+    return ForestRaster(Forest(depth, shape.sides), recipe);
+  };
+  for (const auto& [shape, depth] : {std::pair(cubeShape(), 6), {octahedronShape(), 3},
+                                     {planeShape(64, 64), 1}, {planeShape(20, 20), 3}}) {
+    const ForestRaster surface = rasterOf(shape, depth, {Pattern::kRidges, 0, 0, 1, TKS_I16, 3});
+    for (const tks_encode_options& options : {lossless(), budget(3000), within(40)})
+      expectWithinBounds(surface.encoded(options), shape.name);
+    const ForestRaster picture = rasterOf(shape, depth, {Pattern::kRidges, 0, 0, 3, TKS_U8, 3});
+    for (const tks_encode_options& options : {lossless(), budget(3000)})
+      expectWithinBounds(picture.encodedTexels(options), shape.name + " texture");
+  }
 }
 
 /// What is left of the bound where there is much to allocate.

@@ -6,60 +6,24 @@
 #include <utility>
 
 #include "base/forest.hpp"
-#include "tests/support/stream_fixture.hpp"
+#include "tests/support/forest_raster.hpp"
+#include "tests/support/forest_shapes.hpp"
 
 namespace tetrakis::test {
 namespace {
 
-constexpr uint32_t kNone = TKS_BORDER;
-
-/// A surface of patches by its sides.
-struct Shape {
-  const char* name;
-  std::vector<uint32_t> sides;
-};
-
-/// The octahedron of the thesis, figure 4.8; a torus of one patch; four patches of a plane; a
-/// patch alone; a cylinder; two sides of one corner that are glued, so that one patch meets itself.
-const std::vector<Shape>& shapes() {
-  static const std::vector<Shape> all = {
-      {"octahedron", {5, 4, 7, 6, 1, 0, 3, 2}},
-      {"torus", {2, 3, 0, 1}},
-      {"plane", {kNone, 7, 8, kNone, kNone, kNone, 12, 1, 2, 15, kNone, kNone, 6, kNone, kNone, 9}},
-      {"patch", {kNone, kNone, kNone, kNone}},
-      {"cylinder", {kNone, 3, kNone, 1}},
-      {"cone", {3, kNone, kNone, 0}}};
+const std::vector<ForestShape>& shapes() {
+  static const std::vector<ForestShape> all = forestShapes();
   return all;
 }
 
-/// Heights on a forest: hills with roughness, the same in all patches that share a sample.
-struct Surface {
-  Forest forest;
-  std::vector<int16_t> samples;
+ForestRaster surfaceOn(const ForestShape& shape, int depth) {
+  return {Forest(depth, shape.sides), {samples::Pattern::kRidges, 0, 0, 1, TKS_I16, 3}};
+}
 
-  Surface(const Shape& shape, int depth)
-      : forest(depth, shape.sides), samples(forest.raster().samples()) {
-    const uint32_t side = forest.side();
-    for (uint32_t i = 0; i < samples.size(); ++i) {
-      const auto x = static_cast<double>(i % side), y = static_cast<double>(i / side);
-      const double hills = 900 * std::sin(x / 9) + 700 * std::cos(y / 11 + x / 23);
-      samples[i] = static_cast<int16_t>(std::lround(hills) + samples::hash(i, 3, 5) % 32);
-    }
-    shareOwned(forest, std::span(samples), side - 1);
-  }
-  tks_heights heights() const {
-    tks_heights h{};
-    h.size = sizeof h;
-    h.width = forest.raster().width;
-    h.height = forest.raster().height;
-    h.sample = TKS_I16;
-    h.data = samples.data();
-    h.scale = 1;
-    h.domain = TKS_DOMAIN_FOREST;
-    h.forest = {static_cast<uint32_t>(forest.depth()), forest.patches(), forest.sides().data()};
-    return h;
-  }
-};
+ForestRaster pictureOn(const ForestShape& shape, int depth, uint32_t channels) {
+  return {Forest(depth, shape.sides), {samples::Pattern::kRidges, 0, 0, channels, TKS_U8, 8}};
+}
 
 std::vector<int16_t> decoded(Stream& stream) {
   const std::vector<std::byte> bytes = stream.heights();
@@ -69,21 +33,21 @@ std::vector<int16_t> decoded(Stream& stream) {
 }
 
 TEST(ForestStream, RestoresEverySampleOfEveryShape) {
-  for (const Shape& shape : shapes()) {
+  for (const ForestShape& shape : shapes()) {
     for (int depth = 1; depth <= 6; ++depth) {
-      const Surface surface(shape, depth);
+      const ForestRaster surface = surfaceOn(shape, depth);
       const Bytes bytes = encodeHeights(surface.heights(), lossless());
       Stream stream(bytes);
       ASSERT_EQ(stream.info().domain, TKS_DOMAIN_FOREST);
       ASSERT_EQ(stream.info().forest.patches, surface.forest.patches());
-      ASSERT_EQ(decoded(stream), surface.samples) << shape.name << ", depth " << depth;
+      ASSERT_EQ(decoded(stream), surface.samples<int16_t>()) << shape.name << ", depth " << depth;
     }
   }
 }
 
 TEST(ForestStream, SaysHowItsSidesAreGlued) {
-  for (const Shape& shape : shapes()) {
-    const Surface surface(shape, 3);
+  for (const ForestShape& shape : shapes()) {
+    const ForestRaster surface = surfaceOn(shape, 3);
     const Bytes bytes = encodeHeights(surface.heights(), lossless());
     Stream stream(bytes);
     const tks_forest forest = stream.info().forest;
@@ -93,8 +57,8 @@ TEST(ForestStream, SaysHowItsSidesAreGlued) {
 }
 
 TEST(ForestStream, GivesPatchesTheSamplesThatTheyShareAtEveryPrefix) {
-  for (const Shape& shape : shapes()) {
-    const Surface surface(shape, 5);
+  for (const ForestShape& shape : shapes()) {
+    const ForestRaster surface = surfaceOn(shape, 5);
     for (const tks_encode_options& options : {lossless(), budget(1500), within(5)}) {
       const Bytes bytes = encodeHeights(surface.heights(), options);
       for (size_t cut = 0; cut <= bytes.size(); cut += 1 + cut / 16) {
@@ -113,56 +77,25 @@ TEST(ForestStream, GivesPatchesTheSamplesThatTheyShareAtEveryPrefix) {
 }
 
 TEST(ForestStream, KeepsTheErrorThatItPromises) {
-  for (const Shape& shape : shapes()) {
-    const Surface surface(shape, 6);
+  for (const ForestShape& shape : shapes()) {
+    const ForestRaster surface = surfaceOn(shape, 6);
     const Bytes bytes = encodeHeights(surface.heights(), within(7));
     Stream stream(bytes);
-    const std::vector<int16_t> samples = decoded(stream);
+    const std::vector<int16_t> samples = decoded(stream), source = surface.samples<int16_t>();
     for (size_t i = 0; i < samples.size(); ++i)
-      ASSERT_LE(std::abs(samples[i] - surface.samples[i]), 7) << shape.name;
+      ASSERT_LE(std::abs(samples[i] - source[i]), 7) << shape.name;
   }
 }
 
 TEST(ForestStream, KeepsConstantsAsTheyAre) {
-  for (const Shape& shape : shapes()) {
-    Surface surface(shape, 5);
-    std::fill(surface.samples.begin(), surface.samples.end(), int16_t{123});
+  for (const ForestShape& shape : shapes()) {
+    ForestRaster surface = surfaceOn(shape, 5);
+    std::fill(surface.raster.data.begin(), surface.raster.data.end(), std::byte{12});
     const Bytes bytes = encodeHeights(surface.heights(), budget(400));
     Stream stream(bytes);
-    EXPECT_EQ(decoded(stream), surface.samples) << shape.name;
+    EXPECT_EQ(decoded(stream), surface.samples<int16_t>()) << shape.name;
   }
 }
-
-/// Texels of a forest, the same in all patches that share one.
-struct Picture {
-  Forest forest;
-  uint32_t channels;
-  std::vector<uint8_t> texels;
-
-  Picture(const Shape& shape, int depth, uint32_t count)
-      : forest(depth, shape.sides), channels(count), texels(forest.raster().samples() * count) {
-    const uint32_t side = forest.side();
-    for (uint32_t i = 0; i < texels.size(); ++i) {
-      const auto x = static_cast<double>(i / count % side),
-                 y = static_cast<double>(i / count / side);
-      const double waves = 60 * std::sin(x / 7 + i % count) + 50 * std::cos(y / 9);
-      texels[i] = static_cast<uint8_t>(std::lround(waves + 120) + samples::hash(i, 2, 7) % 9);
-    }
-    shareOwned(forest, std::span(texels), side - 1, channels);
-  }
-  tks_image image() const {
-    tks_image i{};
-    i.size = sizeof i;
-    i.width = forest.raster().width;
-    i.height = forest.raster().height;
-    i.channels = channels;
-    i.sample = TKS_U8;
-    i.data = texels.data();
-    i.domain = TKS_DOMAIN_FOREST;
-    i.forest = {static_cast<uint32_t>(forest.depth()), forest.patches(), forest.sides().data()};
-    return i;
-  }
-};
 
 std::vector<uint8_t> texelsOf(Stream& stream) {
   const std::vector<std::byte> bytes = stream.texture();
@@ -172,21 +105,21 @@ std::vector<uint8_t> texelsOf(Stream& stream) {
 }
 
 TEST(ForestStream, RestoresEveryTexel) {
-  for (const Shape& shape : shapes()) {
+  for (const ForestShape& shape : shapes()) {
     for (const uint32_t channels : {1u, 2u, 3u, 4u}) {
-      const Picture picture(shape, 4, channels);
+      const ForestRaster picture = pictureOn(shape, 4, channels);
       const tks_image image = picture.image();
       const Bytes bytes = encodeGiven(nullptr, &image, lossless());
       Stream stream(bytes);
       ASSERT_EQ(stream.info().texture_domain, TKS_DOMAIN_FOREST);
-      ASSERT_EQ(texelsOf(stream), picture.texels) << shape.name << ", " << channels;
+      ASSERT_EQ(texelsOf(stream), picture.samples<uint8_t>()) << shape.name << ", " << channels;
     }
   }
 }
 
 TEST(ForestStream, GivesPatchesTheTexelsThatTheyShareAtEveryPrefix) {
-  for (const Shape& shape : shapes()) {
-    const Picture picture(shape, 4, 3);
+  for (const ForestShape& shape : shapes()) {
+    const ForestRaster picture = pictureOn(shape, 4, 3);
     const tks_image image = picture.image();
     for (const tks_encode_options& options : {lossless(), budget(2500)}) {
       const Bytes bytes = encodeGiven(nullptr, &image, options);
@@ -202,30 +135,30 @@ TEST(ForestStream, GivesPatchesTheTexelsThatTheyShareAtEveryPrefix) {
 }
 
 TEST(ForestStream, SharesABudgetBetweenHeightsAndTexture) {
-  for (const Shape& shape : shapes()) {
-    const Surface surface(shape, 5);
-    const Picture picture(shape, 6, 3);
+  for (const ForestShape& shape : shapes()) {
+    const ForestRaster surface = surfaceOn(shape, 5);
+    const ForestRaster picture = pictureOn(shape, 6, 3);
     const tks_heights heights = surface.heights();
     const tks_image image = picture.image();
     const Bytes bytes = encodeGiven(&heights, &image, budget(9000));
     EXPECT_LE(bytes.size(), 9000u);
     Stream stream(bytes);
     EXPECT_EQ(stream.info().texture_forest.depth, 6u);
-    const std::vector<int16_t> samples = decoded(stream);
+    const std::vector<int16_t> samples = decoded(stream), source = surface.samples<int16_t>();
     double heights_off = 0, texels_off = 0;
     for (size_t i = 0; i < samples.size(); ++i)
-      heights_off += std::abs(samples[i] - surface.samples[i]);
-    const std::vector<uint8_t> texels = texelsOf(stream);
+      heights_off += std::abs(samples[i] - source[i]);
+    const std::vector<uint8_t> texels = texelsOf(stream), painted = picture.samples<uint8_t>();
     for (size_t i = 0; i < texels.size(); ++i)
-      texels_off += std::abs(int{texels[i]} - picture.texels[i]);
+      texels_off += std::abs(int{texels[i]} - painted[i]);
     EXPECT_LT(heights_off / static_cast<double>(samples.size()), 40) << shape.name;
     EXPECT_LT(texels_off / static_cast<double>(texels.size()), 12) << shape.name;
   }
 }
 
 TEST(ForestStream, CutsWindowsOutOfPatches) {
-  const Surface surface(shapes().front(), 5);
-  const Picture picture(shapes().front(), 5, 3);
+  const ForestRaster surface = surfaceOn(octahedronShape(), 5);
+  const ForestRaster picture = pictureOn(octahedronShape(), 5, 3);
   const tks_heights heights = surface.heights();
   const tks_image image = picture.image();
   const Bytes bytes = encodeGiven(&heights, &image, budget(6000));
@@ -258,7 +191,7 @@ tks_status statusOf(const tks_heights* heights, const tks_image* image,
 }
 
 TEST(ForestStream, RefusesWhatIsNoForest) {
-  const Surface surface(shapes().front(), 4);
+  const ForestRaster surface = surfaceOn(octahedronShape(), 4);
   std::string message;
   const auto refused = [&](auto change) {
     tks_heights heights = surface.heights();
@@ -269,15 +202,22 @@ TEST(ForestStream, RefusesWhatIsNoForest) {
   EXPECT_TRUE(refused([](tks_heights& h) { h.forest.depth = 5; }));
   EXPECT_TRUE(refused([](tks_heights& h) { h.forest.depth = 400; }));
   EXPECT_TRUE(refused([](tks_heights& h) { h.forest.patches = 0; }));
+  const ForestShape many = planeShape(4097, 1);
+  EXPECT_TRUE(refused([&](tks_heights& h) {
+    h.forest = {1, 4097, many.sides.data()};
+    h.width = 3;
+    h.height = 3 * 4097;
+  }));
+  EXPECT_EQ(message, "A forest has at most 4096 patches.");
   EXPECT_TRUE(refused([](tks_heights& h) { h.forest.sides = nullptr; }));
-  const std::vector<uint32_t> one_way = {5, 4, 7, 6, 1, 0, 3, kNone};
+  const std::vector<uint32_t> one_way = {5, 4, 7, 6, 1, 0, 3, TKS_BORDER};
   EXPECT_TRUE(refused([&](tks_heights& h) { h.forest.sides = one_way.data(); }));
-  const std::vector<uint32_t> itself = {0, 4, 7, 6, 1, kNone, 3, 2};
+  const std::vector<uint32_t> itself = {0, 4, 7, 6, 1, TKS_BORDER, 3, 2};
   EXPECT_TRUE(refused([&](tks_heights& h) { h.forest.sides = itself.data(); }));
-  std::vector<int16_t> torn = surface.samples;
+  std::vector<int16_t> torn = surface.samples<int16_t>();
   torn[3] = static_cast<int16_t>(torn[3] + 1);
   EXPECT_TRUE(refused([&](tks_heights& h) { h.data = torn.data(); }));
-  EXPECT_TRUE(refused([&](tks_heights& h) { h.has_nodata = 1, h.nodata = surface.samples[40]; }));
+  EXPECT_TRUE(refused([&](tks_heights& h) { h.has_nodata = 1, h.nodata = torn[40]; }));
   const tks_heights heights = surface.heights();
   EXPECT_EQ(statusOf(&heights, nullptr, inRegions(lossless(), 16), message), TKS_USAGE);
 }
@@ -312,9 +252,9 @@ int64_t characteristic(const tks_mesh& mesh, const Edges& edges) {
 }
 
 TEST(ForestStream, MakesClosedMeshesOfAnyNumberOfTriangles) {
-  for (const Shape& shape : shapes()) {
-    const Surface surface(shape, 5);
-    const bool is_closed = std::count(shape.sides.begin(), shape.sides.end(), kNone) == 0;
+  for (const ForestShape& shape : shapes()) {
+    const ForestRaster surface = surfaceOn(shape, 5);
+    const bool is_closed = std::count(shape.sides.begin(), shape.sides.end(), TKS_BORDER) == 0;
     const Bytes bytes = encodeHeights(surface.heights(), budget(1800));
     Stream stream(bytes);
     uint32_t before = 0;
@@ -335,10 +275,9 @@ TEST(ForestStream, MakesClosedMeshesOfAnyNumberOfTriangles) {
 }
 
 TEST(ForestStream, KeepsTheTopologyOfItsSurface) {
-  const std::vector<std::pair<size_t, int64_t>> characteristics = {{0, 2}, {1, 0}, {2, 1}, {4, 0}};
-  for (const auto& [which, expected] : characteristics) {
-    const Shape& shape = shapes()[which];
-    const Surface surface(shape, 4);
+  for (const ForestShape& shape :
+       {octahedronShape(), torusShape(), planeShape(2, 2), cylinderShape()}) {
+    const ForestRaster surface = surfaceOn(shape, 4);
     const Bytes bytes = encodeHeights(surface.heights(), budget(1500));
     for (size_t cut = bytes.size() / 4; cut <= bytes.size(); cut += 1 + cut / 8) {
       Stream stream(Prefix(bytes).first(cut));
@@ -346,7 +285,7 @@ TEST(ForestStream, KeepsTheTopologyOfItsSurface) {
         tks_mesh mesh = {};
         ASSERT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_BUDGET, triangles, &mesh), TKS_OK);
         if (mesh.triangle_count > 150) {
-          EXPECT_EQ(characteristic(mesh, Edges(mesh)), expected)
+          EXPECT_EQ(characteristic(mesh, Edges(mesh)), shape.euler)
               << shape.name << ", " << triangles << " triangles of " << cut << " bytes";
         }
         tks_free_mesh(&mesh);
@@ -356,8 +295,8 @@ TEST(ForestStream, KeepsTheTopologyOfItsSurface) {
 }
 
 TEST(ForestStream, MakesTheCodedMeshOfWhatHasArrived) {
-  for (const Shape& shape : shapes()) {
-    const Surface surface(shape, 5);
+  for (const ForestShape& shape : shapes()) {
+    const ForestRaster surface = surfaceOn(shape, 5);
     const Bytes bytes = encodeHeights(surface.heights(), budget(1200));
     uint32_t before = 0;
     for (size_t cut = bytes.size() / 3; cut <= bytes.size(); cut += 1 + cut / 8) {

@@ -86,7 +86,7 @@ class Classes {
 
 TEST(Forest, OwnsAsManySamplesAsItsSurfaceHas) {
   forEachForest([](const ForestShape& shape, const Forest& forest) {
-    const std::vector<uint8_t> owned = ownedSamples(forest);
+    const std::vector<uint8_t> owned = ownedSamples(forest).bytes();
     EXPECT_EQ(std::accumulate(owned.begin(), owned.end(), size_t{0}),
               shape.samples(forest.depth()));
   });

@@ -8,6 +8,7 @@
 #include "conformance/reference_decoder/wavelet.hpp"
 #include "conformance/samples/header_parts.hpp"
 #include "tests/conformance/agreement.hpp"
+#include "tests/support/forest_raster.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -54,47 +55,10 @@ Sides shuffled(uint32_t patches, uint32_t seed) {
   return sides;
 }
 
-tks_forest forestOf(const Forest& forest) {
-  return {static_cast<uint32_t>(forest.depth()), forest.patches(), forest.sides().data()};
-}
-
-/// The raster of a pattern, of which patches have the samples that they share.
-struct Surface {
-  Forest forest;
-  Raster raster;
-
-  Surface(int depth, const Sides& sides, samples::Recipe recipe) : forest(depth, sides) {
-    recipe.width = forest.raster().width;
-    recipe.height = forest.raster().height;
-    raster = make(recipe);
-    const size_t size = recipe.channels * tks_sample_bytes(recipe.sample);
-    const auto at = [&](const Forest::Place& place) {
-      return raster.data.data() +
-             size * ((size_t{place.patch} * recipe.width + size_t(place.y)) * recipe.width +
-                     size_t(place.x));
-    };
-    forest.forEachShared(forest.side() - 1, [&](const auto& to, const auto& from) {
-      std::memcpy(at(to), at(from), size);
-    });
-  }
-  Bytes encoded(const tks_encode_options& options) const {
-    tks_heights heights = raster.heights();
-    heights.domain = TKS_DOMAIN_FOREST;
-    heights.forest = forestOf(forest);
-    return encodeHeights(heights, options);
-  }
-  Bytes encodedTexels(const tks_encode_options& options) const {
-    tks_image image = raster.image();
-    image.domain = TKS_DOMAIN_FOREST;
-    image.forest = forestOf(forest);
-    return encodeGiven(nullptr, &image, options);
-  }
-};
-
 TEST(ReferenceForest, AgreesOnEveryByteOfSmallStreams) {
   for (const Sides& sides : kForests) {
     SCOPED_TRACE(&sides - kForests);
-    const Surface surface(3, sides, {Pattern::kRidges, 0, 0, 1, TKS_I16, 3});
+    const ForestRaster surface(Forest(3, sides), {Pattern::kRidges, 0, 0, 1, TKS_I16, 3});
     for (const tks_encode_options& options : {lossless(), budget(200), within(9)}) {
       const Bytes stream = surface.encoded(options);
       expectAgreementOnPrefixes(stream, stream.size());
@@ -110,7 +74,7 @@ TEST(ReferenceForest, AgreesOnAllDepthsTypesAndTargets) {
     for (const int depth : {1, 2, 4, 5}) {
       const tks_sample sample = kTypes[(shape + static_cast<size_t>(depth)) % 4];
       SCOPED_TRACE(std::to_string(shape) + " depth " + std::to_string(depth));
-      const Surface surface(depth, sides, {Pattern::kRidges, 0, 0, 1, sample, 3});
+      const ForestRaster surface(Forest(depth, sides), {Pattern::kRidges, 0, 0, 1, sample, 3});
       for (const tks_encode_options& options : {lossless(), budget(400), within(9)}) {
         expectAgreementOnPrefixes(surface.encoded(options), 4);
         if (HasFatalFailure()) return;
@@ -123,7 +87,7 @@ TEST(ReferenceForest, AgreesOnAnySidesGluedToAnyOthers) {
   for (uint32_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
     for (const int depth : {2, 4}) {
-      const Surface surface(depth, shuffled(1 + seed % 5, seed),
+      const ForestRaster surface(Forest(depth, shuffled(1 + seed % 5, seed)),
                             {Pattern::kExtreme, 0, 0, 1, TKS_U8, 3});
       for (const tks_encode_options& options : {lossless(), budget(300)}) {
         expectAgreementOnPrefixes(surface.encoded(options), 4);
@@ -138,7 +102,7 @@ TEST(ReferenceForest, AgreesOnTextures) {
     for (uint32_t channels = 1; channels <= 4; ++channels) {
       for (const Pattern pattern : {Pattern::kRidges, Pattern::kSteps}) {
         const tks_sample sample = channels == 2 ? TKS_U16 : TKS_U8;
-        const Surface surface(3, sides, {pattern, 0, 0, channels, sample, 8});
+        const ForestRaster surface(Forest(3, sides), {pattern, 0, 0, channels, sample, 8});
         for (const tks_encode_options& options : {lossless(), budget(400)})
           expectAgreementOnPrefixes(surface.encodedTexels(options), 8);
         if (HasFatalFailure()) return;
@@ -282,7 +246,7 @@ TEST(ReferenceForest, LiftsPatchesOfAPlaneAsThePlane) {
 TEST(ReferenceForest, AgreesOnDamagedHeaders) {
   for (const Sides& sides : kForests) {
     const Bytes good =
-        Surface(2, sides, {Pattern::kRidges, 0, 0, 1, TKS_I16, 3}).encoded(within(3));
+        ForestRaster(Forest(2, sides), {Pattern::kRidges, 0, 0, 1, TKS_I16, 3}).encoded(within(3));
     const size_t header = static_cast<size_t>(Stream(good).info().header_bytes);
     for (size_t at = 0; at < header; ++at) {
       for (const int value : {0, 1, 2, 3, 4, 5, 6, 7, 127, 255, good[at] + 1, good[at] - 1}) {

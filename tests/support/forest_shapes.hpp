@@ -47,6 +47,15 @@ inline ForestShape octahedronShape() {
   return {"octahedron", {5, 4, 7, 6, 1, 0, 3, 2}, 2};
 }
 
+inline ForestShape cylinderShape() {
+  return {"cylinder", {Forest::kBorder, 3, Forest::kBorder, 1}, 0, 1};
+}
+
+/// Two sides of one corner that are glued, so that one patch meets itself.
+inline ForestShape coneShape() {
+  return {"cone", {3, Forest::kBorder, Forest::kBorder, 0}, 1, 1};
+}
+
 inline ForestShape cubeShape() {
   return {"cube",
           {18, 7, 20, 13, 17, 11, 21, 1, 16, 15, 22, 5, 19, 3, 23, 9, 8, 4, 0, 12, 2, 6, 10, 14},
@@ -54,8 +63,8 @@ inline ForestShape cubeShape() {
 }
 
 inline std::vector<ForestShape> forestShapes() {
-  return {planeShape(1, 1), planeShape(2, 2),  planeShape(2, 3),
-          torusShape(),     octahedronShape(), cubeShape()};
+  return {planeShape(1, 1), planeShape(2, 2),  planeShape(2, 3), torusShape(),
+          cylinderShape(),  octahedronShape(), coneShape(),      cubeShape()};
 }
 
 }  // namespace tetrakis::test

@@ -13,26 +13,13 @@
 #include "codec/mesh/forest/forest_lattice.hpp"
 #include "codec/mesh/forest/forest_mesh.hpp"
 #include "codec/mesh/topology/lattice_mesh.hpp"
+#include "tests/support/forest_shapes.hpp"
 
 namespace tetrakis {
 namespace {
 
-constexpr uint32_t kNone = Forest::kBorder;
-
-struct Shape {
-  const char* name;
-  std::vector<uint32_t> sides;
-  uint32_t characteristic;
-};
-
-/// Thesis, figure 4.8; one patch glued to itself; a plane of four patches; one of one.
-const std::vector<Shape> kShapes = {
-    {"octahedron", {5, 4, 7, 6, 1, 0, 3, 2}, 2},
-    {"torus", {2, 3, 0, 1}, 0},
-    {"plane",
-     {kNone, 7, 8, kNone, kNone, kNone, 12, 1, 2, 15, kNone, kNone, 6, kNone, kNone, 9},
-     1},
-    {"patch", {kNone, kNone, kNone, kNone}, 1}};
+const std::vector<ForestShape> kShapes = {octahedronShape(), torusShape(), planeShape(2, 2),
+                                          planeShape(1, 1)};
 
 /// Heights of a forest without order, equal where patches share a sample.
 std::vector<int32_t> roughHeights(const Forest& forest) {
@@ -135,16 +122,13 @@ uint32_t triangles(const ForestLattice& lattice, const ClosureGraph& graph,
 }
 
 TEST(ForestMesh, HasAsManySamplesAsTheSurface) {
-  for (const Shape& shape : kShapes) {
+  for (const ForestShape& shape : kShapes) {
     for (int depth = 1; depth <= 4; ++depth) {
       const Forest forest(depth, shape.sides);
-      const std::vector<uint8_t> owned = ownedSamples(forest);
+      const std::vector<uint8_t> owned = ownedSamples(forest).bytes();
       const auto samples =
           static_cast<uint32_t>(std::count(owned.begin(), owned.end(), uint8_t{1}));
-      const bool closed = std::count(shape.sides.begin(), shape.sides.end(), kNone) == 0;
-      if (closed) {
-        EXPECT_EQ(samples, (forest.patches() << 2 * depth) + shape.characteristic) << shape.name;
-      }
+      EXPECT_EQ(samples, shape.samples(depth)) << shape.name;
       const ForestLattice lattice(forest);
       std::vector<uint32_t> of_corners;
       for (const uint32_t v : meshOf(lattice, {}).vertices) of_corners.push_back(v);
@@ -155,8 +139,8 @@ TEST(ForestMesh, HasAsManySamplesAsTheSurface) {
 
 TEST(ForestMesh, EveryClosedSetOfASmallForestConforms) {
   constexpr size_t kMost = 20000;
-  for (const Shape& shape : kShapes) {
-    const bool closed = std::count(shape.sides.begin(), shape.sides.end(), kNone) == 0;
+  for (const ForestShape& shape : kShapes) {
+    const bool closed = std::count(shape.sides.begin(), shape.sides.end(), Forest::kBorder) == 0;
     for (int depth = 1; depth <= 2; ++depth) {
       const Forest forest(depth, shape.sides);
       const ForestLattice lattice(forest);
@@ -172,7 +156,7 @@ TEST(ForestMesh, EveryClosedSetOfASmallForestConforms) {
 }
 
 TEST(ForestMesh, ErrorsAreTheSumsOfTheGainsThatAreLeftOut) {
-  for (const Shape& shape : kShapes) {
+  for (const ForestShape& shape : kShapes) {
     for (int depth = 1; depth <= 2; ++depth) {
       const Forest forest(depth, shape.sides);
       const ForestLattice lattice(forest);
@@ -189,7 +173,7 @@ TEST(ForestMesh, ErrorsAreTheSumsOfTheGainsThatAreLeftOut) {
 }
 
 TEST(ForestMesh, NoClosedSetIsBelowTheHullOfTheBestMeshes) {
-  for (const Shape& shape : kShapes) {
+  for (const ForestShape& shape : kShapes) {
     const Forest forest(1, shape.sides);
     const ForestLattice lattice(forest);
     const ClosureGraph graph = lattice.graph();
