@@ -77,8 +77,8 @@ uint64_t HeightsBytes::validity() const {
 }
 
 uint64_t HeightsBytes::decodingLines() const {
-  if (!view_.window || !corrected_) return decodingTaken();
-  // Corrected and direct samples of a window are cut out of more.
+  if (!view_.window || !(corrected_ || header_.wavelet.forest != nullptr)) return decodingTaken();
+  // Corrected and direct samples of a window, and those of a forest, are cut out of more.
   const HeightsBytes all(*this, decodedView(header_, layers_, view_));
   return all.decodingTaken() + shown_ * (2 * kValueBytes + 1);
 }

@@ -48,13 +48,16 @@ class TextureBytes {
   TextureBytes(const tks_decoder& decoder, const View& view)
       : decoder_(decoder),
         header_(*decoder.parsed.header.texture),
-        view_(codedView(header_, view)),
+        view_(header_.wavelet.forest != nullptr ? View{} : codedView(header_, view)),
+        cut_(view.window && header_.wavelet.forest != nullptr ? area(*view.window) : 0),
         shown_(area(view_.extentIn(header_.extent()))),
         copied_(header_.repeats.none() ? 0 : area(view.extentIn(header_.shown()))),
         seen_(header_.alpha_bytes > 0),
         masked_(header_.hidden || header_.overlay_bytes > 0) {}
 
-  uint64_t decoding() const { return decodingLines() + copyBytes(header_, copied_, texel()); }
+  uint64_t decoding() const {
+    return decodingLines() + cut_ * texel() + copyBytes(header_, copied_, texel());
+  }
 
  private:
   uint64_t texel() const { return header_.channels * sizeof(uint16_t); }
@@ -95,6 +98,7 @@ class TextureBytes {
   const tks_decoder& decoder_;
   const TextureHeader& header_;
   const View view_;
+  uint64_t cut_;     ///< texels of the window that is cut out of a whole forest
   uint64_t shown_;   ///< texels of the view, of coded lines
   uint64_t copied_;  ///< of the view; 0: no lines are copied
   bool seen_, masked_;

@@ -196,6 +196,7 @@ Texels decodeForest(const TextureHeader& header, const Codewords& codewords, con
   if (!view.window) return texels;
   const Window& window = *view.window;
   std::vector<uint16_t> shown;
+  shown.reserve(size_t{window.width} * window.height * texels.channels);
   for (uint32_t y = 0; y < window.height; ++y) {
     const size_t row = (size_t{window.y} + y) * texels.width + window.x;
     const auto first = texels.samples.begin() + static_cast<ptrdiff_t>(row * texels.channels);

@@ -141,7 +141,7 @@ TEST(DecodeMemory, RepeatedLinesStayBelowTheBound) {
     EXPECT_FALSE(readHeader(bytes)->header.geometry->repeats.none()) << what;
     expectWithinBounds(bytes, what);
   };
-  expectCopies(encode(&large, nullptr, inRegions(budget(2000), 16)), "copies in regions");
+  expectCopies(encode(&large, nullptr, inRegions(budget(8000), 16)), "copies in regions");
   expectCopies(withVoids(large, lossless()), "copies beside voids");
 }
 
@@ -271,18 +271,19 @@ TEST(DecodeMemory, TexturesOfEveryKindStayBelowTheBound) {
   expectWithinBounds(encode(nullptr, &holes, inRegions(budget(9000), 32)), "and regions");
 }
 
-/// Cubes, and more patches than samples in a patch.
+/// Cubes, and more patches than samples in a patch; of more samples than those of which the encoder
+/// measures every prefix.
 TEST(DecodeMemory, ForestsStayBelowTheBound) {
   const auto rasterOf = [](const ForestShape& shape, int depth, samples::Recipe recipe) {
     return ForestRaster(Forest(depth, shape.sides), recipe);
   };
-  for (const auto& [shape, depth] : {std::pair(cubeShape(), 6), {octahedronShape(), 3},
-                                     {planeShape(64, 64), 1}, {planeShape(20, 20), 3}}) {
+  for (const auto& [shape, depth] :
+       {std::pair(cubeShape(), 6), {planeShape(45, 45), 1}, {planeShape(15, 15), 3}}) {
     const ForestRaster surface = rasterOf(shape, depth, {Pattern::kRidges, 0, 0, 1, TKS_I16, 3});
-    for (const tks_encode_options& options : {lossless(), budget(3000), within(40)})
+    for (const tks_encode_options& options : {lossless(), budget(8000), within(40)})
       expectWithinBounds(surface.encoded(options), shape.name);
     const ForestRaster picture = rasterOf(shape, depth, {Pattern::kRidges, 0, 0, 3, TKS_U8, 3});
-    for (const tks_encode_options& options : {lossless(), budget(3000)})
+    for (const tks_encode_options& options : {lossless(), budget(8000)})
       expectWithinBounds(picture.encodedTexels(options), shape.name + " texture");
   }
 }

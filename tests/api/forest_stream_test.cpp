@@ -135,13 +135,14 @@ TEST(ForestStream, GivesPatchesTheTexelsThatTheyShareAtEveryPrefix) {
 }
 
 TEST(ForestStream, SharesABudgetBetweenHeightsAndTexture) {
+  constexpr uint64_t kEach = 3000;  // bytes of a patch
   for (const ForestShape& shape : shapes()) {
     const ForestRaster surface = surfaceOn(shape, 5);
     const ForestRaster picture = pictureOn(shape, 6, 3);
     const tks_heights heights = surface.heights();
     const tks_image image = picture.image();
-    const Bytes bytes = encodeGiven(&heights, &image, budget(9000));
-    EXPECT_LE(bytes.size(), 9000u);
+    const Bytes bytes = encodeGiven(&heights, &image, budget(kEach * shape.patches()));
+    EXPECT_LE(bytes.size(), kEach * shape.patches());
     Stream stream(bytes);
     EXPECT_EQ(stream.info().texture_forest.depth, 6u);
     const std::vector<int16_t> samples = decoded(stream), source = surface.samples<int16_t>();

@@ -155,8 +155,10 @@ inline std::vector<DecodeCall> callsOn(const tks_info& info) {
          {tks_window{0, 0, w, h}, {w / 3, h / 4, w / 5 + 1, h / 6 + 1}, {w - 1, h - 1, 1, 1}})
       calls.push_back(surfaceOf(info, window));
     calls.push_back(meshOf(TKS_MESH_CODED, 0));
-    calls.push_back(treeOf(TKS_MESH_CODED, 0));
-    calls.push_back(treeOf(TKS_MESH_BUDGET, 0));
+    if (info.domain != TKS_DOMAIN_FOREST) {
+      calls.push_back(treeOf(TKS_MESH_CODED, 0));
+      calls.push_back(treeOf(TKS_MESH_BUDGET, 0));
+    }
     for (const uint64_t sixtieths : {0, 1, 4, 8, 13, 25, 40, 70, 120})
       calls.push_back(
           meshOf(TKS_MESH_BUDGET, static_cast<uint32_t>(uint64_t{w} * h * sixtieths / 60)));

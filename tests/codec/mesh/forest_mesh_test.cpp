@@ -15,7 +15,7 @@
 #include "codec/mesh/topology/lattice_mesh.hpp"
 #include "tests/support/forest_shapes.hpp"
 
-namespace tetrakis {
+namespace tetrakis::test {
 namespace {
 
 const std::vector<ForestShape> kShapes = {octahedronShape(), torusShape(), planeShape(2, 2),
@@ -211,4 +211,4 @@ TEST(ForestMesh, NoClosedSetIsBelowTheHullOfTheBestMeshes) {
 }
 
 }  // namespace
-}  // namespace tetrakis
+}  // namespace tetrakis::test
