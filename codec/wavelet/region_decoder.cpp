@@ -12,7 +12,7 @@ namespace tetrakis::inline wavelet {
 namespace {
 
 constexpr uint64_t kOnce = 64 << 10;  // plans and models
-constexpr uint64_t kBand = 512;       // a band of a plane, and its plan, without coefficients
+constexpr uint64_t kBand = 640;       // a band of a plane, and its plan, without coefficients
 
 uint64_t bytesOf(const Codewords& codewords) {
   uint64_t bytes = 0;
