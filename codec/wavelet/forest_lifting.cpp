@@ -41,9 +41,8 @@ ForestLifting::ForestLifting(const WaveletSpec& spec, const Pyramid& pyramid, in
 
 uint64_t ForestLifting::bytesOf(const Forest& forest) {
   const uint64_t width = forest.side() + 2 * kWidestMargin;
-  const uint64_t around = 4 * kWidestMargin * width, shared = 4 * width;
-  return forest.patches() *
-         (width * width * sizeof(int32_t) + 2 * (around + shared) * sizeof(Copy));
+  const uint64_t around = 4 * kWidestMargin * width, shared = 4 * uint64_t{forest.side()};
+  return forest.patches() * (width * width * sizeof(int32_t) + (around + shared) * sizeof(Copy));
 }
 
 size_t ForestLifting::indexOf(uint32_t patch, int64_t x, int64_t y) const {
@@ -55,6 +54,9 @@ size_t ForestLifting::indexOf(uint32_t patch, int64_t x, int64_t y) const {
 void ForestLifting::findCopies() {
   const auto place = [&](const Forest::Place& of) { return indexOf(of.patch, of.x, of.y); };
   const int64_t n = n_, margin = margin_;
+  const size_t side = size_t{n_} + 1;
+  around_.reserve(forest_.patches() * (size_t{width_} * width_ - side * side));
+  shared_.reserve(forest_.patches() * Forest::kSides * side);
   for (uint32_t patch = 0; patch < forest_.patches(); ++patch) {
     const auto see = [&](int64_t x, int64_t y) {
       around_.push_back({indexOf(patch, x, y), place(forest_.locate(n, {patch, x, y}))});

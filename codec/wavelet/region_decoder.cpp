@@ -12,7 +12,7 @@ namespace tetrakis::inline wavelet {
 namespace {
 
 constexpr uint64_t kOnce = 64 << 10;  // plans and models
-constexpr uint64_t kBand = 640;       // a band of a plane, and its plan, without coefficients
+constexpr uint64_t kBand = 512;       // a band of a plane, and its plan, without coefficients
 
 uint64_t bytesOf(const Codewords& codewords) {
   uint64_t bytes = 0;
@@ -54,8 +54,8 @@ uint64_t TrackNeeds::ofBands(const std::vector<BandPart>& parts, uint64_t& large
 uint64_t TrackNeeds::ofForest() const {
   const Pyramid patch({forest->side(), forest->side()});
   uint64_t largest = 0;
-  const uint64_t bands =
-      ofBands(partsOf(patch.subbands(), {0, 0, plane.width, plane.width}), largest);
+  const Region whole = largestRegions(plane.width, plane.width, 0).front();
+  const uint64_t bands = ofBands(partsOf(patch.subbands(), whole), largest);
   const uint64_t each = bands + kBand * (planes + 1) * patch.subbands().size();
   return kOnce + forest->patches() * each + (kept ? largest : 0);
 }
