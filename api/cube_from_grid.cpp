@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/globe/cube_from_grid.hpp"
+#include "codec/cube/cube_from_grid.hpp"
 
 #include <algorithm>
 #include <cmath>

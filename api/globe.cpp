@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 #include <utility>
 
 #include "api/guarded.hpp"
 #include "api/memory.hpp"
 #include "api/written.hpp"
 #include "base/coordinates.hpp"
+#include "codec/cube/cube_sphere.hpp"
 #include "codec/mesh/globe/bends.hpp"
 #include "codec/mesh/globe/globe_mesh.hpp"
 #include "codec/mesh/globe/globe_places.hpp"
@@ -62,6 +64,7 @@ class GlobeCall {
     if (!header.geometry) return noHeights();
     const Result<tks_globe> globe = takeGlobe(given);
     if (!globe.ok()) return globe.status();
+    if (header.geometry->wavelet.forest != nullptr) return runOnCube(*globe, out);
     const Result<GlobePlaces> places = placesOn(*globe, header);
     if (!places.ok()) return places.status();
     Result<SurfaceMesh> surface = surfaceMesh(decoder_, kind_, max_triangles_);
@@ -72,12 +75,47 @@ class GlobeCall {
     if (places->mirrored())
       for (size_t t = 0; t < mesh.triangles.size(); t += 3)
         std::swap(mesh.triangles[t + 1], mesh.triangles[t + 2]);
-    const double metres = metresPerUnit(header.metadata.unit).value_or(1);
-    give(mesh, *places, metres * globe->exaggeration, out);
+    const double metres = metresPerHeight(*globe);
+    give(mesh.heights, mesh.triangles, out, [&](size_t v) {
+      const GridPlace& place = mesh.places[v];
+      return GlobeVertex{places->at(place, mesh.heights[v] * metres), place.column, place.row};
+    });
     return {};
   }
 
  private:
+  /// Patch by patch. Its vertices on sides are where those are that own them.
+  Status runOnCube(const tks_globe& globe, tks_globe_mesh& out) {
+    const Forest& forest = *decoder_.parsed.header.geometry->wavelet.forest;
+    if (!std::equal(forest.sides().begin(), forest.sides().end(), kCubeSides.begin(),
+                    kCubeSides.end()))
+      return Status(TKS_USAGE, "The patches of the heights are not those of a globe on a cube.");
+    const bool budget = kind_ == TKS_MESH_BUDGET;
+    const auto depth = static_cast<uint32_t>(forest.depth());
+    const uint32_t level = cubeBendLevel(depth, budget ? max_triangles_ : 0);
+    const uint64_t bends = uint64_t{kCubePatches} << level;
+    constexpr uint64_t kVertex = 160;
+    const uint64_t chosen = budget && max_triangles_ > 0
+                                ? std::min<uint64_t>(max_triangles_, forest.raster().samples())
+                                : forest.raster().samples();
+    const Result<ForestSurface> surface = forestSurface(
+        decoder_, {kind_, max_triangles_, level, true}, kVertex * (bends + chosen));
+    if (!surface.ok()) return surface.status();
+    const double metres = metresPerHeight(globe);
+    const CubeSpheroid cube(forest, {globe.semi_major, globe.semi_minor});
+    give(surface->heights, surface->mesh.triangles, out, [&](size_t v) {
+      const uint32_t sample = surface->mesh.vertices[v], side = forest.side();
+      return GlobeVertex{cube.at(sample, surface->heights[v] * metres),
+                         static_cast<double>(sample % side), static_cast<double>(sample / side)};
+    });
+    return {};
+  }
+
+  double metresPerHeight(const tks_globe& globe) const {
+    const StreamHeader& header = decoder_.parsed.header;
+    return metresPerUnit(header.metadata.unit).value_or(1) * globe.exaggeration;
+  }
+
   /// With the vertices of coarse levels, which are few beside the triangles that are asked for.
   Status checkSize(const SurfaceMesh& surface) const {
     constexpr uint64_t kVertex = 240;
@@ -103,23 +141,29 @@ class GlobeCall {
     return {};
   }
 
-  static void give(const GlobeMesh& mesh, const GlobePlaces& places, double metres,
-                   tks_globe_mesh& out) {
-    const size_t vertices = mesh.places.size();
-    out.vertex_count = static_cast<uint32_t>(vertices);
-    out.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
-    out.position = allocate<double>(3 * vertices);
-    out.pixel = allocate<double>(2 * vertices);
-    out.height = allocate<float>(vertices);
-    out.triangles = allocate<uint32_t>(mesh.triangles.size());
-    for (size_t v = 0; v < vertices; ++v) {
-      const auto position = places.at(mesh.places[v], mesh.heights[v] * metres);
-      std::copy(position.begin(), position.end(), out.position + 3 * v);
-      out.pixel[2 * v] = mesh.places[v].column + 0.5;
-      out.pixel[2 * v + 1] = mesh.places[v].row + 0.5;
+  struct GlobeVertex {
+    std::array<double, 3> position;
+    double column, row;
+  };
+
+  /// vertex(v): where it lies.
+  template <class Vertex>
+  static void give(std::span<const float> heights, std::span<const uint32_t> triangles,
+                   tks_globe_mesh& out, const Vertex& vertex) {
+    out.vertex_count = static_cast<uint32_t>(heights.size());
+    out.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
+    out.position = allocate<double>(3 * heights.size());
+    out.pixel = allocate<double>(2 * heights.size());
+    out.height = allocate<float>(heights.size());
+    out.triangles = allocate<uint32_t>(triangles.size());
+    for (size_t v = 0; v < heights.size(); ++v) {
+      const GlobeVertex at = vertex(v);
+      std::copy(at.position.begin(), at.position.end(), out.position + 3 * v);
+      out.pixel[2 * v] = at.column + 0.5;
+      out.pixel[2 * v + 1] = at.row + 0.5;
     }
-    std::copy(mesh.heights.begin(), mesh.heights.end(), out.height);
-    std::copy(mesh.triangles.begin(), mesh.triangles.end(), out.triangles);
+    std::copy(heights.begin(), heights.end(), out.height);
+    std::copy(triangles.begin(), triangles.end(), out.triangles);
   }
 
   tks_decoder& decoder_;

@@ -6,9 +6,9 @@
 
 #include "api/guarded.hpp"
 #include "base/forest.hpp"
-#include "codec/globe/cube_interpolation.hpp"
-#include "codec/globe/cube_sphere.hpp"
-#include "codec/globe/geographic_grid.hpp"
+#include "codec/cube/cube_interpolation.hpp"
+#include "codec/cube/cube_sphere.hpp"
+#include "codec/cube/geographic_grid.hpp"
 
 namespace tetrakis::inline api {
 

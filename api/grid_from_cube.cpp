@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/globe/grid_from_cube.hpp"
+#include "codec/cube/grid_from_cube.hpp"
 
 #include "api/globe.hpp"
 

@@ -199,37 +199,55 @@ namespace {
 
 /// The vertices of a mesh of heights on a forest.
 std::vector<ForestVertex> chosenVertices(const ForestLattice& lattice,
-                                         const DecodedGeometry& geometry, tks_mesh_kind kind,
-                                         uint32_t max_triangles) {
-  if (kind == TKS_MESH_CODED) return closureOfMarks(lattice, geometry.significant);
-  if (max_triangles > 0) return forestBudgetVertices(lattice, geometry.heights, max_triangles);
+                                         const DecodedGeometry& geometry,
+                                         const ForestMeshing& meshing) {
+  if (meshing.kind == TKS_MESH_CODED) return closureOfMarks(lattice, geometry.significant);
+  if (meshing.max_triangles > 0)
+    return forestBudgetVertices(lattice, geometry.heights, meshing.max_triangles);
   std::vector<ForestVertex> all(lattice.vertexCount());
   std::iota(all.begin(), all.end(), 0u);
   return all;
 }
 
-Status decodeForestMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles,
-                        tks_mesh& out) {
-  const Forest& forest = *decoder.parsed.header.geometry->wavelet.forest;
-  if (kind != TKS_MESH_CODED && kind != TKS_MESH_BUDGET)
-    return Status(TKS_USAGE, "Unknown kind of mesh.");
-  const tks_part part = kind == TKS_MESH_CODED ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH;
-  if (Status s = checkMemory(decoder, {part, {}, max_triangles}); !s.ok()) return s;
+/// With all before `first`.
+std::vector<ForestVertex> withAllBefore(ForestVertex first, std::vector<ForestVertex> vertices) {
+  std::erase_if(vertices, [&](ForestVertex v) { return v < first; });
+  const size_t chosen = vertices.size();
+  vertices.resize(chosen + first);
+  std::iota(vertices.begin() + static_cast<std::ptrdiff_t>(chosen), vertices.end(), 0u);
+  return vertices;
+}
+
+}  // namespace
+
+Result<ForestSurface> forestSurface(tks_decoder& decoder, const ForestMeshing& meshing,
+                                    uint64_t beside) {
+  const bool coded = meshing.kind == TKS_MESH_CODED;
+  if (!coded && meshing.kind != TKS_MESH_BUDGET) return Status(TKS_USAGE, "Unknown kind of mesh.");
+  const tks_part part = coded ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH;
+  if (Status s = checkMemory(decoder, {part, {}, meshing.max_triangles}, beside); !s.ok()) return s;
   const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
   if (!decoded.ok()) return decoded.status();
-  const ForestLattice lattice(forest);
-  LatticeMesh mesh =
-      meshOf(lattice, chosenVertices(lattice, (*decoded)->geometry, kind, max_triangles));
-  std::vector<float> heights = surfaceAtVertices(decoder, **decoded, mesh);
-  leaveOutVoids(mesh, heights);
-  copyMesh(mesh, heights, out);
-  return {};
+  const ForestLattice lattice(*decoder.parsed.header.geometry->wavelet.forest);
+  const std::vector<ForestVertex> vertices =
+      withAllBefore(lattice.firstOf(meshing.first_chosen_level),
+                    chosenVertices(lattice, (*decoded)->geometry, meshing));
+  ForestSurface surface{
+      meshing.apart ? patchesOf(lattice, vertices) : meshOf(lattice, vertices), {}};
+  surface.heights = surfaceAtVertices(decoder, **decoded, surface.mesh);
+  leaveOutVoids(surface.mesh, surface.heights);
+  return surface;
 }
+
+namespace {
 
 Status decodeMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles, tks_mesh& out) {
   const auto& geometry = decoder.parsed.header.geometry;
-  if (geometry && geometry->wavelet.forest != nullptr)
-    return decodeForestMesh(decoder, kind, max_triangles, out);
+  if (geometry && geometry->wavelet.forest != nullptr) {
+    const Result<ForestSurface> surface = forestSurface(decoder, {kind, max_triangles});
+    if (surface.ok()) copyMesh(surface->mesh, surface->heights, out);
+    return surface.ok() ? Status() : surface.status();
+  }
   Result<SurfaceMesh> surface = surfaceMesh(decoder, kind, max_triangles);
   if (!surface.ok()) return surface.status();
   leaveOutVoids(surface->mesh, surface->heights);

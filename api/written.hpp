@@ -50,6 +50,24 @@ struct SurfaceMesh {
 /// the errors of Lattice::make.
 Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles);
 
+/// A mesh of heights on a forest: of all levels before one, and of the vertices that are chosen; of
+/// patches that are joined, or apart (codec/mesh/forest/forest_lattice.hpp).
+struct ForestSurface {
+  LatticeMesh mesh;
+  std::vector<float> heights;
+};
+
+struct ForestMeshing {
+  tks_mesh_kind kind;
+  uint32_t max_triangles;
+  uint32_t first_chosen_level = 0;
+  bool apart = false;
+};
+
+/// Checks memory, with so many bytes beside.
+Result<ForestSurface> forestSurface(tks_decoder& decoder, const ForestMeshing& meshing,
+                                    uint64_t beside = 0);
+
 /// Heights of the vertices in the unit, NaN where they are void. valid: of all samples.
 /// steps_of(vertex): its height in the decoder's steps.
 template <class StepsOf>

@@ -744,12 +744,13 @@ typedef struct tks_globe {
   double exaggeration; /* what heights are multiplied by; 0: 1 */
 } tks_globe;
 
-/* A mesh round a globe, cut open along the seam so that a texture can be laid over it. Vertex i
+/* A mesh round a globe, cut open along the seam, or between the patches of a cube, so that a
+ * texture can be laid over it. Vertex i
  * lies at column pixel[2 i] and row pixel[2 i + 1] of the grid, counted as in tks_pixel, and at the
  * point position[3 i], in metres from the centre: x towards longitude and latitude 0, y towards
  * longitude 90, z towards the north pole. Vertices of the columns 0.5 and width + 0.5, which are
  * one, have the same position to the last bit; so have those of a pole, which each of its triangles
- * has for itself. Taken for one where they are equal, vertices leave no edge open but around voids
+ * has for itself, and samples that patches share. Taken for one where they are equal, vertices leave no edge open but around voids
  * and where the grid ends before a pole. Triangles are counter-clockwise seen from outside. Every
  * vertex is of a triangle, and none is void. */
 typedef struct tks_globe_mesh {
@@ -765,8 +766,9 @@ typedef struct tks_globe_mesh {
  * a row on a pole becomes one point. A pole has the mean height of its row. What is farther from a
  * pole stays open: there is no data. So that no edge cuts deep through the globe, the mesh gets all
  * vertices of its coarse levels, which lie on its surface: of TKS_MESH_BUDGET up to half of
- * max_triangles more, or a few hundred, beside those at the seam and at the poles. TKS_USAGE: as
- * tks_decode_mesh; the stream has no geotransform, its columns do not go once round 360 degrees
+ * max_triangles more, or a few hundred, beside those at the seam and at the poles. Heights on a
+ * cube (tks_cube_sides) need neither seam nor fans. TKS_USAGE: as tks_decode_mesh; the heights lie
+ * on another forest, the stream has no geotransform, its columns do not go once round 360 degrees
  * (whatever its domain), or rows lie beyond a pole; an axis is not above 0, or a number not finite.
  * TKS_LIMIT: as tks_decode_mesh, with 240 bytes more a vertex. */
 tks_status tks_decode_globe(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,

@@ -369,8 +369,9 @@ TEST(DecodeMemory, GlobesStayBelowTheLimitThatLetsThemPass) {
   tks_heights beside_voids = heights;
   beside_voids.has_nodata = 1;
   beside_voids.nodata = sampleAt(raster.data, raster.sample, 99);
-  for (const Bytes& bytes :
-       {encodeHeights(heights, lossless()), encodeHeights(beside_voids, lossless())})
+  const ForestRaster cube(Forest(6, cubeShape().sides), {Pattern::kRidges, 0, 0, 1, TKS_U16});
+  for (const Bytes& bytes : {encodeHeights(heights, lossless()),
+                             encodeHeights(beside_voids, lossless()), cube.encoded(lossless())})
     for (const uint32_t triangles : {0u, 300u, 20000u, 500000u}) {
       MeasuredCall measured;
       measured.status = TKS_LIMIT;

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "tests/support/stream_fixture.hpp"
+#include "tests/support/forest_raster.hpp"
+#include "tests/support/forest_shapes.hpp"
 #include "tests/support/welded_mesh.hpp"
 
 namespace tetrakis::test {
@@ -125,6 +126,63 @@ TEST(GlobeStream, IsAClosedSphereOfAnyNumberOfTriangles) {
       expectOutwards(drawn);
     }
   }
+}
+
+ForestRaster cubeRaster(int depth) {
+  return {Forest(depth, cubeShape().sides), {Pattern::kRidges, 0, 0, 1, TKS_I16, 3}};
+}
+
+TEST(GlobeStream, OnACubeIsAClosedSphereOfAnyNumberOfTriangles) {
+  for (const int depth : {1, 3, 6}) {
+    const Bytes bytes = cubeRaster(depth).encoded(budget(uint64_t{1500} << depth));
+    for (const size_t size : {bytes.size(), bytes.size() / 3}) {
+      Stream stream(Prefix(bytes).first(size));
+      for (const uint32_t triangles : {1u, 60u, 1000u, 9000u, 400000u, 0u}) {
+        SCOPED_TRACE(testing::Message() << "depth " << depth << ", " << triangles);
+        const Drawn drawn =
+            draw(stream, triangles > 0 ? TKS_MESH_BUDGET : TKS_MESH_CODED, triangles);
+        ASSERT_EQ(drawn.status, TKS_OK) << tks_message(stream.get());
+        const WeldedMesh welded = drawn.welded();
+        EXPECT_EQ(welded.open, 0u);
+        EXPECT_EQ(welded.euler(), 2);
+        if (triangles > 0) {
+          EXPECT_LE(welded.triangles, triangles + std::max(triangles / 2, 200u));
+        }
+        expectOutwards(drawn);
+      }
+    }
+  }
+}
+
+/// Each vertex is a sample of the raster, at its height over the place that the projection gives.
+TEST(GlobeStream, OnACubeHasTheSamplesWhereTheyLie) {
+  const ForestRaster cube = cubeRaster(4);
+  Stream stream(cube.encoded(lossless()));
+  const Drawn drawn = draw(stream, TKS_MESH_BUDGET, 0);
+  const std::vector<int16_t> samples = cube.samples<int16_t>();
+  ASSERT_EQ(drawn.heights.size(), samples.size());
+  for (size_t v = 0; v < samples.size(); ++v) {
+    const auto x = static_cast<uint32_t>(drawn.pixels[v][0]),
+               y = static_cast<uint32_t>(drawn.pixels[v][1]);
+    EXPECT_EQ(drawn.heights[v], samples[17 * y + x]);
+    const Point& p = drawn.points[v];
+    EXPECT_NEAR(std::hypot(p[0], p[1], p[2]), 1737400 + drawn.heights[v], 1e-3);
+    const auto is = [&](uint32_t column, uint32_t row, const Point& at) {
+      if (x != column || y != row) return;
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(p[k] / std::hypot(p[0], p[1], p[2]), at[k], 1e-12);
+    };
+    is(8, 8, {1, 0, 0});               // in the middle of the first patch: longitude 0
+    is(8, 17 + 8, {0, 1, 0});          // of the second: 90 degrees east
+    is(8, 4 * 17 + 8, {0, 0, 1});      // of the fifth: the north pole
+    const double corner = 1 / std::sqrt(3.);
+    is(0, 0, {corner, -corner, corner});
+  }
+}
+
+TEST(GlobeStream, IsNoOtherForest) {
+  const ForestRaster torus(Forest(3, torusShape().sides), {Pattern::kRidges, 0, 0, 1, TKS_I16, 3});
+  Stream stream(torus.encoded(lossless()));
+  EXPECT_EQ(draw(stream, TKS_MESH_BUDGET, 0).status, TKS_USAGE);
 }
 
 TEST(GlobeStream, IsOpenWhereTheGridEnds) {

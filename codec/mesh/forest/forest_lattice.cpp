@@ -14,6 +14,13 @@ uint32_t lastOf(const Forest& forest) {
   return forest.side() - 1;
 }
 
+/// The sample of the raster that is coded for a sample of a patch.
+uint32_t ownerOf(const Forest& forest, uint32_t patch, int64_t x, int64_t y) {
+  const Forest::Place owner = forest.owner(lastOf(forest), {patch, x, y});
+  const uint64_t row = uint64_t{owner.patch} * forest.side() + static_cast<uint64_t>(owner.y);
+  return static_cast<uint32_t>(row * forest.side() + static_cast<uint64_t>(owner.x));
+}
+
 }  // namespace
 
 ForestLattice::ForestLattice(const Forest& forest)
@@ -22,9 +29,11 @@ ForestLattice::ForestLattice(const Forest& forest)
       vertices_(size_t{forest.patches()} * patch_.vertexCount()) {
   std::vector<ForestVertex> at(forest.raster().samples(), kNone);
   for (uint32_t level = 0; level < patch_.levelCount(); ++level) {
+    firsts_.push_back(vertexCount());
     for (uint32_t patch = 0; patch < forest.patches(); ++patch) {
       for (VertexId v = patch_.firstOf(level); v < patch_.firstOf(level + 1); ++v) {
-        const uint32_t sample = ownerOf(patch, patch_.position(patch_.site(v)));
+        const GridPoint at_patch = patch_.position(patch_.site(v));
+        const uint32_t sample = ownerOf(forest, patch, at_patch.x, at_patch.y);
         if (at[sample] == kNone) {
           at[sample] = vertexCount();
           samples_.push_back(sample);
@@ -33,12 +42,6 @@ ForestLattice::ForestLattice(const Forest& forest)
       }
     }
   }
-}
-
-uint32_t ForestLattice::ownerOf(uint32_t patch, GridPoint at) const {
-  const Forest::Place owner = forest_.owner(lastOf(forest_), {patch, at.x, at.y});
-  const uint64_t row = uint64_t{owner.patch} * forest_.side() + static_cast<uint64_t>(owner.y);
-  return static_cast<uint32_t>(row * forest_.side() + static_cast<uint64_t>(owner.x));
 }
 
 ClosureGraph ForestLattice::graph() const {
@@ -93,13 +96,8 @@ class JoinedMesh {
     const uint32_t side = forest_.side();
     for (const uint32_t vertex : mesh.triangles) {
       const uint32_t local = mesh.vertices[vertex];
-      mesh_.triangles.push_back(place_[ownerOf(patch, local % side, local / side)]);
+      mesh_.triangles.push_back(place_[ownerOf(forest_, patch, local % side, local / side)]);
     }
-  }
-  uint32_t ownerOf(uint32_t patch, int64_t x, int64_t y) const {
-    const Forest::Place owner = forest_.owner(lastOf(forest_), {patch, x, y});
-    const uint64_t row = uint64_t{owner.patch} * forest_.side() + static_cast<uint64_t>(owner.y);
-    return static_cast<uint32_t>(row * forest_.side() + static_cast<uint64_t>(owner.x));
   }
   LatticeMesh take() { return std::move(mesh_); }
 
@@ -109,27 +107,54 @@ class JoinedMesh {
   LatticeMesh mesh_;
 };
 
+/// The mesh of the vertices of a set that each patch has.
+class PatchMeshes {
+ public:
+  PatchMeshes(const ForestLattice& lattice, std::span<const ForestVertex> vertices)
+      : lattice_(lattice), in_(lattice.vertexCount()) {
+    for (const ForestVertex v : vertices) in_[v] = 1;
+  }
+
+  LatticeMesh of(uint32_t patch) const {
+    std::vector<VertexId> local;
+    for (VertexId v = 0; v < lattice_.patch().vertexCount(); ++v)
+      if (in_[lattice_.vertex(patch, v)] != 0) local.push_back(v);
+    return meshOf(lattice_.patch(), local);
+  }
+
+ private:
+  const ForestLattice& lattice_;
+  std::vector<uint8_t> in_;
+};
+
 }  // namespace
 
 LatticeMesh meshOf(const ForestLattice& lattice, std::span<const ForestVertex> vertices) {
   const Forest& forest = lattice.forest();
-  std::vector<uint8_t> in(lattice.vertexCount());
   JoinedMesh joined(forest);
   const uint32_t last = lastOf(forest);
   for (uint32_t patch = 0; patch < forest.patches(); ++patch)
     for (const auto& [x, y] : {std::pair(0u, 0u), {last, 0u}, {0u, last}, {last, last}})
-      joined.addVertex(joined.ownerOf(patch, x, y));
-  for (const ForestVertex v : vertices) {
-    in[v] = 1;
-    joined.addVertex(lattice.sample(v));
-  }
-  for (uint32_t patch = 0; patch < forest.patches(); ++patch) {
-    std::vector<VertexId> local;
-    for (VertexId v = 0; v < lattice.patch().vertexCount(); ++v)
-      if (in[lattice.vertex(patch, v)] != 0) local.push_back(v);
-    joined.addTriangles(patch, meshOf(lattice.patch(), local));
-  }
+      joined.addVertex(ownerOf(forest, patch, x, y));
+  for (const ForestVertex v : vertices) joined.addVertex(lattice.sample(v));
+  const PatchMeshes meshes(lattice, vertices);
+  for (uint32_t patch = 0; patch < forest.patches(); ++patch)
+    joined.addTriangles(patch, meshes.of(patch));
   return joined.take();
+}
+
+LatticeMesh patchesOf(const ForestLattice& lattice, std::span<const ForestVertex> vertices) {
+  const Forest& forest = lattice.forest();
+  const PatchMeshes meshes(lattice, vertices);
+  LatticeMesh all;
+  for (uint32_t patch = 0; patch < forest.patches(); ++patch) {
+    const LatticeMesh mesh = meshes.of(patch);
+    const auto first = static_cast<uint32_t>(all.vertices.size());
+    for (const uint32_t sample : mesh.vertices)
+      all.vertices.push_back(patch * forest.side() * forest.side() + sample);
+    for (const uint32_t vertex : mesh.triangles) all.triangles.push_back(first + vertex);
+  }
+  return all;
 }
 
 }  // namespace tetrakis::inline forest

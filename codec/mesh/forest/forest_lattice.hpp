@@ -41,15 +41,18 @@ class ForestLattice {
   ForestVertex vertex(uint32_t patch, VertexId local) const {
     return vertices_[size_t{patch} * patch_.vertexCount() + local];
   }
+  /// The first vertex of a level of the patches' lattice.
+  ForestVertex firstOf(uint32_t level) const {
+    return level < firsts_.size() ? firsts_[level] : vertexCount();
+  }
   /// The parents and the triangles that a mesh gains by a vertex, of all vertices by their numbers.
   ClosureGraph graph() const;
 
  private:
-  uint32_t ownerOf(uint32_t patch, GridPoint at) const;
-
   const Forest& forest_;
   Lattice patch_;
   std::vector<uint32_t> samples_;
+  std::vector<ForestVertex> firsts_;  ///< of levels
   std::vector<ForestVertex> vertices_;  ///< of each patch, by the numbers of its lattice
 };
 
@@ -61,5 +64,9 @@ std::vector<ForestVertex> closureOfMarks(const ForestLattice& lattice,
 /// The mesh of a closed set of vertices, by their numbers: corners of patches first, then these.
 /// Its vertices are samples of the raster; no edge is open but at borders.
 LatticeMesh meshOf(const ForestLattice& lattice, std::span<const ForestVertex> vertices);
+
+/// The same as a mesh for each patch, so that a texture can be laid over it: a sample that patches
+/// share is a vertex of each of them.
+LatticeMesh patchesOf(const ForestLattice& lattice, std::span<const ForestVertex> vertices);
 
 }  // namespace tetrakis::inline forest

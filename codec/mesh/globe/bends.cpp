@@ -73,6 +73,18 @@ uint32_t bendLevel(const Lattice& lattice, uint32_t max_triangles) {
   return level;
 }
 
+uint32_t cubeBendLevel(uint32_t depth, uint32_t max_triangles) {
+  constexpr uint64_t kFaces = 6, kAround = 4;  // of a cube, and round its equator
+  uint32_t splits = 0;
+  const auto goesOn = [&] {
+    if (kAround << splits < kFewestTurnParts) return true;
+    return kAround << splits < kTurnParts &&
+           (max_triangles == 0 || 2 * (2 * kFaces << 2 * (splits + 1)) <= max_triangles);
+  };
+  while (splits < depth && goesOn()) ++splits;
+  return 2 * splits;
+}
+
 void addBends(const Lattice& lattice, std::span<const VertexId> inserted, uint32_t level,
               Mask valid, LatticeMesh& mesh, std::vector<float>& heights) {
   const std::vector<VertexId> added = missing(lattice, inserted, level);

@@ -19,6 +19,9 @@ namespace tetrakis::inline globe {
 /// any number of triangles.
 uint32_t bendLevel(const Lattice& lattice, uint32_t max_triangles);
 
+/// The same of a cube of that depth, all of whose patches have the lattice of a square.
+uint32_t cubeBendLevel(uint32_t depth, uint32_t max_triangles);
+
 /// Adds the vertices of all levels before `level`. The surface stays as it is: they lie on the
 /// edges that they split. inserted: the closed set that `mesh` is made of; heights: of its
 /// vertices, NaN where they are void, or lie in a void of the surface as a new one may. valid: of

@@ -31,6 +31,15 @@ struct Direction {
 
 }  // namespace
 
+std::array<double, 3> above(const Spheroid& spheroid, const SpherePoint& up, double height) {
+  // N, the radius of curvature across the meridian, and its part along the axis.
+  const double a = spheroid.equatorial, b = spheroid.polar;
+  const double across = a * std::sqrt(up.x * up.x + up.y * up.y), along = b * up.z;
+  const double root = std::sqrt(across * across + along * along);
+  const double radius = a * a / root + height;
+  return {radius * up.x, radius * up.y, (b * b / root + height) * up.z};
+}
+
 bool GlobePlaces::onGlobe() const {
   const double last = latitudes_.at(latitudes_.count - 1.0);
   const double most = kPole + kRowSlack * std::abs(latitudes_.step);
@@ -55,12 +64,24 @@ std::array<double, 3> GlobePlaces::at(const GridPlace& place, double height) con
   double latitude = std::clamp(latitudes_.at(place.row), -kPole, kPole);
   if (std::abs(latitude) > kPole - kDegreeSlack) latitude = std::copysign(kPole, latitude);
   const Direction east(longitudes_.at(column)), north(latitude);
-  // N, the radius of curvature across the meridian, and its part along the axis.
-  const double a = spheroid_.equatorial, b = spheroid_.polar;
-  const double scaled_x = a * north.cosine, scaled_z = b * north.sine;
-  const double root = std::sqrt(scaled_x * scaled_x + scaled_z * scaled_z);
-  const double radius = (a * a / root + height) * north.cosine;
-  return {radius * east.cosine, radius * east.sine, (b * b / root + height) * north.sine};
+  return above(spheroid_,
+               {north.cosine * east.cosine, north.cosine * east.sine, north.sine}, height);
+}
+
+CubeSpheroid::CubeSpheroid(const Forest& forest, const Spheroid& spheroid)
+    : forest_(forest), spheroid_(spheroid) {
+  const uint32_t side = forest.side();
+  for (uint32_t i = 0; i < side; ++i)
+    off_middle_.push_back(offMiddle(static_cast<double>(i) / (side - 1)));
+}
+
+std::array<double, 3> CubeSpheroid::at(uint32_t sample, double height) const {
+  const uint32_t side = forest_.side();
+  const uint32_t patch = sample / (side * side), y = sample / side % side, x = sample % side;
+  const Forest::Place owner = forest_.owner(side - 1, {patch, x, y});
+  const SpherePoint up = pointOf(owner.patch, off_middle_[static_cast<size_t>(owner.x)],
+                                 off_middle_[static_cast<size_t>(owner.y)]);
+  return above(spheroid_, up, height);
 }
 
 }  // namespace tetrakis::inline globe

@@ -6,7 +6,9 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
+#include "codec/cube/cube_sphere.hpp"
 #include "codec/mesh/globe/globe_mesh.hpp"
 
 namespace tetrakis::inline globe {
@@ -15,6 +17,10 @@ namespace tetrakis::inline globe {
 struct Spheroid {
   double equatorial = 0, polar = 0;
 };
+
+/// The point at that height above it whose normal has this direction, of length 1. All in one unit,
+/// from the centre.
+std::array<double, 3> above(const Spheroid& spheroid, const SpherePoint& up, double height);
 
 /// Of a grid: in degrees, of the first sample and from one to the next, neither step 0.
 struct GlobeAxis {
@@ -47,6 +53,21 @@ class GlobePlaces {
 
   GlobeAxis longitudes_, latitudes_;
   Spheroid spheroid_;
+};
+
+/// The same of samples of a cube.
+class CubeSpheroid {
+ public:
+  /// forest: of kCubeSides, which outlives this.
+  CubeSpheroid(const Forest& forest, const Spheroid& spheroid);
+
+  /// sample: of the raster. What patches share has one place, to the last bit.
+  std::array<double, 3> at(uint32_t sample, double height) const;
+
+ private:
+  const Forest& forest_;
+  Spheroid spheroid_;
+  std::vector<double> off_middle_;  ///< of the samples along a side
 };
 
 }  // namespace tetrakis::inline globe

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/forest.hpp"
-#include "codec/globe/cube_interpolation.hpp"
-#include "codec/globe/geographic_grid.hpp"
+#include "codec/cube/cube_interpolation.hpp"
+#include "codec/cube/geographic_grid.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 class CubeFit {
  public:
@@ -35,4 +35,4 @@ class CubeFit {
   std::vector<float> areas_;     ///< of a sample in each row
 };
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

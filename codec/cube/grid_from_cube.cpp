@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/globe/grid_from_cube.hpp"
+#include "codec/cube/grid_from_cube.hpp"
 
 #include "base/parallel.hpp"
-#include "codec/globe/cube_interpolation.hpp"
-#include "codec/globe/grid_on_cube.hpp"
+#include "codec/cube/cube_interpolation.hpp"
+#include "codec/cube/grid_on_cube.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 void gridFromCube(const Forest& cube, std::span<const float> heights, const GeographicGrid& grid,
                   const GridWindow& window, uint32_t threads, std::span<float> out) {
@@ -20,4 +20,4 @@ void gridFromCube(const Forest& cube, std::span<const float> heights, const Geog
   });
 }
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

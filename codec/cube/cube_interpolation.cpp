@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/globe/cube_interpolation.hpp"
+#include "codec/cube/cube_interpolation.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 namespace {
 
@@ -76,4 +76,4 @@ void CubeInterpolation::addBeyond(CubeTaps& taps, Forest::Place sample, float we
   addInside(taps, place, weight * part);
 }
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

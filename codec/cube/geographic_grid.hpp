@@ -9,7 +9,7 @@
 #include "base/plane.hpp"
 #include "tetrakis/result.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 class GeographicGrid {
  public:
@@ -40,4 +40,4 @@ class GeographicGrid {
   double first_ = 0, row_degrees_ = 0;    ///< of the first row
 };
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

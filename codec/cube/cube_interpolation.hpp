@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "base/forest.hpp"
-#include "codec/globe/cube_sphere.hpp"
+#include "codec/cube/cube_sphere.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 inline constexpr int kMostCubeDepth = 14;  ///< so that 32 bits number the samples
 
@@ -82,4 +82,4 @@ class CubeInterpolation {
   std::vector<double> beyond_;  ///< where a row's samples lie that are one beyond a side
 };
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/globe/cube_sphere.hpp"
+#include "codec/cube/cube_sphere.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "base/portable_math.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 namespace {
 
@@ -118,4 +118,4 @@ double cosineOfDegrees(double degrees) {
   return sineOfDegrees(90 - std::abs(std::remainder(degrees, 360)));
 }
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

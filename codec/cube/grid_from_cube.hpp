@@ -7,9 +7,9 @@
 
 #include "base/forest.hpp"
 #include "base/plane.hpp"
-#include "codec/globe/geographic_grid.hpp"
+#include "codec/cube/geographic_grid.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 /// A rectangle of samples of a grid, by its first column and row and its size.
 struct GridWindow {
@@ -21,4 +21,4 @@ struct GridWindow {
 void gridFromCube(const Forest& cube, std::span<const float> heights, const GeographicGrid& grid,
                   const GridWindow& window, uint32_t threads, std::span<float> out);
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

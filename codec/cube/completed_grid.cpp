@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/globe/completed_grid.hpp"
+#include "codec/cube/completed_grid.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,9 +7,9 @@
 #include <numeric>
 #include <utility>
 
-#include "codec/globe/cube_interpolation.hpp"
+#include "codec/cube/cube_interpolation.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 namespace {
 
@@ -109,4 +109,4 @@ float CompletedGrid::at(double column, double row) const {
   return sum;
 }
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

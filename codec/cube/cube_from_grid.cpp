@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/globe/cube_from_grid.hpp"
+#include "codec/cube/cube_from_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "codec/globe/completed_grid.hpp"
-#include "codec/globe/cube_fit.hpp"
-#include "codec/globe/cube_sphere.hpp"
-#include "codec/globe/grid_from_cube.hpp"
+#include "codec/cube/completed_grid.hpp"
+#include "codec/cube/cube_fit.hpp"
+#include "codec/cube/cube_sphere.hpp"
+#include "codec/cube/grid_from_cube.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 namespace {
 
@@ -66,4 +66,4 @@ HeightsOnCube cubeFromGrid(const GeographicGrid& grid, std::span<const float> he
   return {std::move(samples), errors};
 }
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

@@ -13,7 +13,7 @@
 
 #include "base/forest.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 inline constexpr uint32_t kCubePatches = 6;
 
@@ -66,4 +66,4 @@ Geographic geographicOf(const SpherePoint& point);
 double sineOfDegrees(double degrees);
 double cosineOfDegrees(double degrees);
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The six patches cover the sphere: what is glued lies in one place, and directions come back.
-#include "codec/globe/cube_sphere.hpp"
+#include "codec/cube/cube_sphere.hpp"
 
 #include <gtest/gtest.h>
 

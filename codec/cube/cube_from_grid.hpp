@@ -2,7 +2,7 @@
 // cubeFromGrid() takes the heights of a geographic grid to a cube: those whose interpolation comes
 // nearest to the grid, by least squares over the area of the Earth. So a cube that is coarser than
 // the grid takes means, and one that is finer goes nearly through all samples. Where no sample of
-// the grid is near, the cube has what lies between them (codec/globe/completed_grid.hpp).
+// the grid is near, the cube has what lies between them (codec/cube/completed_grid.hpp).
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/forest.hpp"
-#include "codec/globe/geographic_grid.hpp"
+#include "codec/cube/geographic_grid.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 /// How far heights on a cube, interpolated at the samples of a grid, are from those of the grid:
 /// the largest distance, and the root of the mean square over the area of the Earth.
@@ -29,4 +29,4 @@ struct HeightsOnCube {
 HeightsOnCube cubeFromGrid(const GeographicGrid& grid, std::span<const float> heights,
                            const Forest& cube, uint32_t threads);
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

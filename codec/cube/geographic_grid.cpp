@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/globe/geographic_grid.hpp"
+#include "codec/cube/geographic_grid.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/coordinates.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 namespace {
 
@@ -48,4 +48,4 @@ double GeographicGrid::latitudeOf(double row) const {
   return std::clamp(first_ + row * row_degrees_, -90.0, 90.0);
 }
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "codec/globe/geographic_grid.hpp"
+#include "codec/cube/geographic_grid.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 class CompletedGrid {
  public:
@@ -47,4 +47,4 @@ class CompletedGrid {
   End before_, behind_;
 };
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "codec/globe/cube_sphere.hpp"
-#include "codec/globe/geographic_grid.hpp"
+#include "codec/cube/cube_sphere.hpp"
+#include "codec/cube/geographic_grid.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 class GridOnCube {
  public:
@@ -40,4 +40,4 @@ class GridOnCube {
   std::vector<Meridian> meridians_;
 };
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube

@@ -8,9 +8,9 @@
 #include <limits>
 #include <random>
 
-#include "codec/globe/cube_from_grid.hpp"
-#include "codec/globe/cube_sphere.hpp"
-#include "codec/globe/grid_from_cube.hpp"
+#include "codec/cube/cube_from_grid.hpp"
+#include "codec/cube/cube_sphere.hpp"
+#include "codec/cube/grid_from_cube.hpp"
 
 namespace tetrakis::test {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "codec/globe/cube_fit.hpp"
+#include "codec/cube/cube_fit.hpp"
 
 #include <numeric>
 
 #include "base/parallel.hpp"
-#include "codec/globe/grid_on_cube.hpp"
+#include "codec/cube/grid_on_cube.hpp"
 
-namespace tetrakis::inline globe {
+namespace tetrakis::inline cube {
 
 namespace {
 
@@ -112,4 +112,4 @@ void CubeFit::improve(std::span<const float> heights, std::span<float> samples) 
   shareOwned(*cube_, samples, cube_->side() - 1);
 }
 
-}  // namespace tetrakis::inline globe
+}  // namespace tetrakis::inline cube
