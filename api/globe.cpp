@@ -98,8 +98,8 @@ class GlobeCall {
     const uint64_t chosen = budget && max_triangles_ > 0
                                 ? std::min<uint64_t>(max_triangles_, forest.raster().samples())
                                 : forest.raster().samples();
-    const Result<ForestSurface> surface = forestSurface(
-        decoder_, {kind_, max_triangles_, level, true}, kVertex * (bends + chosen));
+    const Result<ForestSurface> surface =
+        forestSurface(decoder_, {kind_, max_triangles_, level, true}, kVertex * (bends + chosen));
     if (!surface.ok()) return surface.status();
     const double metres = metresPerHeight(globe);
     const CubeSpheroid cube(forest, {globe.semi_major, globe.semi_minor});

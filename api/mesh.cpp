@@ -232,8 +232,8 @@ Result<ForestSurface> forestSurface(tks_decoder& decoder, const ForestMeshing& m
   const std::vector<ForestVertex> vertices =
       withAllBefore(lattice.firstOf(meshing.first_chosen_level),
                     chosenVertices(lattice, (*decoded)->geometry, meshing));
-  ForestSurface surface{
-      meshing.apart ? patchesOf(lattice, vertices) : meshOf(lattice, vertices), {}};
+  ForestSurface surface{meshing.apart ? patchesOf(lattice, vertices) : meshOf(lattice, vertices),
+                        {}};
   surface.heights = surfaceAtVertices(decoder, **decoded, surface.mesh);
   leaveOutVoids(surface.mesh, surface.heights);
   return surface;

@@ -32,6 +32,7 @@ std::vector<VectorCase> jointCases();
 std::vector<VectorCase> storedCases();
 std::vector<VectorCase> regionCases();
 std::vector<VectorCase> cylinderCases();
+std::vector<VectorCase> forestCases();
 std::vector<VectorCase> toldCases();
 std::vector<VectorCase> placedCases();
 std::vector<VectorCase> damagedCases();

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // From the description of a case to its inputs, and to its stream.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <iterator>
+#include <optional>
+#include <span>
 #include <type_traits>
 
+#include "base/forest.hpp"
 #include "base/samples.hpp"
 #include "conformance/cases/vector_cases.hpp"
 #include "conformance/samples/facets.hpp"
@@ -108,6 +112,20 @@ tks_camera cameraAbove(const tks_heights& heights) {
   return camera;
 }
 
+/// The forest whose patches are as wide as the raster; the raster gets what they share.
+Forest forestUnder(samples::Raster& raster, const std::vector<uint32_t>& sides) {
+  const auto depth = static_cast<int>(std::bit_width(raster.width - 1)) - 1;
+  Forest forest(depth, sides);
+  shareOwned(forest, std::span(raster.data), raster.width - 1,
+             raster.channels * tks_sample_bytes(raster.sample));
+  return forest;
+}
+
+tks_forest given(const std::optional<Forest>& forest) {
+  if (!forest) return {};
+  return {static_cast<uint32_t>(forest->depth()), forest->patches(), forest->sides().data()};
+}
+
 }  // namespace
 
 Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
@@ -139,6 +157,14 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
     image.white_level = vector_case.white_level;
   }
   if (vector_case.placed) placeBoth(vector_case.heights.has_value(), heights, image);
+  std::optional<Forest> ground, painted;
+  if (!vector_case.sides.empty()) {
+    if (vector_case.heights) ground = forestUnder(surface, vector_case.sides);
+    if (vector_case.texture) painted = forestUnder(picture, vector_case.sides);
+    heights.domain = image.domain = TKS_DOMAIN_FOREST;
+    heights.forest = given(ground);
+    image.forest = given(painted);
+  }
   if (vector_case.ring) heights.domain = image.domain = TKS_DOMAIN_CYLINDER;
   tks_encode_options options = vector_case.options;
   const tks_camera above = cameraAbove(heights);

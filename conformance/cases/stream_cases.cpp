@@ -96,6 +96,38 @@ std::vector<VectorCase> cylinderCases() {
           round(joint)};
 }
 
+/// Patches whose sides are glued: with turned sides, corners of one to five patches, borders.
+std::vector<VectorCase> forestCases() {
+  constexpr uint32_t kNone = TKS_BORDER;
+  const std::vector<uint32_t> cube(tks_cube_sides(), tks_cube_sides() + 24),
+      octahedron = {5, 4, 7, 6, 1, 0, 3, 2}, torus = {2, 3, 0, 1}, cone = {3, kNone, kNone, 0},
+      star = {19,    kNone, kNone, 4,     3,     kNone, kNone, 8,     7,     kNone,
+              kNone, 12,    11,    kNone, kNone, 16,    15,    kNone, kNone, 0};
+  const auto on = [](const std::vector<uint32_t>& sides, VectorCase vector_case) {
+    vector_case.sides = sides;
+    return vector_case;
+  };
+  VectorCase joint = heightsCase("forest_joint_9x54_17x102", "a cube of heights and of texture",
+                                 {Pattern::kRidges, 9, 54, 1, TKS_I16}, budget(2400));
+  joint.texture = Recipe{Pattern::kRidges, 17, 102, 3, TKS_U8, 7};
+  return {
+      on(cube, heightsCase("forest_cube_17x102", "a cube: six of its twelve sides are turned",
+                           {Pattern::kRidges, 17, 102, 1, TKS_I16}, lossless())),
+      on(octahedron, heightsCase("forest_octahedron_33x66", "corners of two patches; fraction bits",
+                                 {Pattern::kRidges, 33, 66, 1, TKS_I16}, budget(1500))),
+      on(torus, heightsCase("forest_torus_33x33", "one patch beside itself; smooth ground",
+                            {Pattern::kHills, 33, 33, 1, TKS_U16}, lossless())),
+      on(cone, heightsCase("forest_cone_33x33", "one corner of a patch; corrections of steps",
+                           {Pattern::kRidges, 33, 33, 1, TKS_I16, 5}, maxError(900))),
+      on(star, heightsCase("forest_star_17x85", "five patches round a corner, and borders",
+                           {Pattern::kRidges, 17, 85, 1, TKS_U8}, lossless())),
+      on(cube, heightsCase("forest_smallest_3x18", "patches of nine samples",
+                           {Pattern::kRidges, 3, 18, 1, TKS_I16}, lossless())),
+      on(octahedron, textureCase("forest_texture_33x66", "a forest of a texture alone",
+                                 {Pattern::kRidges, 33, 66, 3, TKS_U8, 7}, lossless())),
+      on(cube, joint)};
+}
+
 /// Coefficients have priorities, by what a camera sees.
 std::vector<VectorCase> toldCases() {
   const auto told = [](const std::string& name, const std::string& purpose,

@@ -81,6 +81,8 @@ Tools toolsOf(std::span<const uint8_t> stream) {
   if (header.texture) addTexture(*header.texture, tools);
   if (header.geometry && header.geometry->wavelet.ring) tools.insert("cylinder of heights");
   if (header.texture && header.texture->wavelet.ring) tools.insert("cylinder of texels");
+  if (header.geometry && header.geometry->wavelet.forest) tools.insert("forest of heights");
+  if (header.texture && header.texture->wavelet.forest) tools.insert("forest of texels");
   if (!header.index.empty()) tools.insert("index");
   if (header.georeference.heights.has_transform || header.georeference.texture.has_transform)
     tools.insert("georeference");
@@ -103,6 +105,8 @@ Tools allTools() {
           "exact corrections",
           "facets",
           "flat areas",
+          "forest of heights",
+          "forest of texels",
           "fraction bits",
           "further colour",
           "georeference",

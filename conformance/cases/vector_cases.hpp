@@ -46,6 +46,7 @@ struct VectorCase {
   uint32_t spikes = 0;                ///< one in so many heights stands out of a plain
   bool placed = false;                ///< heights and texture have a georeference
   bool ring = false;                  ///< the columns of heights and texture go round
+  std::vector<uint32_t> sides;        ///< not empty: both lie on forests of this many sides
   bool told = false;                  ///< a camera looks down on the north-west
   std::vector<uint8_t> stream;        ///< not empty: nothing is encoded, these are the bytes
   bool dense = false;                 ///< cuts lie close to each other in the middle

@@ -147,11 +147,9 @@ TEST(ForestStream, SharesABudgetBetweenHeightsAndTexture) {
     EXPECT_EQ(stream.info().texture_forest.depth, 6u);
     const std::vector<int16_t> samples = decoded(stream), source = surface.samples<int16_t>();
     double heights_off = 0, texels_off = 0;
-    for (size_t i = 0; i < samples.size(); ++i)
-      heights_off += std::abs(samples[i] - source[i]);
+    for (size_t i = 0; i < samples.size(); ++i) heights_off += std::abs(samples[i] - source[i]);
     const std::vector<uint8_t> texels = texelsOf(stream), painted = picture.samples<uint8_t>();
-    for (size_t i = 0; i < texels.size(); ++i)
-      texels_off += std::abs(int{texels[i]} - painted[i]);
+    for (size_t i = 0; i < texels.size(); ++i) texels_off += std::abs(int{texels[i]} - painted[i]);
     EXPECT_LT(heights_off / static_cast<double>(samples.size()), 40) << shape.name;
     EXPECT_LT(texels_off / static_cast<double>(texels.size()), 12) << shape.name;
   }

@@ -171,9 +171,9 @@ TEST(GlobeStream, OnACubeHasTheSamplesWhereTheyLie) {
       if (x != column || y != row) return;
       for (int k = 0; k < 3; ++k) EXPECT_NEAR(p[k] / std::hypot(p[0], p[1], p[2]), at[k], 1e-12);
     };
-    is(8, 8, {1, 0, 0});               // in the middle of the first patch: longitude 0
-    is(8, 17 + 8, {0, 1, 0});          // of the second: 90 degrees east
-    is(8, 4 * 17 + 8, {0, 0, 1});      // of the fifth: the north pole
+    is(8, 8, {1, 0, 0});           // in the middle of the first patch: longitude 0
+    is(8, 17 + 8, {0, 1, 0});      // of the second: 90 degrees east
+    is(8, 4 * 17 + 8, {0, 0, 1});  // of the fifth: the north pole
     const double corner = 1 / std::sqrt(3.);
     is(0, 0, {corner, -corner, corner});
   }

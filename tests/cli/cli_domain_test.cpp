@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which rasters the command line takes for cylinders, by where they lie, and which go to cubes.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
 
 #include "tests/cli/cli_fixture.hpp"
+#include "tests/support/welded_mesh.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -142,7 +148,8 @@ class CliCube : public CliDomain {
   }
   Outcome encodeCube(const std::string& options) {
     EXPECT_TRUE(tools::writeHeights(path("g.tif"), world_).ok());
-    return cli("encode g.tif --domain cube -f -o s.tks" + options);
+    const bool other = options.find("--domain") != std::string::npos;
+    return cli(std::string("encode g.tif -f -o s.tks") + (other ? "" : " --domain cube") + options);
   }
   tools::HeightFile decoded(const std::string& options = "") {
     EXPECT_EQ(cli("decode s.tks -f --height d.tif" + options).code, 0);
@@ -184,6 +191,70 @@ TEST_F(CliCube, GivesWindowsOfTheGrid) {
   EXPECT_EQ(cli("decode s.tks -f --height d.tif --window 60 30 13 6").code, 1);
   for (const char* other : {"--mesh m.glb", "--normal-map n.png", "--height d.r16 --size unity"})
     EXPECT_EQ(cli(std::string("decode s.tks -f ") + other).code, 1) << other;
+}
+
+class CliGlobe : public CliCube {
+ protected:
+  /// Of an .obj file.
+  checks::WeldedMesh meshOf(const std::string& options) {
+    const Outcome run = cli("decode s.tks -f --mesh m.obj --globe" + options);
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    points_.clear();
+    std::vector<uint32_t> triangles;
+    std::ifstream file(path("m.obj"));
+    for (std::string line; std::getline(file, line);) {
+      std::istringstream words(line);
+      std::string kind, corner;
+      words >> kind;
+      if (kind == "v") {
+        auto& [x, y, z] = points_.emplace_back();
+        words >> x >> y >> z;
+      }
+      while (kind == "f" && words >> corner)
+        triangles.push_back(static_cast<uint32_t>(std::stoul(corner)) - 1);
+    }
+    return checks::weldedMesh(points_, triangles);
+  }
+  double farthest() const {
+    double most = 0;
+    for (const auto& [x, y, z] : points_) most = std::max(most, std::hypot(x, y, z));
+    return most;
+  }
+
+  std::vector<std::array<double, 3>> points_;
+};
+
+TEST_F(CliGlobe, IsClosedWhetherItIsACylinderOrACube) {
+  for (const char* domain : {"cylinder", "cube", "plane"}) {
+    SCOPED_TRACE(domain);
+    ASSERT_EQ(encodeCube(std::string(" --bytes 4000 --domain ") + domain).code, 0);
+    for (const char* options : {"", " --triangles 500", " --coded-mesh", " --bytes 700"}) {
+      const checks::WeldedMesh mesh = meshOf(options);
+      EXPECT_EQ(mesh.open, 0u) << options;
+      EXPECT_EQ(mesh.euler(), 2) << options;
+      EXPECT_NEAR(farthest(), 6381000, 5000) << options;
+    }
+  }
+}
+
+TEST_F(CliGlobe, LiesOnTheBodyOfItsReferenceSystem) {
+  world_.crs = "ESRI:104903";  // the Moon, a sphere
+  ASSERT_EQ(encodeCube(" --bytes 4000 --domain cylinder").code, 0);
+  meshOf("");
+  const double once = farthest() - 1737400;
+  EXPECT_NEAR(once, 3000, 100);
+  meshOf(" --exaggeration 50");
+  EXPECT_NEAR(farthest() - 1737400, 50 * once, 10);
+}
+
+TEST_F(CliGlobe, RefusesWhatIsNone) {
+  ASSERT_EQ(encode(ground(36, 0, 1, "EPSG:4326")).code, 0);
+  const Outcome run = cli("decode s.tks -f --mesh m.glb --globe");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_NE(run.err.find("round a globe"), std::string::npos) << run.err;
+  EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --exaggeration 3").code, 1);
+  EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --globe --view low").code, 1);
 }
 
 TEST_F(CliCube, RefusesWhatDoesNotGoWithIt) {

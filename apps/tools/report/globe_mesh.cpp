@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tools/report/globe_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "apps/tools/files/place/ground_spacing.hpp"
+#include "apps/tools/files/place/texture_place.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+tks_globe bodyOf(const tks_info& info, double exaggeration) {
+  const GridUnit unit = gridUnitOf(info.geo_keys, info.crs);
+  const double minor = unit.ellipsoid.semi_major * (1 - unit.ellipsoid.flattening);
+  return {sizeof(tks_globe), unit.ellipsoid.semi_major, minor, unit.degrees, exaggeration};
+}
+
+/// From x to longitude 0 and z north to the axes of glTF.
+Vector upright(std::span<const double> p) {
+  return {p[0], p[2], -p[1]};
+}
+
+/// Twice the area of the triangle along its normal.
+Vector normalOf(const std::array<Vector, 3>& corners) {
+  Vector a{}, b{};
+  for (size_t k = 0; k < 3; ++k) {
+    a[k] = corners[1][k] - corners[0][k];
+    b[k] = corners[2][k] - corners[0][k];
+  }
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Of length 1, of vertices at one place the same: the sum over the triangles there.
+std::vector<float> smoothNormals(const GlobeMesh& mesh) {
+  const auto at = [&](uint32_t v) { return upright(mesh.positions().subspan(size_t{3} * v, 3)); };
+  std::map<Vector, Vector> sums;
+  for (size_t t = 0; t < mesh.triangles().size(); t += 3) {
+    const std::array corners = {at(mesh.triangles()[t]), at(mesh.triangles()[t + 1]),
+                                at(mesh.triangles()[t + 2])};
+    const Vector normal = normalOf(corners);
+    for (const Vector& corner : corners)
+      for (size_t k = 0; k < 3; ++k) sums[corner][k] += normal[k];
+  }
+  std::vector<float> normals;
+  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
+    const Vector& sum = sums[at(v)];
+    const double length = std::hypot(sum[0], sum[1], sum[2]);
+    for (const double part : sum) normals.push_back(static_cast<float>(part / length));
+  }
+  return normals;
+}
+
+/// Where the texture lies under a place of the heights' raster, in texels from its outer corner.
+class TexelUnder {
+ public:
+  explicit TexelUnder(const tks_info& info)
+      : info_(info), place_(PlacedRaster::heightsOf(info), PlacedRaster::textureOf(info)) {}
+
+  /// Of a raster without a place it covers all; a patch of a forest, from corner to corner.
+  std::array<double, 2> at(double column, double row) const {
+    if (info_.domain == TKS_DOMAIN_FOREST) return onForest(column - 0.5, row - 0.5);
+    if (info_.texture_has_geotransform) return place_.texelAt(column - 0.5, row - 0.5);
+    return {column * info_.texture_width / info_.width, row * info_.texture_height / info_.height};
+  }
+
+ private:
+  std::array<double, 2> onForest(double x, double y) const {
+    const double scale = std::ldexp(
+        1., static_cast<int>(info_.texture_forest.depth) - static_cast<int>(info_.forest.depth));
+    const double patch = std::floor(y / info_.width);
+    return {0.5 + scale * x, 0.5 + patch * info_.texture_width + scale * (y - patch * info_.width)};
+  }
+
+  const tks_info& info_;
+  TexturePlace place_;
+};
+
+std::vector<float> textureCoordinates(const tks_info& info, const GlobeMesh& mesh) {
+  const TexelUnder texel(info);
+  const auto part = [](double at, double side) {
+    return std::isfinite(at) ? static_cast<float>(std::clamp(at / side, 0., 1.)) : 0.f;
+  };
+  std::vector<float> coordinates;
+  for (size_t i = 0; i < mesh.pixels().size(); i += 2) {
+    const auto [x, y] = texel.at(mesh.pixels()[i], mesh.pixels()[i + 1]);
+    coordinates.push_back(part(x, info.texture_width));
+    coordinates.push_back(part(y, info.texture_height));
+  }
+  return coordinates;
+}
+
+}  // namespace
+
+Result<MeshFile> globeMesh(Decoder& decoder, const GlobeRequest& request) {
+  const tks_info& info = decoder.info();
+  const tks_globe body = bodyOf(info, request.exaggeration);
+  const Result<GlobeMesh> mesh =
+      request.coded ? decoder.codedGlobe(body) : decoder.budgetGlobe(body, request.max_triangles);
+  if (!mesh.ok()) return mesh.status();
+  MeshFile file;
+  for (uint32_t v = 0; v < mesh->vertexCount(); ++v)
+    for (const double part : upright(mesh->positions().subspan(size_t{3} * v, 3)))
+      file.positions.push_back(static_cast<float>(part));
+  file.triangles.assign(mesh->triangles().begin(), mesh->triangles().end());
+  file.normals = smoothNormals(*mesh);
+  if (info.has_texture) file.texcoords = textureCoordinates(info, *mesh);
+  return file;
+}
+
+}  // namespace tetrakis::tools

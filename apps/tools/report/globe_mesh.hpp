@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// globeMesh() makes a mesh file of a globe: a closed surface round the centre of the body that the
+// heights lie on, with the north pole at the top.
+#pragma once
+
+#include <cstdint>
+
+#include "apps/tools/files/files.hpp"
+#include "tetrakis/tetrakis.hpp"
+
+namespace tetrakis::tools {
+
+/// What to make of the heights of a stream.
+struct GlobeRequest {
+  bool coded = false;          ///< the mesh that the bytes themselves code
+  uint32_t max_triangles = 0;  ///< of the others; 0: every sample
+  double exaggeration = 1;     ///< what heights are multiplied by
+};
+
+/// Positions in metres from the centre: x towards longitude 0, y to the north pole, z towards 90
+/// degrees west. The ellipsoid is that of the CRS, else WGS 84. Normals are those of the mesh, the
+/// same on both sides of a seam. Texture coordinates are there if the stream has a texture. The
+/// errors of tks_decode_globe.
+Result<MeshFile> globeMesh(Decoder& decoder, const GlobeRequest& request);
+
+}  // namespace tetrakis::tools
