@@ -2,7 +2,11 @@
 // Headers and packets that are unusual and decode, and those that do not.
 #include <functional>
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
+#include "base/forest.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
 #include "conformance/samples/header_seal.hpp"
@@ -107,195 +111,260 @@ std::vector<VectorCase> indexCases() {
                  {60, 0, 0, false, 1})};
 }
 
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+void draw(StreamHeader& h) {
+  h.geometry->planes = GeometryHeader::kDirectPlanes;
+  h.geometry->drawn = true;
+}
+
+void correctRelatively(StreamHeader& h, double step) {
+  h.layers.corrections = CorrectionKind::kRelative;
+  h.layers.relative = {step, 4};
+}
+
+/// Heights on patches of nine samples, none of which is glued to another.
+void plant(StreamHeader& h, uint32_t patches) {
+  const auto forest =
+      std::make_shared<const Forest>(1, std::vector<uint32_t>(4 * patches, Forest::kBorder));
+  h = heightsHeader(forest->raster().width, forest->raster().height, TKS_I16, 8);
+  h.geometry->wavelet.forest = forest;
+}
+
+/// What makes a sound header of heights one that no decoder may take.
+struct Refusal {
+  const char* name;
+  const char* purpose;
+  void (*spoil)(StreamHeader&);
+};
+
+const Refusal kRefusals[] = {
+    {"scale", "a scale of NaN", [](StreamHeader& h) { h.metadata.scale = kNaN; }},
+    {"max_error", "a largest error of NaN",
+     [](StreamHeader& h) {
+       h.geometry->exact = 1;  // so that there is a bound
+       h.geometry->max_error = kNaN;
+     }},
+    {"planes", "more bit-planes of heights than there may be",
+     [](StreamHeader& h) { h.geometry->planes = 64; }},
+    {"sample", "heights of a type that there is not",
+     [](StreamHeader& h) { h.geometry->sample = 7; }},
+    {"side", "heights of no column", [](StreamHeader& h) { h.geometry->width = 0; }},
+    {"tiles", "a map of more than 65536 tiles",
+     [](StreamHeader& h) {
+       h = heightsHeader(4097, 4096, TKS_I16, 8);
+       h.geometry->priorities = {4, "map"};
+     }},
+    {"drawn_priorities", "a drawn texture with a map of priorities",
+     [](StreamHeader& h) {
+       h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
+       h.texture->priorities = {4, "map"};
+     }},
+    {"stored_flat", "stored heights with flat areas",
+     [](StreamHeader& h) {
+       h.geometry->planes = GeometryHeader::kDirectPlanes;
+       h.layers.flat_bytes = 5;
+       h.layers.flat_areas = 1;
+     }},
+    {"bridges", "bridges over voids that there are not",
+     [](StreamHeader& h) { h.layers.bridge = 1; }},
+    {"texture_bridges", "bridges of a texture of which everything is coded",
+     [](StreamHeader& h) {
+       h = textureHeader(9, 9, 3, TKS_U8, 8);
+       h.texture->bridge = 255;
+     }},
+    {"drawn_bridges", "a drawn texture with bridges",
+     [](StreamHeader& h) {
+       h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
+       h.texture->bridge = 1;
+     }},
+    {"drawn_heights_flat", "drawn heights with flat areas",
+     [](StreamHeader& h) {
+       draw(h);
+       h.layers.flat_bytes = 5;
+       h.layers.flat_areas = 1;
+     }},
+    {"drawn_heights_bridges", "drawn heights with bridges",
+     [](StreamHeader& h) {
+       draw(h);
+       h.layers.validity_bytes = 3;
+       h.layers.has_nodata = 1;
+       h.layers.bridge = 255;
+     }},
+    {"drawn_heights_steps", "drawn heights with corrections of steps",
+     [](StreamHeader& h) {
+       draw(h);
+       h.layers.corrections = CorrectionKind::kSteps;
+       h.layers.correction_step = 1;
+     }},
+    {"drawn_heights_regions", "drawn heights in regions",
+     [](StreamHeader& h) {
+       draw(h);
+       h.geometry->regions.side_log2 = 4;
+     }},
+    {"flat_areas", "more flat areas than there may be",
+     [](StreamHeader& h) {
+       h.layers.flat_bytes = 5;
+       h.layers.flat_areas = 65536;
+     }},
+    {"stored_regions", "stored heights in regions",
+     [](StreamHeader& h) {
+       h.geometry->planes = GeometryHeader::kDirectPlanes;
+       h.geometry->regions.side_log2 = 4;
+     }},
+    {"filter", "a filter that there is not",
+     [](StreamHeader& h) { h.geometry->wavelet.filters[1] = 6; }},
+    {"voids", "integer heights with voids and no value for them",
+     [](StreamHeader& h) { h.layers.validity_bytes = 9; }},
+    {"nodata", "voids of a value that the type has not",
+     [](StreamHeader& h) { h.layers = {.validity_bytes = 9, .has_nodata = 1, .nodata = 0.5}; }},
+    {"table_kinds", "a table of values beside corrections of steps",
+     [](StreamHeader& h) {
+       h.layers.corrections = CorrectionKind::kSteps;
+       h.layers.correction_step = 1;
+       h.layers.table_bytes = 9;
+       h.layers.table_values = 2;
+     }},
+    {"relative_step", "a relative step of 0", [](StreamHeader& h) { correctRelatively(h, 0); }},
+    {"relative_infinite", "an infinite relative step",
+     [](StreamHeader& h) { correctRelatively(h, std::numeric_limits<double>::infinity()); }},
+    {"relative_quarters", "a pull of five quarters",
+     [](StreamHeader& h) {
+       correctRelatively(h, 1);
+       h.layers.relative.quarters = 5;
+     }},
+    {"facet_unit", "a unit of facets beyond all floats",
+     [](StreamHeader& h) {
+       h.geometry->sample = TKS_F32;
+       h.layers.corrections = CorrectionKind::kFacets;
+       h.layers.facet_unit = 255;
+     }},
+    {"facets_integer", "facets of integers",
+     [](StreamHeader& h) {
+       h.layers.corrections = CorrectionKind::kFacets;
+       h.layers.facet_unit = 100;
+     }},
+    {"table_steps", "a table of values beside corrections of steps",
+     [](StreamHeader& h) {
+       h.layers.corrections = CorrectionKind::kSteps;
+       h.layers.correction_step = 3;
+       h.layers.table_bytes = 9;
+       h.layers.table_values = 2;
+     }},
+    {"relative_drawn", "drawn heights with relative steps",
+     [](StreamHeader& h) {
+       draw(h);
+       correctRelatively(h, 1);
+     }},
+    {"table_values", "a table of one value",
+     [](StreamHeader& h) {
+       h.layers.table_bytes = 9;
+       h.layers.table_values = 1;
+     }},
+    {"table_knots", "a knot beyond the table",
+     [](StreamHeader& h) {
+       h.layers.table_bytes = 9;
+       h.layers.table_values = 4;
+       h.layers.table_knots = {{1, 5}, {4, 5}};
+     }},
+    {"table_rise", "a knot that rises too far",
+     [](StreamHeader& h) {
+       h.layers.table_bytes = 9;
+       h.layers.table_values = 4;
+       h.layers.table_knots = {{1, 1}, {2, GeometryLayers::kMostRise + 1}};
+     }},
+    {"table_after", "a table behind more coefficients than there are",
+     [](StreamHeader& h) {
+       h.layers.corrections = CorrectionKind::kSamples;
+       h.layers.table_bytes = 9;
+       h.layers.table_values = 4;
+       h.layers.table_after = 7;
+       h.layers.coefficient_bytes = 6;
+     }},
+    {"late_mask", "a late mask of voids that there are not",
+     [](StreamHeader& h) { h.layers.late_mask = true; }},
+    {"late_after", "a late mask behind more coefficients than there are",
+     [](StreamHeader& h) {
+       h.layers = {.validity_bytes = 9, .has_nodata = 1, .nodata = 5};
+       h.layers.late_mask = true;
+       h.layers.validity_after = 7;
+       h.layers.corrections = CorrectionKind::kSamples;
+       h.layers.coefficient_bytes = 6;
+     }},
+    {"drawn_heights_late", "drawn heights with a late mask",
+     [](StreamHeader& h) {
+       draw(h);
+       h.layers.validity_bytes = 3;
+       h.layers.has_nodata = 1;
+       h.layers.late_mask = true;
+     }},
+    {"table_stored", "stored heights with a table of values",
+     [](StreamHeader& h) {
+       h.geometry->planes = GeometryHeader::kDirectPlanes;
+       h.layers.table_bytes = 9;
+       h.layers.table_values = 2;
+     }},
+    {"regions", "regions of 8 samples", [](StreamHeader& h) { h.geometry->regions.side_log2 = 3; }},
+    {"drawn_regions", "a drawn texture in regions",
+     [](StreamHeader& h) {
+       h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
+       h.texture->regions.side_log2 = 4;
+     }},
+    {"geotransform", "a geotransform with a NaN",
+     [](StreamHeader& h) {
+       h.georeference.heights = {true, {0, 1, 0, 0, kNaN, -1}, 0, ""};
+     }},
+    {"huge_geotransform", "a geotransform whose sums may overflow",
+     [](StreamHeader& h) {
+       h.georeference.heights = {true, {0x1p512, 1, 0, 0, 0, -1}, 0, ""};
+     }},
+    {"registration", "a registration that there is not",
+     [](StreamHeader& h) { h.georeference.heights.registration = 3; }},
+    {"white_level", "a texture of 8 bits with a white level",
+     [](StreamHeader& h) {
+       h = textureHeader(9, 9, 1, TKS_U8, 8);
+       h.texture->white_level = 200;
+     }},
+    {"drawn_tables", "a drawn texture with tables of values",
+     [](StreamHeader& h) {
+       h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
+       h.texture->tables.present = true;
+     }},
+    {"table_texels", "a table of more values than samples may have",
+     [](StreamHeader& h) {
+       h = textureHeader(9, 9, 1, TKS_U16, 8);
+       h.texture->tables.present = true;
+       h.texture->tables.values[0] = ChannelTablesHeader::kMostValues + 1;
+     }},
+    {"texels", "a texture of signed samples",
+     [](StreamHeader& h) { h = textureHeader(9, 9, 1, TKS_I8, 8); }},
+    {"forest_patches", "a forest of 4097 patches", [](StreamHeader& h) { plant(h, 4097); }},
+    {"forest_regions", "a forest in regions",
+     [](StreamHeader& h) {
+       plant(h, 20);
+       h.geometry->regions.side_log2 = 4;
+     }},
+    {"forest_flat", "a forest with flat areas",
+     [](StreamHeader& h) {
+       plant(h, 2);
+       h.layers.flat_bytes = 5;
+       h.layers.flat_areas = 1;
+     }},
+    {"forest_voids", "a forest with voids that are not lifted", [](StreamHeader& h) {
+       plant(h, 2);
+       h.layers.validity_bytes = 9;
+       h.layers.has_nodata = 1;
+     }}};
+
 /// Header fields, each of them wrong, in front of a sound packet.
 std::vector<VectorCase> refusedHeaders() {
   std::vector<VectorCase> cases;
-  const StreamHeader heights = heightsHeader(9, 9, TKS_I16, 8);
-  const auto refuse = [&](const std::string& name, const std::string& purpose,
-                          const std::function<void(StreamHeader&)>& spoil) {
-    StreamHeader header = heights;
-    spoil(header);
-    cases.push_back(crafted("refused_" + name, purpose, streamOf(header, noise(40, 54))));
-  };
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  refuse("scale", "a scale of NaN", [](StreamHeader& h) { h.metadata.scale = kNaN; });
-  refuse("max_error", "a largest error of NaN", [](StreamHeader& h) {
-    h.geometry->exact = 1;  // so that there is a bound
-    h.geometry->max_error = kNaN;
-  });
-  refuse("planes", "more bit-planes of heights than there may be",
-         [](StreamHeader& h) { h.geometry->planes = 64; });
-  refuse("sample", "heights of a type that there is not",
-         [](StreamHeader& h) { h.geometry->sample = 7; });
-  refuse("side", "heights of no column", [](StreamHeader& h) { h.geometry->width = 0; });
-  refuse("tiles", "a map of more than 65536 tiles", [](StreamHeader& h) {
-    h = heightsHeader(4097, 4096, TKS_I16, 8);
-    h.geometry->priorities = {4, "map"};
-  });
-  refuse("drawn_priorities", "a drawn texture with a map of priorities", [](StreamHeader& h) {
-    h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
-    h.texture->priorities = {4, "map"};
-  });
-  refuse("stored_flat", "stored heights with flat areas", [](StreamHeader& h) {
-    h.geometry->planes = GeometryHeader::kDirectPlanes;
-    h.layers.flat_bytes = 5;
-    h.layers.flat_areas = 1;
-  });
-  refuse("bridges", "bridges over voids that there are not",
-         [](StreamHeader& h) { h.layers.bridge = 1; });
-  refuse("texture_bridges", "bridges of a texture of which everything is coded",
-         [](StreamHeader& h) {
-           h = textureHeader(9, 9, 3, TKS_U8, 8);
-           h.texture->bridge = 255;
-         });
-  refuse("drawn_bridges", "a drawn texture with bridges", [](StreamHeader& h) {
-    h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
-    h.texture->bridge = 1;
-  });
-  const auto draw = [](StreamHeader& h) {
-    h.geometry->planes = GeometryHeader::kDirectPlanes;
-    h.geometry->drawn = true;
-  };
-  refuse("drawn_heights_flat", "drawn heights with flat areas", [&](StreamHeader& h) {
-    draw(h);
-    h.layers.flat_bytes = 5;
-    h.layers.flat_areas = 1;
-  });
-  refuse("drawn_heights_bridges", "drawn heights with bridges", [&](StreamHeader& h) {
-    draw(h);
-    h.layers.validity_bytes = 3;
-    h.layers.has_nodata = 1;
-    h.layers.bridge = 255;
-  });
-  refuse("drawn_heights_steps", "drawn heights with corrections of steps", [&](StreamHeader& h) {
-    draw(h);
-    h.layers.corrections = CorrectionKind::kSteps;
-    h.layers.correction_step = 1;
-  });
-  refuse("drawn_heights_regions", "drawn heights in regions", [&](StreamHeader& h) {
-    draw(h);
-    h.geometry->regions.side_log2 = 4;
-  });
-  refuse("flat_areas", "more flat areas than there may be", [](StreamHeader& h) {
-    h.layers.flat_bytes = 5;
-    h.layers.flat_areas = 65536;
-  });
-  refuse("stored_regions", "stored heights in regions", [](StreamHeader& h) {
-    h.geometry->planes = GeometryHeader::kDirectPlanes;
-    h.geometry->regions.side_log2 = 4;
-  });
-  refuse("filter", "a filter that there is not",
-         [](StreamHeader& h) { h.geometry->wavelet.filters[1] = 6; });
-  refuse("voids", "integer heights with voids and no value for them",
-         [](StreamHeader& h) { h.layers.validity_bytes = 9; });
-  refuse("nodata", "voids of a value that the type has not",
-         [](StreamHeader& h) { h.layers = {.validity_bytes = 9, .has_nodata = 1, .nodata = 0.5}; });
-  refuse("table_kinds", "a table of values beside corrections of steps", [](StreamHeader& h) {
-    h.layers.corrections = CorrectionKind::kSteps;
-    h.layers.correction_step = 1;
-    h.layers.table_bytes = 9;
-    h.layers.table_values = 2;
-  });
-  const auto relative = [](StreamHeader& h, double step) {
-    h.layers.corrections = CorrectionKind::kRelative;
-    h.layers.relative = {step, 4};
-  };
-  refuse("relative_step", "a relative step of 0", [&](StreamHeader& h) { relative(h, 0); });
-  refuse("relative_infinite", "an infinite relative step",
-         [&](StreamHeader& h) { relative(h, std::numeric_limits<double>::infinity()); });
-  refuse("relative_quarters", "a pull of five quarters", [&](StreamHeader& h) {
-    relative(h, 1);
-    h.layers.relative.quarters = 5;
-  });
-  refuse("facet_unit", "a unit of facets beyond all floats", [&](StreamHeader& h) {
-    h.geometry->sample = TKS_F32;
-    h.layers.corrections = CorrectionKind::kFacets;
-    h.layers.facet_unit = 255;
-  });
-  refuse("facets_integer", "facets of integers", [&](StreamHeader& h) {
-    h.layers.corrections = CorrectionKind::kFacets;
-    h.layers.facet_unit = 100;
-  });
-  refuse("table_steps", "a table of values beside corrections of steps", [&](StreamHeader& h) {
-    h.layers.corrections = CorrectionKind::kSteps;
-    h.layers.correction_step = 3;
-    h.layers.table_bytes = 9;
-    h.layers.table_values = 2;
-  });
-  refuse("relative_drawn", "drawn heights with relative steps", [&](StreamHeader& h) {
-    draw(h);
-    relative(h, 1);
-  });
-  refuse("table_values", "a table of one value", [](StreamHeader& h) {
-    h.layers.table_bytes = 9;
-    h.layers.table_values = 1;
-  });
-  refuse("table_knots", "a knot beyond the table", [](StreamHeader& h) {
-    h.layers.table_bytes = 9;
-    h.layers.table_values = 4;
-    h.layers.table_knots = {{1, 5}, {4, 5}};
-  });
-  refuse("table_rise", "a knot that rises too far", [](StreamHeader& h) {
-    h.layers.table_bytes = 9;
-    h.layers.table_values = 4;
-    h.layers.table_knots = {{1, 1}, {2, GeometryLayers::kMostRise + 1}};
-  });
-  refuse("table_after", "a table behind more coefficients than there are", [](StreamHeader& h) {
-    h.layers.corrections = CorrectionKind::kSamples;
-    h.layers.table_bytes = 9;
-    h.layers.table_values = 4;
-    h.layers.table_after = 7;
-    h.layers.coefficient_bytes = 6;
-  });
-  refuse("late_mask", "a late mask of voids that there are not",
-         [](StreamHeader& h) { h.layers.late_mask = true; });
-  refuse("late_after", "a late mask behind more coefficients than there are", [](StreamHeader& h) {
-    h.layers = {.validity_bytes = 9, .has_nodata = 1, .nodata = 5};
-    h.layers.late_mask = true;
-    h.layers.validity_after = 7;
-    h.layers.corrections = CorrectionKind::kSamples;
-    h.layers.coefficient_bytes = 6;
-  });
-  refuse("drawn_heights_late", "drawn heights with a late mask", [&](StreamHeader& h) {
-    draw(h);
-    h.layers.validity_bytes = 3;
-    h.layers.has_nodata = 1;
-    h.layers.late_mask = true;
-  });
-  refuse("table_stored", "stored heights with a table of values", [](StreamHeader& h) {
-    h.geometry->planes = GeometryHeader::kDirectPlanes;
-    h.layers.table_bytes = 9;
-    h.layers.table_values = 2;
-  });
-  refuse("regions", "regions of 8 samples",
-         [](StreamHeader& h) { h.geometry->regions.side_log2 = 3; });
-  refuse("drawn_regions", "a drawn texture in regions", [](StreamHeader& h) {
-    h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
-    h.texture->regions.side_log2 = 4;
-  });
-  refuse("geotransform", "a geotransform with a NaN", [](StreamHeader& h) {
-    h.georeference.heights = {true, {0, 1, 0, 0, kNaN, -1}, 0, ""};
-  });
-  refuse("huge_geotransform", "a geotransform whose sums may overflow", [](StreamHeader& h) {
-    h.georeference.heights = {true, {0x1p512, 1, 0, 0, 0, -1}, 0, ""};
-  });
-  refuse("registration", "a registration that there is not",
-         [](StreamHeader& h) { h.georeference.heights.registration = 3; });
-  refuse("white_level", "a texture of 8 bits with a white level", [](StreamHeader& h) {
-    h = textureHeader(9, 9, 1, TKS_U8, 8);
-    h.texture->white_level = 200;
-  });
-  refuse("drawn_tables", "a drawn texture with tables of values", [](StreamHeader& h) {
-    h = textureHeader(9, 9, 1, TKS_U8, kDrawnPlanes);
-    h.texture->tables.present = true;
-  });
-  refuse("table_texels", "a table of more values than samples may have", [](StreamHeader& h) {
-    h = textureHeader(9, 9, 1, TKS_U16, 8);
-    h.texture->tables.present = true;
-    h.texture->tables.values[0] = ChannelTablesHeader::kMostValues + 1;
-  });
-  refuse("texels", "a texture of signed samples",
-         [](StreamHeader& h) { h = textureHeader(9, 9, 1, TKS_I8, 8); });
+  for (const Refusal& refusal : kRefusals) {
+    StreamHeader header = heightsHeader(9, 9, TKS_I16, 8);
+    refusal.spoil(header);
+    cases.push_back(crafted(std::string("refused_") + refusal.name, refusal.purpose,
+                            streamOf(header, noise(40, 54))));
+  }
   return cases;
 }
 

@@ -41,42 +41,44 @@ class Buffer {
   tks_buffer buffer_{};
 };
 
-/// A conforming 4-8 mesh (tks_mesh says what its arrays promise). Move only.
-class Mesh {
+/// What meshes of the C interface have in common: their arrays are freed with them. Move only.
+template <class M, void (*Free)(M*)>
+class OwnedMesh {
  public:
-  explicit Mesh(tks_mesh mesh) : mesh_(mesh) {}
-  Mesh(Mesh&& other) noexcept : mesh_(std::exchange(other.mesh_, {})) {}
-  Mesh& operator=(Mesh&& other) noexcept {
+  explicit OwnedMesh(M mesh) : mesh_(mesh) {}
+  OwnedMesh(OwnedMesh&& other) noexcept : mesh_(std::exchange(other.mesh_, {})) {}
+  OwnedMesh& operator=(OwnedMesh&& other) noexcept {
     std::swap(mesh_, other.mesh_);
     return *this;
   }
-  ~Mesh() { tks_free_mesh(&mesh_); }
+  ~OwnedMesh() { Free(&mesh_); }
 
-  /// y * width + x of the sample under each vertex.
-  std::span<const uint32_t> gridIndices() const { return {mesh_.grid_index, mesh_.vertex_count}; }
   /// Height of each vertex, in the unit of the stream.
   std::span<const float> heights() const { return {mesh_.height, mesh_.vertex_count}; }
-  /// Three vertex indices a triangle, counter-clockwise seen from above.
+  /// Three vertex indices a triangle, counter-clockwise seen from above, or from outside.
   std::span<const uint32_t> triangles() const {
     return {mesh_.triangles, size_t{3} * mesh_.triangle_count};
   }
   uint32_t vertexCount() const { return mesh_.vertex_count; }
   uint32_t triangleCount() const { return mesh_.triangle_count; }
 
- private:
-  tks_mesh mesh_{};
+ protected:
+  M mesh_{};
 };
 
-/// A mesh round a globe (tks_globe_mesh says what its arrays promise). Move only.
-class GlobeMesh {
+/// A conforming 4-8 mesh (tks_mesh says what its arrays promise).
+class Mesh : public OwnedMesh<tks_mesh, tks_free_mesh> {
  public:
-  explicit GlobeMesh(tks_globe_mesh mesh) : mesh_(mesh) {}
-  GlobeMesh(GlobeMesh&& other) noexcept : mesh_(std::exchange(other.mesh_, {})) {}
-  GlobeMesh& operator=(GlobeMesh&& other) noexcept {
-    std::swap(mesh_, other.mesh_);
-    return *this;
-  }
-  ~GlobeMesh() { tks_free_globe_mesh(&mesh_); }
+  using OwnedMesh::OwnedMesh;
+
+  /// y * width + x of the sample under each vertex.
+  std::span<const uint32_t> gridIndices() const { return {mesh_.grid_index, mesh_.vertex_count}; }
+};
+
+/// A mesh round a globe (tks_globe_mesh says what its arrays promise).
+class GlobeMesh : public OwnedMesh<tks_globe_mesh, tks_free_globe_mesh> {
+ public:
+  using OwnedMesh::OwnedMesh;
 
   /// x, y, z of each vertex, in metres from the centre.
   std::span<const double> positions() const {
@@ -84,17 +86,6 @@ class GlobeMesh {
   }
   /// Column and row of each vertex, as in tks_pixel.
   std::span<const double> pixels() const { return {mesh_.pixel, size_t{2} * mesh_.vertex_count}; }
-  /// Height of each vertex, in the unit of the stream.
-  std::span<const float> heights() const { return {mesh_.height, mesh_.vertex_count}; }
-  /// Three vertex indices a triangle, counter-clockwise seen from outside.
-  std::span<const uint32_t> triangles() const {
-    return {mesh_.triangles, size_t{3} * mesh_.triangle_count};
-  }
-  uint32_t vertexCount() const { return mesh_.vertex_count; }
-  uint32_t triangleCount() const { return mesh_.triangle_count; }
-
- private:
-  tks_globe_mesh mesh_{};
 };
 
 /// A mesh kept for many views (tks_mesh_tree). Move only; outlives its decoder.
