@@ -168,6 +168,19 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"cylinder_water_117x80",
      "cylinder of heights, doubled low bands, flat areas, heights by wavelet"},
     {"cylinder_texture_77x50", "cylinder of texels, fraction bits, texture by wavelet"},
+    {"forest_cube_17x102", "doubled low bands, forest of heights, heights by wavelet"},
+    {"forest_octahedron_33x66", "forest of heights, fraction bits, heights by wavelet"},
+    {"forest_torus_33x33", "doubled low bands, forest of heights, heights by wavelet"},
+    {"forest_cone_33x33",
+     "corrections of steps, forest of heights, fraction bits, heights by wavelet"},
+    {"forest_star_17x85", "doubled low bands, forest of heights, heights by wavelet"},
+    {"forest_smallest_3x18", "doubled low bands, forest of heights, heights by wavelet"},
+    {"forest_texture_33x66",
+     "doubled low bands, forest of texels, levels of several filters, shears of coefficients, "
+     "texture by wavelet"},
+    {"forest_joint_9x54_17x102",
+     "doubled low bands, forest of heights, forest of texels, heights by wavelet, levels of "
+     "several filters, shears of coefficients, texture by wavelet"},
     {"cylinder_joint_70x33_61x40",
      "cylinder of heights, cylinder of texels, doubled low bands, heights by wavelet, index, "
      "levels of several filters, regions of heights, regions of texels, shears of coefficients, "

@@ -108,7 +108,7 @@ std::vector<VectorCase> forestCases() {
     return vector_case;
   };
   VectorCase joint = heightsCase("forest_joint_9x54_17x102", "a cube of heights and of texture",
-                                 {Pattern::kRidges, 9, 54, 1, TKS_I16}, budget(2400));
+                                 {Pattern::kRidges, 9, 54, 1, TKS_I16}, lossless());
   joint.texture = Recipe{Pattern::kRidges, 17, 102, 3, TKS_U8, 7};
   return {
       on(cube, heightsCase("forest_cube_17x102", "a cube: six of its twelve sides are turned",

@@ -135,7 +135,8 @@ ForestRaster cubeRaster(int depth) {
 TEST(GlobeStream, OnACubeIsAClosedSphereOfAnyNumberOfTriangles) {
   for (const int depth : {1, 3, 6}) {
     const Bytes bytes = cubeRaster(depth).encoded(budget(uint64_t{1500} << depth));
-    for (const size_t size : {bytes.size(), bytes.size() / 3}) {
+    const auto header = static_cast<size_t>(Stream(bytes).info().header_bytes);
+    for (const size_t size : {bytes.size(), std::max(header, bytes.size() / 3), header}) {
       Stream stream(Prefix(bytes).first(size));
       for (const uint32_t triangles : {1u, 60u, 1000u, 9000u, 400000u, 0u}) {
         SCOPED_TRACE(testing::Message() << "depth " << depth << ", " << triangles);
