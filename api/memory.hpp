@@ -45,8 +45,14 @@ inline uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint3
                      !decoder.packets.payload.nothingOf(component);
   const bool ordered = !header.priorities.none();
   const Forest* const forest = header.wavelet.forest.get();
-  const TrackNeeds needs{header.extent(), forest, header.regions.side_log2, planes,
-                         masked || forest != nullptr, ordered, known, decoder.threads,
+  const TrackNeeds needs{header.extent(),
+                         forest,
+                         header.regions.side_log2,
+                         planes,
+                         masked || forest != nullptr,
+                         ordered,
+                         known,
+                         decoder.threads,
                          decoder.remembers};
   const TrackMemory& memory = component == Component::kTexture ? decoder.texture_memory.tracks
                                                                : decoder.heights_memory.tracks;

@@ -43,10 +43,10 @@ struct TrackNeeds {
   Extent plane;
   const Forest* forest;  ///< whose raster the plane is; null: it is a grid
   int side_log2;         ///< of the regions; 0: there is one track
-  uint32_t planes;  ///< that a track has bands of: 1, or the colour planes of a texture
-  bool masked;      ///< some samples do not exist, and their coefficients are absent
-  bool ordered;     ///< coefficients have priorities
-  bool known;       ///< there may be a byte of a track
+  uint32_t planes;       ///< that a track has bands of: 1, or the colour planes of a texture
+  bool masked;           ///< some samples do not exist, and their coefficients are absent
+  bool ordered;          ///< coefficients have priorities
+  bool known;            ///< there may be a byte of a track
   uint32_t threads;
   bool kept;  ///< in a TrackMemory
 

@@ -745,14 +745,14 @@ typedef struct tks_globe {
 } tks_globe;
 
 /* A mesh round a globe, cut open along the seam, or between the patches of a cube, so that a
- * texture can be laid over it. Vertex i
- * lies at column pixel[2 i] and row pixel[2 i + 1] of the grid, counted as in tks_pixel, and at the
- * point position[3 i], in metres from the centre: x towards longitude and latitude 0, y towards
- * longitude 90, z towards the north pole. Vertices of the columns 0.5 and width + 0.5, which are
- * one, have the same position to the last bit; so have those of a pole, which each of its triangles
- * has for itself, and samples that patches share. Taken for one where they are equal, vertices leave no edge open but around voids
- * and where the grid ends before a pole. Triangles are counter-clockwise seen from outside. Every
- * vertex is of a triangle, and none is void. */
+ * texture can be laid over it. Vertex i lies at column pixel[2 i] and row pixel[2 i + 1] of the
+ * grid, counted as in tks_pixel, and at the point position[3 i], in metres from the centre: x
+ * towards longitude and latitude 0, y towards longitude 90, z towards the north pole. Vertices of
+ * the columns 0.5 and width + 0.5, which are one, have the same position to the last bit; so have
+ * those of a pole, which each of its triangles has for itself, and samples that patches share.
+ * Taken for one where they are equal, vertices leave no edge open but around voids and where the
+ * grid ends before a pole. Triangles are counter-clockwise seen from outside. Every vertex is of a
+ * triangle, and none is void. */
 typedef struct tks_globe_mesh {
   uint32_t vertex_count, triangle_count;
   double* position;

@@ -357,14 +357,13 @@ TEST(ExhaustedMemory, OfDecoders) {
        {"regions_coast_gridless_60x41", "noise_steps_regions_40x33", "noise_relative_f32_30x20",
         "noise_facets_30x20", "noise_drawn_heights_30x21", "noise_table_knots_28x23",
         "noise_late_table_60_28x23", "noise_repeats_f32_70x31", "noise_flat_none_30x30",
-        "forest_smallest_3x18"}) {
+        "forest_cube_17x102"}) {
     SCOPED_TRACE(name);
     exhaustAll(heightCalls(), vectorOf(name));
   }
-  for (const char* name :
-       {"tables_overlay_80x60", "further_rgb_regions_53x38", "noise_repeats_texels_61x44",
-        "noise_drawn_21x20", "stored_rgb_15x13", "bridged_cutout_grey16_45x64",
-        "forest_texture_33x66"}) {
+  for (const char* name : {"tables_overlay_80x60", "further_rgb_regions_53x38",
+                           "noise_repeats_texels_61x44", "noise_drawn_21x20", "stored_rgb_15x13",
+                           "bridged_cutout_grey16_45x64", "forest_texture_33x66"}) {
     SCOPED_TRACE(name);
     exhaustAll(textureCalls(), vectorOf(name));
   }

@@ -88,7 +88,7 @@ TEST(ReferenceForest, AgreesOnAnySidesGluedToAnyOthers) {
     SCOPED_TRACE(seed);
     for (const int depth : {2, 4}) {
       const ForestRaster surface(Forest(depth, shuffled(1 + seed % 5, seed)),
-                            {Pattern::kExtreme, 0, 0, 1, TKS_U8, 3});
+                                 {Pattern::kExtreme, 0, 0, 1, TKS_U8, 3});
       for (const tks_encode_options& options : {lossless(), budget(300)}) {
         expectAgreementOnPrefixes(surface.encoded(options), 4);
         if (HasFatalFailure()) return;

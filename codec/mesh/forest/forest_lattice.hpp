@@ -52,7 +52,7 @@ class ForestLattice {
   const Forest& forest_;
   Lattice patch_;
   std::vector<uint32_t> samples_;
-  std::vector<ForestVertex> firsts_;  ///< of levels
+  std::vector<ForestVertex> firsts_;    ///< of levels
   std::vector<ForestVertex> vertices_;  ///< of each patch, by the numbers of its lattice
 };
 
