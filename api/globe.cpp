@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "api/guarded.hpp"
 #include "api/memory.hpp"
@@ -67,7 +68,8 @@ class GlobeCall {
     if (header.geometry->wavelet.forest != nullptr) return runOnCube(*globe, out);
     const Result<GlobePlaces> places = placesOn(*globe, header);
     if (!places.ok()) return places.status();
-    Result<SurfaceMesh> surface = surfaceMesh(decoder_, kind_, max_triangles_);
+    const std::vector<float> areas = places->rowAreas();
+    Result<SurfaceMesh> surface = surfaceMesh(decoder_, kind_, max_triangles_, areas);
     if (!surface.ok()) return surface.status();
     if (Status status = checkSize(*surface); !status.ok()) return status;
     if (Status status = bend(*surface); !status.ok()) return status;

@@ -129,9 +129,11 @@ Result<DecodedLevel> decodedLevel(tks_decoder& decoder, uint32_t level) {
                       surfaceScale(header, *geometry)};
 }
 
-Result<SurfaceMesh> budgetMeshOf(tks_decoder& decoder, Lattice lattice, uint32_t max_triangles) {
+Result<SurfaceMesh> budgetMeshOf(tks_decoder& decoder, Lattice lattice, uint32_t max_triangles,
+                                 std::span<const float> row_weights) {
   Result<DecodedLevel> level = decodedLevel(decoder, budgetMeshLevel(lattice, max_triangles));
   if (!level.ok()) return level.status();
+  level->known.row_weights = row_weights;
   Result<BudgetMesh> mesh = budgetMesh(lattice, std::move(level->known), max_triangles);
   if (!mesh.ok()) return mesh.status();
   std::vector<float> heights =
@@ -153,7 +155,8 @@ std::vector<float> surfaceAtVertices(const tks_decoder& decoder, const DecodedHe
 
 }  // namespace
 
-Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles) {
+Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles,
+                                std::span<const float> row_weights) {
   if (kind != TKS_MESH_CODED && kind != TKS_MESH_BUDGET)
     return Status(TKS_USAGE, "Unknown kind of mesh.");
   if (decoder.heights_level > 0)
@@ -168,7 +171,7 @@ Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32
   if (Status s = checkMemory(decoder, {part, {}, max_triangles}); !s.ok()) return s;
   const bool has_voids = header.layers.validity_bytes > 0;
   if (kind == TKS_MESH_BUDGET && max_triangles > 0 && !has_voids)
-    return budgetMeshOf(decoder, std::move(*lattice), max_triangles);
+    return budgetMeshOf(decoder, std::move(*lattice), max_triangles, row_weights);
   const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
   if (!decoded.ok()) return decoded.status();
   const DecodedGeometry& geometry = (*decoded)->geometry;

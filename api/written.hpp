@@ -48,7 +48,9 @@ struct SurfaceMesh {
 
 /// What tks_decode_mesh promises. TKS_USAGE for an unknown kind or a stream without heights, and
 /// the errors of Lattice::make.
-Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles);
+/// row_weights: what squared errors count in each row, where a budget decides; empty: 1.
+Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles,
+                                std::span<const float> row_weights = {});
 
 /// A mesh of heights on a forest: of all levels before one, and of the vertices that are chosen; of
 /// patches that are joined, or apart (codec/mesh/forest/forest_lattice.hpp).

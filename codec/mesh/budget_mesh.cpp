@@ -92,7 +92,19 @@ uint32_t spareLevels(const Lattice& lattice, uint64_t per_triangle, uint32_t max
 /// The surface without the levels below `level`, of which nothing is known.
 KnownSurface fromLevel(uint32_t level, KnownSurface known) {
   if (level <= known.level) return known;
-  return {coarsen(known.surface.view(), level - known.level), level, known.quiet_level};
+  return {coarsen(known.surface.view(), level - known.level), level, known.quiet_level,
+          known.row_weights};
+}
+
+/// Of the samples of a coarse surface with every 2^k-th row; none where rows count alike.
+std::vector<float> sampleWeights(std::span<const float> rows, const SurfaceView& surface,
+                                 uint32_t k) {
+  std::vector<float> weights;
+  if (rows.empty()) return weights;
+  weights.reserve(size_t{surface.width} * surface.height);
+  for (uint32_t y = 0; y < surface.height; ++y)
+    weights.insert(weights.end(), surface.width, rows[std::min(size_t{y} << k, rows.size() - 1)]);
+  return weights;
 }
 
 Result<std::vector<VertexId>> chosenVertices(const SurfaceView& surface, uint32_t max_triangles) {
@@ -103,12 +115,17 @@ Result<std::vector<VertexId>> chosenVertices(const SurfaceView& surface, uint32_
   return vertices;
 }
 
-Result<BudgetMesh> fittedVertices(const CoarseSurface& surface, bool choose_coarser,
+Result<BudgetMesh> fittedVertices(const KnownSurface& known, bool choose_coarser,
                                   uint32_t max_triangles) {
-  const SurfaceView fine = surface.view();
+  SurfaceView fine = known.surface.view();
+  const std::vector<float> weights = sampleWeights(known.row_weights, fine, known.level);
+  fine.weights = weights;
   const CoarseSurface coarser = choose_coarser ? smoothed(fine) : CoarseSurface();
-  Result<std::vector<VertexId>> chosen =
-      chosenVertices(choose_coarser ? coarser.view() : fine, max_triangles);
+  SurfaceView choice = choose_coarser ? coarser.view() : fine;
+  std::vector<float> of_choice;
+  if (choose_coarser)
+    choice.weights = of_choice = sampleWeights(known.row_weights, choice, known.level + 1);
+  Result<std::vector<VertexId>> chosen = chosenVertices(choice, max_triangles);
   if (!chosen.ok()) return chosen.status();
   const Result<Lattice> lattice = Lattice::make(fine.width, fine.height);
   if (!lattice.ok()) return lattice.status();
@@ -131,7 +148,7 @@ Result<BudgetMesh> budgetMesh(const Lattice& lattice, KnownSurface known, uint32
       std::min(known.quiet_level, spareLevels(lattice, kPerQuietTriangle, max_triangles));
   const uint32_t level = std::max(chosen_level, quiet_level);
   if (level > 0) known = fromLevel(level - 1, std::move(known));
-  Result<BudgetMesh> fitted = fittedVertices(known.surface, level > 0, max_triangles);
+  Result<BudgetMesh> fitted = fittedVertices(known, level > 0, max_triangles);
   if (!fitted.ok()) return fitted.status();
   for (uint32_t& sample : fitted->mesh.vertices)
     sample =

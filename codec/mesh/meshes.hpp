@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "codec/mesh/fitted_heights.hpp"
@@ -36,6 +37,8 @@ struct KnownSurface {
   CoarseSurface surface;
   uint32_t level = 0;
   uint32_t quiet_level = 0;  ///< no coefficient of a finer level than this is known; at least level
+  /// What squared errors count in each row of the whole surface; empty: 1.
+  std::span<const float> row_weights = {};
 };
 
 /// A mesh with fitted heights.

@@ -59,6 +59,17 @@ RoundGrid GlobePlaces::grid() const {
           poleBeyond(latitudes_.count - 1.0, 1)};
 }
 
+/// A row on a pole covers what lies within half a row of it.
+std::vector<float> GlobePlaces::rowAreas() const {
+  const double quarter = std::abs(latitudes_.step) / 4;
+  std::vector<float> areas;
+  for (uint32_t row = 0; row < latitudes_.count; ++row) {
+    const double most = kPole - quarter, latitude = latitudes_.at(row);
+    areas.push_back(static_cast<float>(Direction(std::clamp(latitude, -most, most)).cosine));
+  }
+  return areas;
+}
+
 std::array<double, 3> GlobePlaces::at(const GridPlace& place, double height) const {
   const double column = place.column < longitudes_.count ? place.column : 0;
   double latitude = std::clamp(latitudes_.at(place.row), -kPole, kPole);

@@ -44,6 +44,9 @@ class GlobePlaces {
   /// Seen from above, columns run to the left of rows.
   bool mirrored() const { return (longitudes_.step > 0) == (latitudes_.step > 0); }
 
+  /// What samples of each row cover, those at the equator 1.
+  std::vector<float> rowAreas() const;
+
   /// x towards longitude and latitude 0, y towards longitude 90, z towards the north pole; `height`
   /// along the normal, in the unit of the axes. Of column `count` the same as of column 0.
   std::array<double, 3> at(const GridPlace& place, double height) const;
