@@ -43,10 +43,10 @@ async function withPage(query, use, firstOnly = false) {
   page.on('pageerror', (error) => errors.push(error.message));
   try {
     if (firstOnly) {
-      await page.route('**/*.tks', (route) =>
+      await page.route(({pathname}) => pathname.endsWith('.tks'), (route) =>
         route.request().headers().range === 'bytes=0-4095' ? route.continue() : undefined);
     }
-    await page.goto(`${server.url}index.html?${query}`, {waitUntil: 'commit'});
+    await page.goto(`${server.url}index.html?${query}`);
     await drawn(page, firstOnly);
     await use(page);
     assert.deepEqual(errors, []);
