@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a frame is made of: a mesh with normals, a surface, a texture, each at the level that suits.
+import {normalsOfGlobe} from './globe.js';
 import {groundScale} from './ground.js';
 import {PARTS} from './parts.js';
 
@@ -61,7 +62,12 @@ function trianglesFor({triangles}, opened, info) {
 /** Makes the parts of a frame that `request` asks for, one at each step; returns them all. */
 export function* partsOf(opened, info, request) {
   const parts = {}, {textureLevel, surfaceLevel} = levelsOf(opened, info, request);
-  if (request.mesh && info.hasHeights) {
+  if (request.mesh && request.globe && info.hasHeights) {
+    parts.globe = opened.globe(trianglesFor(request, opened, info), request.globe);
+    yield;
+    if (request.normals) parts.globe.normals = normalsOfGlobe(parts.globe);
+    yield;
+  } else if (request.mesh && info.hasHeights) {
     parts.mesh = opened.mesh(trianglesFor(request, opened, info), request.cut);
     yield;
   }
@@ -94,6 +100,8 @@ export function* partsOf(opened, info, request) {
 
 /** The buffers of a frame, to be handed over between threads instead of copied. */
 export function buffersOf(frame) {
-  const arrays = [frame.texture?.data, frame.surface?.data, ...Object.values(frame.mesh ?? {})];
+  const {mesh = {}, globe = {}} = frame;
+  const arrays = [frame.texture?.data, frame.surface?.data, ...Object.values(mesh),
+    ...Object.values(globe)];
   return arrays.filter(Boolean).map((array) => array.buffer);
 }

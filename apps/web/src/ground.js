@@ -77,15 +77,19 @@ export function metresPerDegree(latitude) {
   ];
 }
 
+/** The unit of coordinates: 'degree', or metres. What neither CRS, keys nor WKT tell is a metre. */
+export function unitOfPlace(info) {
+  const {crs, geoKeys = ''} = info, isNamed = crs || geoKeys;
+  return unitOfKeys(geoKeys) || unitOfWkt(crs) || (isNamed && isInDegrees(info) ? 'degree' : 1);
+}
+
 /**
  * Metres of a unit of the coordinates to the east and to the north, of degrees and of web Mercator
- * in the middle. A unit that neither CRS, keys nor WKT tell counts as metres.
+ * in the middle.
  */
 export function metresPerUnit(info) {
-  const {geotransform: [, , , north, c, d], crs, geoKeys = '', width, height} = info;
-  const isNamed = crs || geoKeys, middle = north + (width * c + height * d) / 2;
-  const unit =
-    unitOfKeys(geoKeys) || unitOfWkt(crs) || (isNamed && isInDegrees(info) ? 'degree' : 1);
+  const {geotransform: [, , , north, c, d], crs, width, height} = info;
+  const middle = north + (width * c + height * d) / 2, unit = unitOfPlace(info);
   if (unit === 'degree') return metresPerDegree(middle);
   const metre = isWebMercator(crs) ? unit * mercatorMetre(unit * middle) : unit;
   return [metre, metre];

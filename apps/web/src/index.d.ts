@@ -60,6 +60,9 @@ export interface FrameOptions {
    * fetched that help it most, if the stream has an index and the server knows ranges. */
   view?: ArrayLike<number> | View | null;
   mesh?: boolean;
+  /** A mesh round a globe in the place of the flat one, of heights that go round it (goesRound()).
+   * The view of a picture still says which bytes are fetched, but cuts nothing off. */
+  globe?: GlobeOptions | null;
   /** Unit normals for the vertices of the mesh. Default false. */
   normals?: boolean;
   texture?: boolean;
@@ -74,6 +77,14 @@ export interface FrameOptions {
    * info.textureCoarsestLevel and info.coarsestLevel. */
   textureLevel?: number;
   surfaceLevel?: number;
+}
+
+export interface GlobeOptions {
+  /** What heights are multiplied by. Default 1. */
+  exaggeration?: number;
+  /** Of the ellipsoid, in metres. Default: those of WGS 84. */
+  semiMajor?: number;
+  semiMinor?: number;
 }
 
 export interface RefineOptions extends FrameOptions {
@@ -152,6 +163,23 @@ export interface Mesh {
   normals?: Float32Array;
 }
 
+/** Closed round a globe, but for voids and where rows end before a pole. It is cut open along the
+ * seam and at the poles: vertices there are several, at positions that are equal to the last bit.
+ */
+export interface Globe {
+  /** x, y, z of each vertex in metres from the centre: x towards longitude and latitude 0, y
+   * towards longitude 90, z towards the north pole. */
+  positions: Float64Array;
+  /** Column and row of each on the grid; (0.5, 0.5) is the middle of the first sample. */
+  pixels: Float64Array;
+  /** In info.unit, not exaggerated. */
+  heights: Float32Array;
+  /** Three indices each, counter-clockwise seen from outside. */
+  triangles: Uint32Array;
+  /** As positions; those of vertices at one position are equal. */
+  normals?: Float32Array;
+}
+
 export interface Raster<T> {
   /** Mip level: 1 / 2^level of the full resolution. */
   level: number;
@@ -167,6 +195,8 @@ export interface Frame {
   complete: boolean;
   info: TerrainInfo;
   mesh?: Mesh;
+  /** In the place of `mesh`, where `globe` was asked for. */
+  globe?: Globe;
   /** RGBA. */
   texture?: Raster<Uint8ClampedArray>;
   /** In info.unit; voids are NaN. */
@@ -227,6 +257,9 @@ export function open(
  * middle of the ground. An unknown spacing counts as 30 m, an unknown unit of height as metres.
  */
 export function groundScale(info: TerrainInfo): {height: number; x: number; y: number};
+
+/** Whether the columns of the heights go once round 360 degrees, so that they have a globe. */
+export function goesRound(info: TerrainInfo): boolean;
 
 /**
  * Which way rows and columns of the heights run on the ground, as directions of length 1: parts to

@@ -3,12 +3,13 @@
 import {groundAxes} from './axes.js';
 import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
+import {goesRound} from './globe.js';
 import {groundScale} from './ground.js';
 import {FIRST_FRAME} from './pace.js';
 import {sourceOf} from './source.js';
 import {Terrain} from './terrain.js';
 
-export {FIRST_FRAME, TksError, groundAxes, groundScale};
+export {FIRST_FRAME, TksError, goesRound, groundAxes, groundScale};
 
 export async function open(input, options = {}) {
   const {signal, request, requestBytes} = options;

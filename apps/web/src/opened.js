@@ -6,6 +6,8 @@ import {DOMAINS, MESSAGE_BYTES, SAMPLES} from './instance.js';
 /** Magic, version, profile, level and a varint: these tell how many bytes the header takes. */
 const MOST_BEFORE_BODY = 17;
 const BUDGET_MESH = 1;
+/** tks_globe: its size, and four numbers. */
+const GLOBE_BYTES = 40;
 /** Texels that become RGBA at a time: the module has no memory for all of them beside a texture. */
 const TEXELS = 2 ** 18;
 
@@ -184,6 +186,33 @@ export class Opened {
       });
     });
     return rgba;
+  }
+
+  /** A mesh round a globe {exaggeration, semiMajor, semiMinor}; default: WGS 84. */
+  globe(triangles, {exaggeration = 1, semiMajor = 6378137, semiMinor = 6356752.314245}) {
+    const {instance, decoder} = this, {calls} = instance;
+    if (!calls.tks_decode_globe) throw new TksError('usage', 'This module makes no meshes.');
+    return instance.with(GLOBE_BYTES + 24, (globe) => {
+      const out = globe + GLOBE_BYTES;
+      instance.view(Uint32Array, globe, 1)[0] = GLOBE_BYTES;
+      instance.view(Float64Array, globe + 8, 4).set([semiMajor, semiMinor, 1, exaggeration]);
+      this.check(calls.tks_decode_globe(decoder, BUDGET_MESH, triangles, globe, out));
+      return this.#globeAt(out);
+    });
+  }
+  /** tks_globe_mesh at `out`: two counts, four addresses. */
+  #globeAt(out) {
+    const {instance} = this;
+    const [vertices, faces, ...parts] = instance.copy(Uint32Array, out, 6);
+    const [positions, pixels, heights, triangles] = parts;
+    const mesh = {
+      positions: instance.copy(Float64Array, positions, 3 * vertices),
+      pixels: instance.copy(Float64Array, pixels, 2 * vertices),
+      heights: instance.copy(Float32Array, heights, vertices),
+      triangles: instance.copy(Uint32Array, triangles, 3 * faces),
+    };
+    instance.calls.tks_free_globe_mesh(out);
+    return mesh;
   }
 
   /** tks_mesh at `out`: two counts, three addresses. */

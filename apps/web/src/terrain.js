@@ -13,6 +13,7 @@ const DEFAULTS = {
   triangles: 20000,
   view: null,
   mesh: true,
+  globe: null,
   normals: false,
   texture: true,
   surface: false,

@@ -3,7 +3,9 @@
 import type {Scene as Globe} from '@cesium/engine';
 import {load, loadInBatches} from '@loaders.gl/core';
 import {Map as WebMap, addProtocol} from 'maplibre-gl';
-import {FIRST_FRAME, TksError, groundAxes, groundScale, open, type Frame} from 'tetrakis';
+import {
+  FIRST_FRAME, TksError, goesRound, groundAxes, groundScale, open, type Frame,
+} from 'tetrakis';
 import {TksTerrainProvider} from 'tetrakis/cesium';
 import {TksLoader as DeckLoader, imageOf, meshOf} from 'tetrakis/deck';
 import {encode} from 'tetrakis/encode';
@@ -65,6 +67,12 @@ export async function cesium(scene: Globe): Promise<void> {
   scene.terrainProvider = alps;
   if (alps.imagery) scene.imageryLayers.addImageryProvider(alps.imagery);
   await alps.refine(scene, {bytes: 2e6});
+}
+
+export async function round(): Promise<Float64Array | undefined> {
+  const earth = await open('earth.tks');
+  if (!goesRound(earth.info)) return undefined;
+  return (await earth.decode({globe: {exaggeration: 15}, normals: true})).globe?.positions;
 }
 
 export async function scoped(): Promise<number> {

@@ -34,9 +34,9 @@ function pixelsPerMetre(camera, place) {
   return innerHeight / (2 * distance * Math.tan(MathUtils.degToRad(camera.fov) / 2));
 }
 
-/** `place`: where the scale is that of the bar; null: there is none. */
-export function drawBearings(camera, place) {
-  $('needle').style.transform = `rotate(${-headingOf(camera)}rad)`;
+/** `place`: where the scale is that of the bar; null: there is none. North of a globe is above. */
+export function drawBearings(camera, place, isGlobe) {
+  $('needle').style.transform = `rotate(${isGlobe ? 0 : -headingOf(camera)}rad)`;
   $('scale').hidden = place === null;
   if ($('scale').hidden) return;
   const pixels = pixelsPerMetre(camera, place), metres = roundLength(LONGEST / pixels);

@@ -8,7 +8,7 @@ import {$} from './page.js';
 /** Digits of a degree that are about a metre. */
 const DIGITS = 5;
 
-function degreesText([longitude, latitude]) {
+export function degreesText([longitude, latitude]) {
   const east = longitude - 360 * Math.round(longitude / 360);
   return `${Math.abs(latitude).toFixed(DIGITS)}° ${latitude < 0 ? 'S' : 'N'} ` +
     `${Math.abs(east).toFixed(DIGITS)}° ${east < 0 ? 'W' : 'E'}`;

@@ -41,19 +41,20 @@ function readFetched({requests, bytes}) {
 }
 
 /** `loaded`: of its terrain. */
-export function readOut({info, bytes, mesh}, loaded) {
+export function readOut({info, bytes, mesh, globe}, loaded) {
   $('bytes-here').textContent = formatBytes(bytes);
   $('bytes-of').textContent = `of ${formatBytes(info.streamBytes)}`;
-  $('triangles-here').textContent = formatCount(mesh ? mesh.triangles.length / 3 : 2);
+  $('triangles-here').textContent = formatCount(
+    mesh || globe ? (mesh ?? globe).triangles.length / 3 : 2);
   readQuality(info, loaded.ranges.length > 1);
   readShares(info);
   readFetched(loaded);
 }
 
 /** What leaves the picture empty, if anything does. */
-export function emptiness({info, mesh, texture, complete}) {
+export function emptiness({info, mesh, globe, texture, complete}) {
   if (!complete) return '';
-  if (info.hasHeights && mesh?.triangles.length === 0) {
+  if (info.hasHeights && (mesh ?? globe)?.triangles.length === 0) {
     return 'All heights of this stream are voids';
   }
   if (!info.textureCutout || !texture) return '';

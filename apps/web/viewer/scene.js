@@ -8,6 +8,8 @@ import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
 import {placeFor} from '../src/fit.js';
 import {Fly} from './fly.js';
+import {GlobeCamera} from './globe_camera.js';
+import {placeOnGlobe} from './globe_pointer.js';
 import {NARROW} from './page.js';
 import {pointOn} from './ray.js';
 
@@ -36,6 +38,7 @@ export class Picture {
   #edge = 0.5;  // of the picture's width, left of which the stream is drawn
   #pending = false;
   #last = 0;
+  #sunAt = new Vector3();  // as on a map that is looked down on
   #radius = 1;
   #middle = new Vector3();
   #times = 1;
@@ -65,6 +68,7 @@ export class Picture {
       this.isMoved ||= this.fly.enabled;
       this.#moved();
     });
+    this.globe = new GlobeCamera(this.camera, this.orbit);
     this.#scene.add(this.#ambient, this.#sun);
     this.setShaded(true);
     canvas.addEventListener('webglcontextrestored', () => this.draw());
@@ -126,6 +130,7 @@ export class Picture {
       if (!this.fly.enabled) this.orbit.update();
       const gliding = this.#object?.glide();
       this.#fitDepth();
+      this.#placeSun();
       this.#render();
       this.ondraw();
       if (moving) this.#moved();
@@ -161,6 +166,7 @@ export class Picture {
       this.#object.dispose();
     }
     this.#object = object;
+    this.globe.isOn = object?.isGlobe ?? false;
     if (object) this.#scene.add(object);
     this.draw();
   }
@@ -184,10 +190,12 @@ export class Picture {
 
   /** What lies under a place of the page, in metres as the mesh has them; null: nothing. */
   pointAt(x, y) {
-    return this.#object?.frame ? pointOn(this.#object, this.camera, x, y) : null;
+    if (!this.#object?.frame) return null;
+    return (this.globe.isOn ? placeOnGlobe : pointOn)(this.#object, this.camera, x, y);
   }
   /** Turns the camera around what it looks at until north is above. */
   faceNorth() {
+    if (this.globe.isOn) return;  // it is there
     const {target} = this.orbit, {x, y, z} = this.camera.position.clone().sub(target);
     this.camera.position.copy(target).add(new Vector3(0, y, Math.hypot(x, z)));
     this.isMoved = true;
@@ -197,6 +205,7 @@ export class Picture {
 
   /** How many times as high as wide the terrain is. */
   get tallness() {
+    if (this.globe.isOn) return 0;
     const size = this.#bounds().getSize(new Vector3());
     return size.y / Math.max(size.x, size.z);
   }
@@ -214,7 +223,7 @@ export class Picture {
   }
   #stretch() {
     for (const object of [this.#object, this.#original]) {
-      if (!object) continue;
+      if (!object || object.isGlobe) continue;
       object.scale.y = this.#times;
       object.position.y = this.#middle.y * (1 - this.#times);
       object.updateMatrixWorld();
@@ -225,6 +234,7 @@ export class Picture {
   home() {
     if (!this.#object) return;
     this.isMoved = false;
+    if (this.globe.isOn) return this.#globeHome();
     const box = this.#bounds();
     box.getCenter(this.#middle);
     this.#stretch();
@@ -234,6 +244,12 @@ export class Picture {
     this.orbit.maxDistance = this.#radius * 12;
     this.#lookAtAll(box);
     this.orbit.update();
+    this.draw();
+  }
+  #globeHome() {
+    this.#middle.set(0, 0, 0);
+    this.#radius = this.#object.radius;
+    this.globe.home(this.#radius, this.free());
     this.draw();
   }
   #lookAtAll(box) {
@@ -281,9 +297,14 @@ export class Picture {
   /** Where the sun stands, in degrees: clockwise from north, and above the horizon. */
   setSun(azimuth, elevation) {
     const [turn, rise] = [azimuth, elevation].map(MathUtils.degToRad);
-    this.#sun.position.set(
+    this.#sunAt.set(
       Math.sin(turn) * Math.cos(rise), Math.sin(rise), -Math.cos(turn) * Math.cos(rise));
     this.draw();
+  }
+  /** Over a globe the sun goes along with the camera, so that there is light where it looks. */
+  #placeSun() {
+    this.#sun.position.copy(this.#sunAt);
+    if (this.globe.isOn) this.globe.turnOverhead(this.#sun.position);
   }
 
   setFlying(flying) {

@@ -3,7 +3,7 @@
 // chosen.
 import {MeshLambertMaterial} from 'three';
 
-import {open} from '../src/index.js';
+import {goesRound, open} from '../src/index.js';
 import {FIRST_FRAME, TksTerrain, textureOf} from '../src/three.js';
 import {nameOf} from './address.js';
 import {drawBearings} from './bearings.js';
@@ -13,6 +13,9 @@ import {Comparison} from './comparison.js';
 import {decoder} from './decoder.js';
 import {FetchMap} from './fetch_map.js';
 import {listenToFiles} from './files.js';
+import {Globe} from './globe.js';
+import {globeDescriber} from './globe_pointer.js';
+import {exaggerationOf, globeFor, keepFlat} from './globe_view.js';
 import {originalInLink} from './original_link.js';
 import {$, entitle, explainMoves, freeArea, isSmallScreen, tell} from './page.js';
 import {describer, listenToPointer} from './pointer.js';
@@ -34,7 +37,8 @@ const map = new FetchMap($('fetched'), $('ground'));
 
 let terrain = null, object = null;
 let wanted = {};
-/** Bytes and triangles of the frame that is shown, and whether it has all texels. */
+/** Bytes and triangles of the frame that is shown, of a globe its exaggeration, and whether it has
+ * all texels. */
 let shown = {};
 /** A promise of the first frame, where that is being made already. */
 let begun = null;
@@ -42,6 +46,8 @@ let opening = new AbortController();
 let pumping = false;
 /** What the page calls the terrain that it shows: {name, title, size}. */
 let called = null;
+/** Opens it anew. */
+let reopen = () => {};
 /** The text of a point of the terrain. */
 let describe = () => '';
 
@@ -53,6 +59,7 @@ function show(frame) {
   const first = object.frame === null;
   object.show(frame, {glide: !STILL.matches});
   if (frame.surface && $('textured').checked) object.setMap(textureOf(tint(frame.surface)));
+  if (object.isGlobe) picture.globe.keepAbove(object.radius);
   if (first) {
     exaggerate();
     picture.home();
@@ -62,29 +69,30 @@ function show(frame) {
   const empty = emptiness(frame);
   if (empty) tell(`${empty}: there is nothing to draw.`, true);
   readOut(frame, terrain.loaded);
-  describe = describer(frame.info);
+  describe = (object.isGlobe ? globeDescriber : describer)(frame.info);
   map.draw();
   document.body.dataset.bytes = frame.bytes;
   picture.draw();
 }
 
-/** Of streams with an index bytes come for what is looked at. */
-const isPlanned = () => terrain.info.hasIndex && object.frame !== null;
+/** Of streams with an index bytes come for what is looked at, on flat ground. */
+const isPlanned = () => terrain.info.hasIndex && object.frame !== null && !object.isGlobe;
 
 /** What frames are made of, but for bytes. */
 function frameOptions(triangles) {
   return {
     triangles, normals: true, surface: !terrain.info.hasTexture, samples: 1024,
     texels: Math.min(4096, picture.renderer.capabilities.maxTextureSize), signal: opening.signal,
+    globe: globeFor(terrain.info, Number($('exaggeration').value)),
   };
 }
 
 const isShown = () => shown.isWhole && shown.bytes === wanted.bytes &&
-  shown.triangles === wanted.triangles;
+  shown.triangles === wanted.triangles && shown.height === wanted.height;
 
 /** Shows what opening brought, roughly; other bytes come meanwhile. */
 async function drawFirst(current) {
-  const {info} = current, {texels} = FIRST_FRAME;
+  const {info} = current, {texels} = FIRST_FRAME, {height} = wanted;
   const bytes = Math.min(wanted.bytes, current.loaded.bytes);
   const triangles = Math.min(wanted.triangles, FIRST_FRAME.triangles);
   const options = frameOptions(triangles);
@@ -95,7 +103,7 @@ async function drawFirst(current) {
   begun = null;
   show(frame);
   const isWhole = Math.max(info.textureWidth, info.textureHeight) <= texels;
-  shown = {bytes: frame.bytes, triangles, isWhole};
+  shown = {bytes: frame.bytes, triangles, height, isWhole};
 }
 
 /** Frames of more bytes, until others are wanted. */
@@ -105,7 +113,7 @@ async function refine(current) {
   for await (const frame of current.refine(options)) {
     if (current !== terrain) return;
     show(frame);
-    shown = {bytes: frame.bytes, triangles: goal.triangles, isWhole: true};
+    shown = {...goal, bytes: frame.bytes, isWhole: true};
     if (goal !== wanted) return;
   }
   const {fileBytes, truncated, info} = current;
@@ -119,12 +127,12 @@ async function refine(current) {
 
 /** One frame of bytes that are here. */
 async function redraw(current) {
-  const {bytes, triangles} = wanted, here = Math.min(bytes, current.loaded.bytes);
+  const {bytes, triangles, height} = wanted, here = Math.min(bytes, current.loaded.bytes);
   const kept = bytes === shown.bytes && shown.isWhole ? {texture: false, surface: false} : {};
   const frame = await current.decode({...frameOptions(triangles), bytes: here, ...kept});
   if (current !== terrain) return;
   show(frame);
-  shown = {bytes, triangles, isWhole: true};
+  shown = {bytes, triangles, height, isWhole: true};
 }
 
 /** Draws until what is shown is what is wanted, or all that this view needs. */
@@ -176,6 +184,7 @@ function setWanted() {
   wanted = {
     bytes: Math.round(fromSlider($('bytes'), leastBytes(), terrain.info.streamBytes)),
     triangles: Math.round(fromSlider($('triangles'), LEAST_TRIANGLES, mostTriangles())),
+    height: object.isGlobe ? $('exaggeration').value : 0,  // flat ground is stretched as it is
   };
   say('bytes', formatBytes(wanted.bytes));
   say('triangles', formatCount(wanted.triangles));
@@ -214,6 +223,9 @@ function prepareControls(info) {
     mostTriangles());
   for (const control of document.querySelectorAll('.of-heights')) control.hidden = !info.hasHeights;
   for (const control of document.querySelectorAll('.of-texture')) control.hidden = !info.hasTexture;
+  $('round').hidden = !goesRound(info);
+  $('globe').checked = $('fly').parentElement.hidden = object.isGlobe ?? false;
+  if (object.isGlobe && $('fly').checked) $('fly').click();
   $('textured-name').textContent = info.hasTexture ? 'Texture' : 'Colours';
 }
 function sizeOf(info) {
@@ -245,16 +257,19 @@ async function openInput(input, name, asked, original = null) {
     map.show(terrain);
     shown = {};
     begun = asked?.first ?? null;
-    object = new TksTerrain(terrain, {material: new MeshLambertMaterial()});
+    const material = new MeshLambertMaterial();
+    object = globeFor(terrain.info)
+      ? new Globe(terrain, material) : new TksTerrain(terrain, {material});
     object.material.wireframe = $('wireframe').checked;
     picture.setObject(object);
-    comparison.of(original, terrain.info);
+    comparison.of(object.isGlobe ? null : original, terrain.info);
     $('save').hidden = true;
     prepareControls(terrain.info);
+    reopen = () => openInput(input, name, null, original);
     called = {name, title, size: sizeOf(terrain.info)};
     entitle(called);
     setWanted();
-    if (asked) compareWithLink(terrain);
+    if (asked && !object.isGlobe) compareWithLink(terrain);
   } catch (error) {
     if (!signal.aborted) failToOpen(error);
   }
@@ -316,8 +331,11 @@ async function openFiles(files) {
 function exaggerate() {
   if (!object?.frame) return;
   const {tallness} = picture, usual = tallness > 1 ? 1 / (8 * tallness) : 1;
-  const times = usual * 10 ** ($('exaggeration').value / 20), text = times.toPrecision(2);
+  const {value} = $('exaggeration');
+  const times = object.isGlobe ? exaggerationOf(value) : usual * 10 ** (value / 20);
+  const text = times.toPrecision(2);
   say('exaggeration', `× ${text}`, `drawn ${text} times as high`);
+  if (object.isGlobe) return setWanted();
   picture.setExaggeration(times);
 }
 
@@ -330,6 +348,10 @@ function listenToControls() {
   });
   $('north').addEventListener('click', () => object && picture.faceNorth());
   listenToSaves(() => ({object, terrain, bytes: shown.bytes, name: called.name}));
+  $('globe').addEventListener('change', () => {
+    keepFlat(!$('globe').checked);
+    reopen();
+  });
   $('wireframe').addEventListener('change', () => {
     if (object) object.material.wireframe = $('wireframe').checked;
     picture.draw();
@@ -365,7 +387,8 @@ export function begin(asked) {
   picture.onrest = rest;
   picture.ondraw = () => {
     const hasScale = terrain && isMeasured(terrain.info) && !picture.fly.enabled;
-    drawBearings(picture.camera, hasScale ? picture.orbit.target : null);
+    const isGlobe = object?.isGlobe, middle = isGlobe ? picture.globe.below : picture.orbit.target;
+    drawBearings(picture.camera, hasScale ? middle : null, isGlobe);
   };
   $('exaggeration').value = givenHeight();
   listenToSun(picture);

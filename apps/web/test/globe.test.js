@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes of globes by the JS API: closed and smooth at any prefix, and refused where there is none.
+import assert from 'node:assert/strict';
+import {before, test} from 'node:test';
+
+import {encode} from '../src/encode.js';
+import {goesRound, open} from '../src/index.js';
+import {earth} from './earth.js';
+import {terrainOf} from './terrain.js';
+
+const TIMEOUT = {timeout: 60000};
+let stream;
+
+before(async () => {
+  stream = await encode({heights: earth().heights, bytes: 60000});
+});
+
+/** For each vertex the number of its position. */
+function welded({positions}) {
+  const numbers = new Map();
+  return Array.from({length: positions.length / 3}, (_, v) => {
+    const key = positions.subarray(3 * v, 3 * v + 3).join();
+    if (!numbers.has(key)) numbers.set(key, numbers.size);
+    return numbers.get(key);
+  });
+}
+
+test('at any prefix each edge has two triangles, and the globe is a sphere', TIMEOUT, async () => {
+  const terrain = await open(stream);
+  assert.ok(goesRound(terrain.info));
+  for (const bytes of [0, 1000, 4096, 20000, Infinity]) {
+    const {globe, mesh} = await terrain.decode({bytes, triangles: 5000, globe: {}});
+    assert.equal(mesh, undefined);
+    const vertex = welded(globe), edges = new Map(), {triangles} = globe;
+    for (let t = 0; t < triangles.length; ++t) {
+      const a = vertex[triangles[t]], b = vertex[triangles[t % 3 === 2 ? t - 2 : t + 1]];
+      assert.notEqual(a, b);
+      assert.ok(!edges.has(`${a} ${b}`), 'triangles at an edge are of one orientation');
+      edges.set(`${a} ${b}`);
+    }
+    for (const edge of edges.keys()) assert.ok(edges.has(edge.split(' ').reverse().join(' ')));
+    const euler = new Set(vertex).size - edges.size / 2 + triangles.length / 3;
+    assert.equal(euler, 2, `${bytes} bytes`);
+  }
+  terrain.dispose();
+});
+
+test('vertices lie on the ellipsoid, where their pixels are, as high as asked', TIMEOUT,
+  async () => {
+    const terrain = await open(stream);
+    for (const [semiMajor, semiMinor, exaggeration] of [[1e6, 1e6, 1], [2e6, 2e6, 10]]) {
+      const {globe} = await terrain.decode({globe: {semiMajor, semiMinor, exaggeration}});
+      globe.heights.forEach((height, v) => {
+        const [x, y, z] = globe.positions.subarray(3 * v, 3 * v + 3);
+        const radius = semiMajor + height * exaggeration;
+        assert.ok(Math.abs(Math.hypot(x, y, z) - radius) < 1e-3);
+        const [column, row] = globe.pixels.subarray(2 * v, 2 * v + 2);
+        const latitude = Math.PI * (0.5 - row / 540), longitude = 2 * Math.PI * (column / 1080 - 0.5);
+        if (row < 0.5 || row > 539.5) return;  // a pole, at the edge of its row
+        assert.ok(Math.abs(z - radius * Math.sin(latitude)) < 1e-3);
+        assert.ok(Math.abs(y - radius * Math.cos(latitude) * Math.sin(longitude)) < 1e-3);
+      });
+    }
+    terrain.dispose();
+  });
+
+test('normals are of length 1, point outwards, and are equal at one position', TIMEOUT,
+  async () => {
+    const terrain = await open(stream);
+    const {globe} = await terrain.decode({globe: {exaggeration: 10}, normals: true});
+    const vertex = welded(globe), seen = new Map();
+    let shared = 0;
+    for (let v = 0; v < vertex.length; ++v) {
+      const normal = globe.normals.subarray(3 * v, 3 * v + 3);
+      assert.ok(Math.abs(Math.hypot(...normal) - 1) < 1e-6);
+      const up = normal.reduce((sum, part, i) => sum + part * globe.positions[3 * v + i], 0);
+      assert.ok(up > 0, 'outwards');
+      if (seen.has(vertex[v])) ++shared;
+      assert.deepEqual(seen.get(vertex[v]) ?? normal, normal);
+      seen.set(vertex[v], normal);
+    }
+    assert.ok(shared > 20, 'there is a seam');
+    terrain.dispose();
+  });
+
+test('heights that go round no globe say so', TIMEOUT, async () => {
+  const terrain = await open(await encode({heights: terrainOf(33).heights}));
+  assert.equal(goesRound(terrain.info), false);
+  await assert.rejects(terrain.decode({globe: {}}),
+    (error) => error.code === 'usage' && /do not go once round a globe/.test(error.message));
+  terrain.dispose();
+  const {heights} = earth(), {info} = await open(stream);
+  for (const change of [{width: 1079}, {crs: ''}, {hasGeotransform: false},
+    {geotransform: heights.geotransform.map((v, i) => (i === 3 ? v + 10 : v))}]) {
+    assert.equal(goesRound({...info, ...change}), false, JSON.stringify(change));
+  }
+});

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// The viewer's globe in headless Chromium: round after 4 kB, without holes at the poles and at the
+// date line, and flat where the address or the page says so.
+import assert from 'node:assert/strict';
+import {cp, mkdtemp, rm, writeFile} from 'node:fs/promises';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {after, before, test} from 'node:test';
+import {chromium} from 'playwright-core';
+
+import {encode} from '../src/encode.js';
+import {earth} from './earth.js';
+import {serve} from './server.js';
+
+const viewer = new URL('../dist/viewer/', import.meta.url).pathname;
+const TIMEOUT = {timeout: 120000};
+/** The camera, 16 000 km from the centre; y points north, x to longitude 0. */
+const PLACES = {
+  north: '0,1.6e7,0', south: '0,-1.6e7,0', date: '-1.6e7,0,0', greenwich: '1.6e7,0,0',
+};
+/** Where the middle of the globe is drawn, beside the panel. */
+const MIDDLE = {x: 350, y: 300};
+let browser, folder, server, stream;
+
+before(async () => {
+  browser = await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
+  folder = await mkdtemp(join(tmpdir(), 'tetrakis-'));
+  await cp(viewer, folder, {recursive: true});
+  stream = await encode({heights: earth().heights, bytes: 80000});
+  await writeFile(join(folder, 'earth.tks'), stream);
+  await writeFile(join(folder, 'textured.tks'), await encode({...earth(), bytes: 120000}));
+  server = await serve(folder);
+});
+after(async () => {
+  await browser.close();
+  await server.close();
+  await rm(folder, {recursive: true});
+});
+
+/** Opens the viewer and calls `use` once it is drawn, with all bytes or with the first ones. */
+async function withPage(query, use, firstOnly = false) {
+  const page = await browser.newPage({viewport: {width: 1000, height: 600}}), errors = [];
+  page.on('pageerror', (error) => errors.push(error.message));
+  try {
+    if (firstOnly) {
+      await page.route(({pathname}) => pathname.endsWith('.tks'), (route) =>
+        route.request().headers().range === 'bytes=0-4095' ? route.continue() : undefined);
+    }
+    await page.goto(`${server.url}index.html?${query}`);
+    await drawn(page, firstOnly);
+    await use(page);
+    assert.deepEqual(errors, []);
+  } finally {
+    await page.close();
+  }
+}
+async function drawn(page, firstOnly = false) {
+  await page.waitForFunction((first) => (first ? document.body.dataset.bytes === '4096'
+    : ['done', 'failed'].includes(document.body.dataset.state)), firstOnly);
+  assert.notEqual(await page.locator('body').getAttribute('data-state'), 'failed',
+    await page.locator('#message').textContent());
+  await page.waitForTimeout(300);
+}
+
+/** isGround(x, y), in pixels of the page: whether that is not what an empty page shows there. */
+async function groundOf(page, name) {
+  const style = 'aside, header, #bearings { display: none !important }';
+  const path = process.env.TETRAKIS_PICTURES && join(process.env.TETRAKIS_PICTURES, `${name}.png`);
+  const picture = await page.screenshot({style, path});
+  const empty = await page.screenshot({style: `${style} #picture { visibility: hidden }`});
+  const differs = await page.evaluate(async (files) => {
+    const [a, b] = await Promise.all(files.map(async (base64) => {
+      const blob = await (await fetch('data:image/png;base64,' + base64)).blob();
+      const image = await createImageBitmap(blob);
+      const context = new OffscreenCanvas(image.width, image.height).getContext('2d');
+      context.drawImage(image, 0, 0);
+      return context.getImageData(0, 0, image.width, image.height).data;
+    }));
+    return Array.from({length: a.length / 4}, (_, i) =>
+      [0, 1, 2].some((k) => Math.abs(a[4 * i + k] - b[4 * i + k]) > 3) ? 1 : 0);
+  }, [picture, empty].map((file) => file.toString('base64')));
+  return (x, y) => differs[1000 * Math.round(y) + Math.round(x)] === 1;
+}
+
+/** All pixels within so many of the middle. */
+function assertNoHole(isGround, radius, name) {
+  for (let y = -radius; y <= radius; ++y) {
+    for (let x = -radius; x <= radius; ++x) {
+      if (Math.hypot(x, y) > radius) continue;
+      assert.ok(isGround(MIDDLE.x + x, MIDDLE.y + y), `${name}: a hole at ${x}, ${y}`);
+    }
+  }
+}
+
+/** How far ground goes from the middle, along 24 directions. */
+function radiiOf(isGround) {
+  return Array.from({length: 24}, (_, i) => {
+    const turn = (i * Math.PI) / 12;
+    let radius = 0;
+    while (radius < 290 &&
+      isGround(MIDDLE.x + radius * Math.cos(turn), MIDDLE.y + radius * Math.sin(turn))) ++radius;
+    return radius;
+  });
+}
+
+test('after 4 kB a round globe is drawn', TIMEOUT, async () => {
+  for (const name of ['earth', 'textured']) {
+    await withPage(`tks=${name}.tks`, async (page) => {
+      const isGround = await groundOf(page, `globe_first_${name}`);
+      for (const [x, y] of [[3, 3], [996, 3], [3, 596], [996, 596]])
+        assert.ok(!isGround(x, y), `${name}: the globe does not reach ${x}, ${y}`);
+      const radii = radiiOf(isGround);
+      assert.ok(Math.min(...radii) > 100 && Math.max(...radii) < 1.15 * Math.min(...radii),
+        `${name}: ${radii.join()}`);
+    }, true);
+  }
+});
+
+test('no holes at the poles and at the date line, from 4 kB on', TIMEOUT, async () => {
+  for (const first of [true, false]) {
+    await withPage('tks=textured.tks', async (page) => {
+      for (const [place, eye] of Object.entries(PLACES)) {
+        await page.evaluate((hash) => (location.hash = hash), `eye=${eye}&target=0,0,0`);
+        await page.waitForTimeout(300);
+        const name = `globe_${place}_${first ? '4kB' : 'all'}`;
+        assertNoHole(await groundOf(page, name), 200, name);
+      }
+    }, first);
+  }
+});
+
+test('the wheel comes nearer, and the camera stays above the ground', TIMEOUT, async () => {
+  await withPage('tks=earth.tks', async (page) => {
+    await page.mouse.move(MIDDLE.x, MIDDLE.y);
+    for (let i = 0; i < 60; ++i) await page.mouse.wheel(0, -600);
+    await page.waitForTimeout(1500);
+    const [, eye] = /eye=([^&]*)/.exec(decodeURIComponent(new URL(page.url()).hash));
+    const radius = Math.hypot(...eye.split(',').map(Number));
+    assert.ok(radius > 6.37e6 && radius < 7e6, `${radius} m from the centre`);
+    const isGround = await groundOf(page, 'globe_near');
+    assertNoHole(isGround, 250, 'near the ground');
+  });
+});
+
+test('more bytes and the slider of heights change the picture', TIMEOUT, async () => {
+  await withPage('tks=earth.tks', async (page) => {
+    assert.equal(await page.locator('body').getAttribute('data-bytes'), String(stream.length));
+    assert.equal(await page.locator('#exaggeration-value').textContent(), '× 15');
+    const picture = () => page.locator('#picture').screenshot();
+    const before = await picture();
+    await page.locator('#exaggeration').fill('10');
+    await page.waitForTimeout(1500);
+    await drawn(page);
+    const after = await picture();
+    assert.notDeepEqual(after, before);
+  });
+});
+
+test('the switch and the address show it flat, and round again', TIMEOUT, async () => {
+  const isWide = async (page, name) => {
+    const isGround = await groundOf(page, name), radii = radiiOf(isGround);
+    return Math.max(...radii) > 1.3 * Math.min(...radii);
+  };
+  await withPage('tks=earth.tks&view=flat', async (page) => {
+    assert.ok(await isWide(page, 'globe_flat'));
+    await page.locator('#globe').click();
+    await page.waitForFunction(() => document.body.dataset.state !== 'done');
+    await drawn(page);
+    assert.equal(await isWide(page, 'globe_round'), false);
+    assert.equal(new URL(page.url()).searchParams.get('view'), null);
+    await page.locator('#globe').click();
+    await page.waitForFunction(() => document.body.dataset.state !== 'done');
+    await drawn(page);
+    assert.ok(await isWide(page, 'globe_flat_again'));
+    assert.equal(new URL(page.url()).searchParams.get('view'), 'flat');
+  });
+});

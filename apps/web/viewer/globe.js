@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// A globe in the viewer's scene, with what the viewer asks of a terrain. Metres from the centre:
+// the north pole is up (y), longitude 0 at x.
+import {BufferAttribute, BufferGeometry, Mesh, RepeatWrapping} from 'three';
+
+import {drapeOf} from '../src/drape.js';
+import {textureOf} from '../src/three.js';
+
+/** Of vectors whose z points to the north pole. */
+function upright(vectors) {
+  const turned = new Float32Array(vectors.length);
+  for (let i = 0; i < vectors.length; i += 3) {
+    turned[i] = vectors[i];
+    turned[i + 1] = vectors[i + 2];
+    turned[i + 2] = -vectors[i + 1];
+  }
+  return turned;
+}
+
+/** Places on the texture. One without a place of its own covers the whole raster, as tints do. */
+function placesOf(info, pixels) {
+  const {width, height, hasTexture, textureHasGeotransform} = info, drape = drapeOf(info);
+  const isPlaced = hasTexture && textureHasGeotransform;
+  const places = new Float32Array(pixels.length);
+  for (let i = 0; i < pixels.length; i += 2) {
+    const [column, row] = [pixels[i], pixels[i + 1]];
+    places.set(isPlaced ? drape(column - 0.5, row - 0.5) : [column / width, row / height], i);
+  }
+  return places;
+}
+
+function geometryOf({info, globe}) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(upright(globe.positions), 3));
+  geometry.setAttribute('normal', new BufferAttribute(upright(globe.normals), 3));
+  geometry.setAttribute('uv', new BufferAttribute(placesOf(info, globe.pixels), 2));
+  geometry.setAttribute('tall', new BufferAttribute(globe.heights, 1));
+  geometry.setIndex(new BufferAttribute(globe.triangles, 1));
+  return geometry;
+}
+
+export class Globe extends Mesh {
+  isGlobe = true;
+  frame = null;
+  /** Of the highest ground, exaggerated. */
+  radius = 1;
+
+  /** `terrain`: of open(). It is disposed with this object, as its material is. */
+  constructor(terrain, material) {
+    super(new BufferGeometry(), material);
+    this.terrain = terrain;
+    if (terrain.info.hasTexture && !terrain.info.textureOpaque) material.alphaTest = 0.5;
+  }
+
+  /** Draws a frame of `terrain`. Parts that it lacks stay as they are. */
+  show(frame) {
+    if (frame.globe) {
+      this.geometry.dispose();
+      this.geometry = geometryOf(frame);
+      this.#measure();
+    }
+    if (frame.texture) this.setMap(textureOf(frame.texture));
+    this.frame = {...this.frame, ...frame};
+  }
+  #measure() {
+    const {array} = this.geometry.getAttribute('position');
+    let most = 0;
+    for (let i = 0; i < array.length; i += 3)
+      most = Math.max(most, Math.hypot(array[i], array[i + 1], array[i + 2]));
+    this.radius = most || 1;
+  }
+
+  setMap(texture) {
+    this.material.map?.dispose();
+    if (texture) texture.wrapS = RepeatWrapping;  // on behind the seam
+    if (!this.material.map) this.material.needsUpdate = true;
+    this.material.map = texture;
+  }
+  /** It does not: meshes of globes come one after the other. */
+  glide() {
+    return false;
+  }
+  dispose() {
+    this.geometry.dispose();
+    this.material.map?.dispose();
+    this.material.dispose();
+    this.terrain.dispose();
+  }
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lies under the pointer on a globe.
+import {MathUtils, Raycaster, Vector2} from 'three';
+
+import {degreesText} from './pointer.js';
+
+/** Of WGS 84: the square of its eccentricity. */
+const ECCENTRICITY = 0.00669437999014;
+const ray = new Raycaster();
+
+/** The point at a place of the page, {x, y, z, height}; null: none. */
+export function placeOnGlobe(globe, camera, x, y) {
+  ray.setFromCamera(new Vector2((2 * x) / innerWidth - 1, 1 - (2 * y) / innerHeight), camera);
+  const [hit] = ray.intersectObject(globe);
+  if (!hit) return null;
+  const {face: {a, b, c}, barycoord} = hit, tall = globe.geometry.getAttribute('tall');
+  const height = barycoord.x * tall.getX(a) + barycoord.y * tall.getX(b) +
+    barycoord.z * tall.getX(c);
+  return {...hit.point, height};
+}
+
+/** Gives the text of such a point. */
+export function globeDescriber({unit}) {
+  return ({x, y, z, height}) => {
+    const latitude = Math.atan2(y, Math.hypot(x, z) * (1 - ECCENTRICITY));
+    const degrees = [Math.atan2(-z, x), latitude].map(MathUtils.radToDeg);
+    return `${height.toFixed(0)} ${unit}`.trim() + ` · ${degreesText(degrees)}`;
+  };
+}
