@@ -60,9 +60,9 @@ class Info:
     description: Optional[str]
     geo_keys: Optional[str]
     domain: str
-    """"plane", "cylinder", "cube" or another "forest": of the heights. Those of a cube that was made
-    of a grid come back on the grid, which `shape`, `spacing` (on the equator) and `geotransform` are
-    of; `heights_rmse` is that of the cube."""
+    """"plane", "cylinder", "cube" or another "forest": of the heights. Those of a cube that was
+    made of a grid come back on the grid, which `shape`, `spacing` (on the equator) and
+    `geotransform` are of; `heights_rmse` is that of the cube."""
     cube_depth: Optional[int]
     """Faces of such a cube have 2^cube_depth x 2^cube_depth squares."""
     has_voids: bool
