@@ -21,12 +21,13 @@ from ._errors import (
 )
 from ._info import Info
 from ._rasterio import from_rasterio, to_geotiff
-from ._stream import Mesh, Stream, open, truncate
+from ._stream import GlobeMesh, Mesh, Stream, open, truncate
 from ._tks import tks_check, tks_decode, tks_encode, tks_version
 from ._version import __version__
 from ._xarray import from_xarray
 
 __all__ = [
+    "GlobeMesh",
     "Info",
     "Mesh",
     "Status",

@@ -10,6 +10,7 @@ from typing import Any, List, Optional, Tuple
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _cube as cube
 from . import _info
 from . import _library as c
 from . import _values as values
@@ -57,6 +58,8 @@ class Decoder:
         return longitude.value, latitude.value
 
     def set_levels(self, heights: int, texture: int) -> None:
+        if heights > 0 and self.info().cube_depth is not None:
+            raise TksUsageError("Heights that come from a cube have level 0 only.")
         self.check(c.lib.tks_set_levels(self._handle, heights, texture))
         self._levels = {c.PART_HEIGHTS: heights, c.PART_TEXTURE: texture}
 
@@ -97,19 +100,37 @@ class Decoder:
     def heights(
         self, info: _info.Info, window: Optional[c.Window], out: Optional[NDArray[Any]]
     ) -> NDArray[Any]:
+        if info.cube_depth is not None:
+            grid = self._grid(info, window)
+            dtype = info.dtype or np.dtype("f4")
+            return _put(cube.as_samples(grid, dtype, info.scale, info.offset), out)
         call = ("heights", c.PART_HEIGHTS)
         return self._decode(call, window, (info.shape or (0, 0), info.dtype or np.dtype("u1")), out)
 
     def surface(
         self, info: _info.Info, window: Optional[c.Window], out: Optional[NDArray[Any]]
     ) -> NDArray[Any]:
+        if info.cube_depth is not None:
+            return _put(self._grid(info, window), out)
         call = ("surface", c.PART_HEIGHTS)
         return self._decode(call, window, (info.shape or (0, 0), np.dtype("f4")), out)
+
+    def _grid(self, info: _info.Info, window: Optional[c.Window]) -> NDArray[Any]:
+        """The cube is decoded as a whole, whatever the window."""
+        shape = info.shape or (0, 0)
+        if window is not None:
+            _inside(window, shape)
+        side = 2 ** (info.cube_depth or 0) + 1
+        whole = ((c.CUBE_PATCHES * side, side), np.dtype("f4"))
+        surface = self._decode(("surface", c.PART_HEIGHTS), None, whole, None)
+        return cube.grid_of(surface, shape, info.geotransform or (), window)
 
     def validity(self, info: _info.Info, window: Optional[c.Window]) -> NDArray[Any]:
         """The C interface has no window of it: all of the level, cut."""
         shape = info.shape or (0, 0)
         cut = ... if window is None else _inside(window, shape)
+        if info.cube_depth is not None:
+            return np.ones(shape, bool)[cut]
         call = ("validity", c.PART_VALIDITY)
         return self._decode(call, None, (shape, np.dtype("u1")), None).view(bool)[cut]
 
@@ -124,7 +145,9 @@ class Decoder:
         """(offset, count) of the bytes that a call still needs, of a stream with an index."""
         level = self._levels[c.PART_TEXTURE if part == c.PART_TEXTURE else c.PART_HEIGHTS]
         raw = c.Ranges()
-        of_level = window if level == 0 else None  # the C interface has windows of level 0 only
+        # The C interface has windows of level 0 only, and a cube is decoded as a whole.
+        whole = level > 0 or (part != c.PART_TEXTURE and self.info().cube_depth is not None)
+        of_level = None if whole else window
         self.check(c.lib.tks_needed_ranges(self._handle, part, of_level, raw))
         try:
             needed = [(raw.ranges[i].offset, raw.ranges[i].size) for i in range(raw.count)]
@@ -162,6 +185,20 @@ class Decoder:
             )
         finally:
             c.lib.tks_free_mesh(raw)
+
+    def globe_mesh(self, triangles: int, globe: c.Globe) -> Tuple[NDArray[Any], ...]:
+        """Positions, pixels and heights of the vertices, and (n, 3) corners."""
+        raw = c.GlobeMesh()
+        self.check(c.lib.tks_decode_globe(self._handle, c.MESH_BUDGET, triangles, globe, raw))
+        try:
+            return (
+                _copied(raw.position, 3 * raw.vertex_count, "f8").reshape(-1, 3),
+                _copied(raw.pixel, 2 * raw.vertex_count, "f8").reshape(-1, 2),
+                _copied(raw.height, raw.vertex_count, "f4"),
+                _copied(raw.triangles, 3 * raw.triangle_count, "u4").reshape(-1, 3),
+            )
+        finally:
+            c.lib.tks_free_globe_mesh(raw)
 
     def _view(self, triangles: int, view: NDArray[Any], raw: c.Mesh) -> None:
         tree = ctypes.c_void_p()
@@ -205,6 +242,15 @@ def _inside(window: c.Window, shape: Tuple[int, ...]) -> Tuple[slice, slice]:
             f"The window must lie inside the {shape[1]} x {shape[0]} samples and hold one or more."
         )
     return slice(window.y, bottom), slice(window.x, right)
+
+
+def _put(array: NDArray[Any], out: Optional[NDArray[Any]]) -> NDArray[Any]:
+    """In `out`, where that is given."""
+    if out is None:
+        return array
+    out = values.output(out, array.shape, array.dtype)
+    out[...] = array
+    return out
 
 
 def _copied(pointer: Any, count: int, dtype: str) -> NDArray[Any]:

@@ -10,6 +10,7 @@ from typing import Any, Literal, Optional, Sequence, Tuple, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _cube as cube
 from . import _library as c
 from . import _stoppable as stoppable
 from . import _values as values
@@ -104,7 +105,7 @@ def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
         registration=values.choice(place["registration"], c.REGISTRATIONS, "registration"),
         description=values.text(place["description"], "description"),
         geo_keys=values.text(place["geo_keys"], "geo_keys"),
-        domain=values.choice(place["domain"], c.DOMAINS[:2], "domain"),
+        domain=values.choice(place["domain"], c.GIVEN_DOMAINS, "domain"),
         first_latitude=first_latitude,
         last_latitude=last_latitude,
     )
@@ -216,6 +217,7 @@ def encode(
     texture_alpha: bool = True,
     texture_white_level: int = 0,
     domain: str = "plane",
+    depth: Optional[int] = None,
     texture_domain: Optional[str] = None,
     latitudes: Optional[Tuple[float, float]] = None,
     triangles: Optional[int] = None,
@@ -266,7 +268,12 @@ def encode(
             for a texture whose place is not that of the heights, or that comes without heights.
         description, geo_keys: as tks_heights in tetrakis.h has them.
         domain: "cylinder" if the last column lies beside the first one, as on a globe: no seam is
-            left between the two. texture_domain: of the texture, if it is another one.
+            left between the two. "cube": heights of a grid of longitudes and latitudes in degrees
+            that goes round the Earth, without voids, are resampled on a cube, which has neither
+            seam nor crowded poles, and come back on the grid; within `bytes` or `psnr` (of the
+            cube), without a texture. The cube says what `spacing` is. depth: faces of the cube have
+            2^depth x 2^depth squares, to 14; chosen unless given. texture_domain: of the texture,
+            if it is another one.
         latitudes: of a geographic grid, in degrees: those of the outer edges of the first and of
             the last row, such as (90, -90). Samples of heights that are coded alone, within `bytes`
             or lossless, then count by their area: a globe takes 1.5 to 3.7 % fewer bytes at equal
@@ -328,11 +335,21 @@ def encode(
         white_level=texture_white_level,
         domain=domain if texture_domain is None else texture_domain,
     )
+    chosen = c.GIVEN_DOMAINS[values.choice(domain, c.GIVEN_DOMAINS, "domain")]
+    on_cube = heights is not None and chosen == "cube"
+    faces = values.unsigned(depth, "depth")
+    if on_cube:
+        cube.check_options(target, texture, regions, geotransform)
+    elif faces:
+        raise TksUsageError('depth is about a cube: give domain="cube" and heights.')
     height_field, samples = (None, None) if heights is None else _heights_struct(heights, place)
     image, texels = (None, None) if texture is None else _image_struct(texture, texture_place)
     arrays = [array for array in (samples, texels) if array is not None]
 
     def call(callback: Any, _kept: Any = arrays) -> builtins.bytes:
+        if on_cube:
+            field, _samples = cube.on_cube(height_field, samples, faces, options.threads)
+            return _run(field, image, options, callback)
         return _run(height_field, image, options, callback)
 
     return stoppable.run(call, progress, sum(array.size for array in arrays) <= _SHORT)

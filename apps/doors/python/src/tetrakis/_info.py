@@ -8,6 +8,7 @@ from typing import Any, Optional, Tuple, Union
 
 import numpy as np
 
+from . import _cube as cube
 from . import _library as c
 from . import _values as values
 
@@ -59,7 +60,11 @@ class Info:
     description: Optional[str]
     geo_keys: Optional[str]
     domain: str
-    """"plane" or "cylinder": of the heights."""
+    """"plane", "cylinder", "cube" or another "forest": of the heights. Those of a cube that was
+    made of a grid come back on the grid, which `shape`, `spacing` (on the equator) and
+    `geotransform` are of; `heights_rmse` is that of the cube."""
+    cube_depth: Optional[int]
+    """Faces of such a cube have 2^cube_depth x 2^cube_depth squares."""
     has_voids: bool
     """Some samples may be void."""
     voids_known: bool
@@ -123,6 +128,30 @@ def _known(raw: c.StreamInfo) -> dict[str, Any]:
 
 
 def from_struct(raw: c.StreamInfo) -> Info:
+    depth = cube.depth_of(raw)
+    info = _as_coded(raw)
+    return info if depth is None else _of_grid(info, raw, depth)
+
+
+def _of_grid(info: Info, raw: c.StreamInfo, depth: int) -> Info:
+    """Of a grid on a cube: nothing is promised of the grid's samples, and levels are the cube's."""
+    spacing = info.spacing
+    if spacing is not None:
+        east = spacing[0] * 4 * 2**depth / raw.grid_width
+        spacing = (east, east * abs(raw.geotransform[5] / raw.geotransform[1]))
+    return replace(
+        info,
+        domain="cube",
+        cube_depth=depth,
+        shape=(raw.grid_height, raw.grid_width),
+        spacing=spacing,
+        coarsest_level=0,
+        lossless=False,
+        max_error=None,
+    )
+
+
+def _as_coded(raw: c.StreamInfo) -> Info:
     heights, texture = bool(raw.has_heights), bool(raw.has_texture)
     spaced = raw.spacing_x > 0 and raw.spacing_y > 0
     placed, texture_placed = raw.has_geotransform, raw.texture_has_geotransform
@@ -136,6 +165,7 @@ def from_struct(raw: c.StreamInfo) -> Info:
         geotransform=tuple(raw.geotransform) if placed else None,
         registration=c.REGISTRATIONS[raw.registration],
         domain=c.DOMAINS[raw.domain],
+        cube_depth=None,
         texture_domain=c.DOMAINS[raw.texture_domain],
         index=c.INDEXES[raw.index],
         nodata=raw.nodata if raw.has_nodata else None,

@@ -36,6 +36,9 @@ REGISTRATIONS = (None, "area", "point")
 WEIGHTS = ("psnr", "visual")
 INDEXES = (False, True, "windows")
 DOMAINS = ("plane", "cylinder", "forest")
+GIVEN_DOMAINS = ("plane", "cylinder", "cube")  # a cube is a forest
+
+CUBE_PATCHES, MOST_CUBE_DEPTH = 6, 14
 
 PART_HEIGHTS, PART_VALIDITY, PART_TEXTURE = 0, 1, 2
 MESH_BUDGET = 1
@@ -469,6 +472,35 @@ PROTOTYPES = {
         [c_void_p, c_int, c_uint32, POINTER(Globe), POINTER(GlobeMesh)],
     ),
     "tks_free_globe_mesh": (None, [POINTER(GlobeMesh)]),
+    "tks_cube_sides": (POINTER(c_uint32), []),
+    "tks_cube_depth": (c_uint32, [c_uint32]),
+    "tks_cube_from_grid": (
+        c_int,
+        [
+            POINTER(GeographicGrid),
+            c_void_p,
+            c_uint32,
+            c_uint32,
+            c_void_p,
+            POINTER(c_double),
+            POINTER(c_double),
+            c_char_p,
+            c_size_t,
+        ],
+    ),
+    "tks_grid_from_cube": (
+        c_int,
+        [
+            c_void_p,
+            c_uint32,
+            POINTER(GeographicGrid),
+            POINTER(Window),
+            c_uint32,
+            c_void_p,
+            c_char_p,
+            c_size_t,
+        ],
+    ),
     "tks_decode_mesh_tree": (c_int, [c_void_p, c_int, c_uint32, POINTER(c_void_p)]),
     "tks_view_mesh": (c_int, [c_void_p, POINTER(c_double), POINTER(Mesh)]),
     "tks_free_mesh_tree": (None, [c_void_p]),

@@ -42,6 +42,22 @@ class Mesh(NamedTuple):
     sample to the last."""
 
 
+class GlobeMesh(NamedTuple):
+    """A mesh round a globe; unpacks as ``positions, pixels, heights, triangles``."""
+
+    positions: NDArray[Any]
+    """float64 (n, 3): metres from the centre; x towards longitude and latitude 0, y towards
+    longitude 90, z to the north pole. Vertices on both sides of a seam are equal to the last bit:
+    taken for one, they close the mesh."""
+    pixels: NDArray[Any]
+    """float64 (n, 2): column and row, of which (0, 0) is the outer corner of the first sample; of a
+    cube in its raster of 2^depth + 1 columns, with the six faces one below the other."""
+    heights: NDArray[Any]
+    """float32 (n): in `Info.unit`, not exaggerated."""
+    triangles: NDArray[Any]
+    """uint32 (m, 3): places in `positions`, counter-clockwise seen from outside."""
+
+
 def open(
     source: Source,
     *,
@@ -315,6 +331,8 @@ class Stream:
         matrix = None if view is None else values.matrix(view)
         with self._access.prefix(bytes) as decoder:
             info = decoder.info()
+            if info.cube_depth is not None:
+                raise TksUsageError("Heights on a cube have a mesh round the globe: globe_mesh().")
             if coordinates == "crs" and info.shape and info.geotransform is None:
                 raise TksUsageError("The stream does not say where its heights lie.")
             places, heights, corners = decoder.mesh(count, matrix)
@@ -325,6 +343,39 @@ class Stream:
         if mirrored:
             corners = np.ascontiguousarray(corners[:, ::-1])
         return Mesh(vertices, corners, mesh_uv(info, columns, rows))
+
+    def globe_mesh(
+        self,
+        triangles: Optional[int] = None,
+        bytes: Optional[int] = None,
+        *,
+        exaggeration: float = 1.0,
+        semi_major: float = 6378137.0,
+        semi_minor: float = 6356752.314245,
+    ) -> GlobeMesh:
+        """The mesh of about `triangles` triangles round the Earth: of heights on a cube, and of
+        those whose geotransform in degrees goes once round. It gets some more, up to half as many
+        or a few hundred, so that no edge cuts deep through the globe. Without a number, all
+        samples.
+
+        bytes: of a prefix of so many bytes.
+        exaggeration: what heights are multiplied by.
+        semi_major, semi_minor: the globe's semi-axes in metres; without them WGS 84.
+
+        It is closed but around voids and where the grid ends before a pole.
+        """
+        count = values.unsigned(triangles, "triangles")
+        if triangles is not None and count == 0:
+            raise TksUsageError("A mesh takes one triangle or more; None means all samples.")
+        globe = c.Globe(
+            size=ctypes.sizeof(c.Globe),
+            semi_major=values.real(semi_major, "semi_major"),
+            semi_minor=values.real(semi_minor, "semi_minor"),
+            degrees=1,
+            exaggeration=values.real(exaggeration, "exaggeration"),
+        )
+        with self._access.prefix(bytes) as decoder:
+            return GlobeMesh(*decoder.globe_mesh(count, globe))
 
     def locate(
         self, columns: ArrayLike, rows: ArrayLike, *, part: str = "heights"
