@@ -55,7 +55,8 @@ test('vertices lie on the ellipsoid, where their pixels are, as high as asked', 
         const radius = semiMajor + height * exaggeration;
         assert.ok(Math.abs(Math.hypot(x, y, z) - radius) < 1e-3);
         const [column, row] = globe.pixels.subarray(2 * v, 2 * v + 2);
-        const latitude = Math.PI * (0.5 - row / 540), longitude = 2 * Math.PI * (column / 1080 - 0.5);
+        const latitude = Math.PI * (0.5 - row / 540);
+        const longitude = 2 * Math.PI * (column / 1080 - 0.5);
         if (row < 0.5 || row > 539.5) return;  // a pole, at the edge of its row
         assert.ok(Math.abs(z - radius * Math.sin(latitude)) < 1e-3);
         assert.ok(Math.abs(y - radius * Math.cos(latitude) * Math.sin(longitude)) < 1e-3);
