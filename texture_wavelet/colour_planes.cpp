@@ -136,14 +136,16 @@ FittedPlanes fitFilters(const WaveletCoding& coding, const ColourTransform& colo
     return PlaneView<const int32_t>(plane, coding.source.texels.extent(), mask);
   };
   const int bits = bitsOf(coding);
+  const SharedForest& forest = coding.source.forest;
+  const uint32_t patch_rows = forest != nullptr ? forest->side() : 0;
   if (coding.purpose == Purpose::kLossless) {
     Planes planes = sheared(colour, 0, std::move(channels));
     std::vector<PlaneView<const int32_t>> views;
     for (const std::vector<int32_t>& plane : planes) views.push_back(view_of(plane));
-    return {std::move(planes), chooseLosslessWavelet(views, bits)};
+    return {std::move(planes), chooseLosslessWavelet(views, bits, patch_rows)};
   }
-  const WaveletHeader wavelet =
-      chooseWavelet(view_of(channels[channels.size() >= 3 ? 1 : 0]), bits, coding.purpose);
+  const WaveletHeader wavelet = chooseWavelet(view_of(channels[channels.size() >= 3 ? 1 : 0]), bits,
+                                              coding.purpose, {}, patch_rows);
   return {sheared(colour, wavelet.fraction_bits, std::move(channels)), wavelet};
 }
 

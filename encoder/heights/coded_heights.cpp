@@ -149,7 +149,8 @@ bool CodedHeights::restoresSamples() const {
 
 WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose) {
   const HeightSteps& steps = heights.steps;
-  return chooseWavelet(steps.lifting(extentOf(*heights.samples)), steps.range_bits, purpose);
+  return chooseWavelet(steps.lifting(extentOf(*heights.samples)), steps.range_bits, purpose, {},
+                       heights.patchRows());
 }
 
 std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
@@ -166,10 +167,10 @@ namespace {
 CodedHeights tryHeights(std::shared_ptr<const QuantisedHeights> quantised,
                         const HeightTarget& target, const CoefficientOptions& options) {
   const HeightSteps& steps = quantised->steps;
-  FlatChoice choice = chooseFlatAreas(
-      steps.lifting(extentOf(*quantised->samples)), quantised->mayBeFlat(),
-      {steps.range_bits, target.purpose, target.bytes, target.mean_square, options.threads,
-       target.purpose == Purpose::kLossy, quantised->forest != nullptr});
+  FlatChoice choice =
+      chooseFlatAreas(steps.lifting(extentOf(*quantised->samples)), quantised->mayBeFlat(),
+                      {steps.range_bits, target.purpose, target.bytes, target.mean_square,
+                       options.threads, target.purpose == Purpose::kLossy, quantised->patchRows()});
   if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
   HeightLayers layers = layersAround(*quantised, std::move(choice), options.priorities);
   layers.mask_room = target.mask_room;

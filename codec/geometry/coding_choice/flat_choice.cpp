@@ -193,9 +193,10 @@ class FlatTrials {
 
 FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, Mask valid,
                            const HeightPurpose& purpose) {
-  if (purpose.free)
+  if (purpose.patch_rows > 0)
     return {{},
-            chooseWavelet(heights, purpose.range_bits, purpose.purpose, rateOf(heights, purpose))};
+            chooseWavelet(heights, purpose.range_bits, purpose.purpose, rateOf(heights, purpose),
+                          purpose.patch_rows)};
   return FlatTrials(heights, valid, purpose).choose();
 }
 

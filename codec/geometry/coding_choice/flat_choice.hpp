@@ -37,7 +37,7 @@ struct HeightPurpose {
   double mean_square = 0;       ///< > 0: the error wanted, in squared steps
   uint32_t threads = 1;         ///< nothing depends on them
   bool seen = false;            ///< heights of prefixes are shown without corrections
-  bool free = false;            ///< no samples may be held: there are no flat areas
+  uint32_t patch_rows = 0;      ///< of a forest, on which there are no flat areas; 0: of none
 };
 
 struct FlatChoice {

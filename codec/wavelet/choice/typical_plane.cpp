@@ -102,14 +102,14 @@ PlanePart partOf(const PlaneView<const int32_t>& plane, const HeldSamples& held,
 }
 
 std::vector<PlanePart> typicalPartsOf(std::span<const PlaneView<const int32_t>> planes,
-                                      const HeldSamples& held, uint32_t side) {
+                                      const HeldSamples& held, uint32_t side, uint32_t patch_rows) {
   assert(!planes.empty());
   std::vector<PlanePart> parts;
   const Mask valid = planes.front().valid;
   IsCoded is_coded;
   if (!valid.all() || !held.none())
     is_coded = [&](size_t i) { return valid[i] && (held.none() || held.numbers[i] == 0); };
-  for (const Window& window : typicalParts(planes.front().extent(), side, is_coded)) {
+  for (const Window& window : typicalParts(planes.front().extent(), side, is_coded, patch_rows)) {
     for (const PlaneView<const int32_t>& plane : planes)
       parts.push_back(partOf(plane, held, window));
   }
@@ -121,7 +121,33 @@ size_t markedIn(Extent plane, const Mask& mask) {
   return static_cast<size_t>(std::count(mask.bytes().begin(), mask.bytes().end(), 1));
 }
 
-std::vector<Window> typicalParts(Extent plane, uint32_t side, const IsCoded& is_coded) {
+namespace {
+
+/// Of a forest: some whole patches where these are small, else a field of a patch each.
+std::vector<Window> partsOfPatches(Extent plane, uint32_t side, uint32_t rows) {
+  constexpr uint32_t kParts = kFields * kFields;
+  const uint32_t patches = plane.height / rows;
+  std::vector<Window> parts;
+  if (rows <= 2 * side) {
+    const uint32_t fit = std::max(kParts * side * side / (rows * rows), 1u);
+    const uint32_t count = std::min(patches, fit);
+    for (uint32_t i = 0; i < count; ++i)
+      parts.push_back({0, i * patches / count * rows, rows, rows});
+    return parts;
+  }
+  for (uint32_t i = 0; i < kParts; ++i) {
+    Window part = partOf(i % kFields, i / kFields, {rows, rows}, side, {}).part;
+    part.y += i * patches / kParts * rows;
+    parts.push_back(part);
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<Window> typicalParts(Extent plane, uint32_t side, const IsCoded& is_coded,
+                                 uint32_t patch_rows) {
+  if (patch_rows > 0) return partsOfPatches(plane, side, patch_rows);
   const auto [width, height] = plane;
   if (std::max(width, height) <= kWholeSide) return {{0, 0, width, height}};
   std::vector<Window> parts, empty;

@@ -134,8 +134,8 @@ Candidate<CodedHeights> expecting(std::optional<double> bytes,
 /// Makes all attempts at a largest error in steps, whether or not they keep it.
 std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t largest) {
   const tks_heights& samples = *bound.quantised->samples;
-  const BoundWays ways =
-      boundWays(bound.quantised->steps, extentOf(samples), bound.wavelet, largest);
+  const BoundWays ways = boundWays(bound.quantised->steps, extentOf(samples), bound.wavelet,
+                                   largest, bound.quantised->patchRows());
   noteRuledOut(bound, ways, largest);
   std::vector<Candidate<CodedHeights>> made;
   if (ways.round) {

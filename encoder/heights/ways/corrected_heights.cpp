@@ -99,7 +99,7 @@ EncodedTrack cutAt(const EncodedTrack& whole, uint64_t bytes) {
 HeightPurpose cutPurpose(const Correctable& heights) {
   return {heights.quantised->steps.range_bits, heights.purpose,         UINT64_MAX,
           usualCut(heights.largest),           heights.options.threads, false,
-          heights.quantised->forest != nullptr};
+          heights.quantised->patchRows()};
 }
 
 /// One track of complete coefficients, and the layers around it.
