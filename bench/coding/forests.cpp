@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// bench_forests FILE...: the middle of each height field, of (2^(d + 1) + 1)^2 samples, as one plane
-// and as a forest of 2 x 2 patches of (2^d + 1)^2 samples that have the same surface: bytes to the
-// last bit and within an error, RMSE of equal bytes. The ratio says what the borders between
+// bench_forests FILE...: the middle of each height field, of (2^(d + 1) + 1)^2 samples, as one
+// plane and as a forest of 2 x 2 patches of (2^d + 1)^2 samples that have the same surface: bytes
+// to the last bit and within an error, RMSE of equal bytes. The ratio says what the borders between
 // patches cost. Of the forest each place of the surface counts once.
 #include <algorithm>
 #include <array>

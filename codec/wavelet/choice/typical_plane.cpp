@@ -125,19 +125,19 @@ namespace {
 
 /// Of a forest: some whole patches where these are small, else a field of a patch each.
 std::vector<Window> partsOfPatches(Extent plane, uint32_t side, uint32_t rows) {
-  constexpr uint32_t kParts = kFields * kFields;
+  const uint32_t fields = kFields * kFields;
   const uint32_t patches = plane.height / rows;
   std::vector<Window> parts;
   if (rows <= 2 * side) {
-    const uint32_t fit = std::max(kParts * side * side / (rows * rows), 1u);
+    const uint32_t fit = std::max(fields * side * side / (rows * rows), 1u);
     const uint32_t count = std::min(patches, fit);
     for (uint32_t i = 0; i < count; ++i)
       parts.push_back({0, i * patches / count * rows, rows, rows});
     return parts;
   }
-  for (uint32_t i = 0; i < kParts; ++i) {
+  for (uint32_t i = 0; i < fields; ++i) {
     Window part = partOf(i % kFields, i / kFields, {rows, rows}, side, {}).part;
-    part.y += i * patches / kParts * rows;
+    part.y += i * patches / fields * rows;
     parts.push_back(part);
   }
   return parts;
