@@ -86,7 +86,7 @@ class GlobeCall {
   }
 
  private:
-  /// Patch by patch. Its vertices on sides are where those are that own them.
+  /// The mesh of a cube, patch by patch: a vertex on a side lies where the owner of its sample lies.
   Status runOnCube(const tks_globe& globe, tks_globe_mesh& out) {
     const Forest& forest = *decoder_.parsed.header.geometry->wavelet.forest;
     if (!std::equal(forest.sides().begin(), forest.sides().end(), kCubeSides.begin(),

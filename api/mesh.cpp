@@ -212,7 +212,7 @@ std::vector<ForestVertex> chosenVertices(const ForestLattice& lattice,
   return all;
 }
 
-/// With all before `first`.
+/// These vertices, and all vertices with numbers below `first`.
 std::vector<ForestVertex> withAllBefore(ForestVertex first, std::vector<ForestVertex> vertices) {
   std::erase_if(vertices, [&](ForestVertex v) { return v < first; });
   const size_t chosen = vertices.size();

@@ -66,7 +66,7 @@ struct ForestMeshing {
   bool apart = false;
 };
 
-/// Checks memory, with so many bytes beside.
+/// TKS_LIMIT if the mesh and `beside` further bytes take more memory than the decoder may.
 Result<ForestSurface> forestSurface(tks_decoder& decoder, const ForestMeshing& meshing,
                                     uint64_t beside = 0);
 

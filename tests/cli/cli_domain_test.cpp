@@ -255,6 +255,7 @@ TEST_F(CliGlobe, RefusesWhatIsNone) {
   EXPECT_NE(run.err.find("round a globe"), std::string::npos) << run.err;
   EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --exaggeration 3").code, 1);
   EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --globe --view low").code, 1);
+  EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --globe --exaggeration 0").code, 1);
 }
 
 TEST_F(CliCube, RefusesWhatDoesNotGoWithIt) {

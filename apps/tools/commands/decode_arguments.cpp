@@ -130,6 +130,8 @@ Status checkArguments(const DecodeArguments& arguments) {
     for (std::string& name : meshFiles(arguments.mesh)) names.push_back(std::move(name));
   if (names.empty())
     return Status(TKS_USAGE, "nothing to write: give --height, --texture, --mesh or --normal-map");
+  if (arguments.exaggeration == 0)
+    return Status(TKS_USAGE, "--exaggeration 0 would leave no relief: give another number");
   if (arguments.json && std::find(names.begin(), names.end(), "-") != names.end())
     return Status(TKS_USAGE, "--json and an output cannot both be on standard output");
   return checkDistinct(names);

@@ -46,7 +46,7 @@ let opening = new AbortController();
 let pumping = false;
 /** What the page calls the terrain that it shows: {name, title, size}. */
 let called = null;
-/** Opens it anew. */
+/** Opens the terrain that is shown once more. */
 let reopen = () => {};
 /** The text of a point of the terrain. */
 let describe = () => '';
