@@ -86,7 +86,7 @@ class GlobeCall {
   }
 
  private:
-  /// The mesh of a cube, patch by patch: a vertex on a side lies where the owner of its sample lies.
+  /// The mesh of a cube, patch by patch. A vertex on a side lies where its sample's owner lies.
   Status runOnCube(const tks_globe& globe, tks_globe_mesh& out) {
     const Forest& forest = *decoder_.parsed.header.geometry->wavelet.forest;
     if (!std::equal(forest.sides().begin(), forest.sides().end(), kCubeSides.begin(),
