@@ -110,7 +110,7 @@ class CorrectionPrefixes {
     TakenLayers taken = takeApart({track}, header, layers);
     const std::span<const uint8_t> codeword = taken.corrections.front();
     const DecodedHeights before =
-        decodeHeights(header, layers, {track.first(track.size() - codeword.size())});
+        decodeUncorrected(header, layers, {track.first(track.size() - codeword.size())});
     decided_ = WatchedCorrections(before.geometry, header, layers, codeword).run();
     whole_ = corrected(before, taken, {}, 1);
     taken.corrections.front() = {};

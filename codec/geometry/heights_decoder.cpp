@@ -226,4 +226,12 @@ DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers&
   return shownHeights(lines, decodeLines(taken, lines.coded(), context));
 }
 
+DecodedHeights decodeUncorrected(const GeometryHeader& header, const GeometryLayers& layers,
+                                 const Codewords& codewords) {
+  const TakenLayers taken = takeApart(codewords, header, layers);
+  assert(!taken.isCorrected());
+  DecodedView all;
+  return decodeTaken(taken, all, {});
+}
+
 }  // namespace tetrakis::inline geometry

@@ -114,6 +114,11 @@ DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers&
                              const Codewords& codewords, const View& view = {},
                              const DecodeContext<HeightsMemory>& context = {});
 
+/// The heights of all coded lines before their corrections. Samples that several patches share are
+/// right in the patch that owns them alone. codewords: of decodeHeights(), without corrections.
+DecodedHeights decodeUncorrected(const GeometryHeader& header, const GeometryLayers& layers,
+                                 const Codewords& codewords);
+
 /// Decodes which samples of a view are valid, and nothing else; empty: all are valid.
 std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const GeometryLayers& layers,
                                          const Codewords& codewords, const View& view);

@@ -55,10 +55,11 @@ std::vector<uint8_t> encodeStoredHeights(const tks_heights& heights, Mask valid)
 // prefixesOfCorrections() gives the heights behind each prefix of their corrections, for encoders
 // that measure many prefixes. It corrects all samples once instead of decoding each prefix anew.
 
-/// Returns a function that gives the same heights as decodeHeights() of the first bytes of the
-/// track, where `bytes` bytes of corrections, 1 or more, follow the whole coefficients. track: the
-/// only one of the heights, which have corrections, as an encoder wrote it; it and the headers
-/// outlive the result. The work begins at the first call.
+/// Returns a function for the memory of decodeHeights() (heights_decoder.hpp), which shows the same
+/// heights with it as without: those of the first bytes of the track, where `bytes` bytes of
+/// corrections, 1 or more, follow the whole coefficients. track: the only one of the heights, which
+/// have corrections, as an encoder wrote it; it and the headers outlive the result. The work begins
+/// at the first call.
 std::function<DecodedHeights(uint64_t bytes)> prefixesOfCorrections(const GeometryHeader& header,
                                                                     const GeometryLayers& layers,
                                                                     std::span<const uint8_t> track);
