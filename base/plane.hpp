@@ -53,6 +53,7 @@ struct PlaneView {
   T* data = nullptr;
   uint32_t width = 0, height = 0;
   Mask valid;
+  uint32_t patch_rows = 0;  ///< of each patch, in the raster of a forest; 0: it is one plane
 
   PlaneView() = default;
   PlaneView(const PlaneView&) = default;
@@ -65,7 +66,11 @@ struct PlaneView {
   }
   /// A plane that may be written is also one that may be read.
   PlaneView(const PlaneView<std::remove_const_t<T>>& other) requires std::is_const_v<T>
-      : data(other.data), width(other.width), height(other.height), valid(other.valid) {}
+      : data(other.data),
+        width(other.width),
+        height(other.height),
+        valid(other.valid),
+        patch_rows(other.patch_rows) {}
 
   Extent extent() const { return {width, height}; }
   std::span<T> values() const { return {data, extent().samples()}; }

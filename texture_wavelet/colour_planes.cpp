@@ -132,20 +132,21 @@ struct FittedPlanes {
 /// mask: the texels that have coefficients.
 FittedPlanes fitFilters(const WaveletCoding& coding, const ColourTransform& colour, Mask mask,
                         Planes channels) {
+  const SharedForest& forest = coding.source.forest;
   const auto view_of = [&](const std::vector<int32_t>& plane) {
-    return PlaneView<const int32_t>(plane, coding.source.texels.extent(), mask);
+    PlaneView<const int32_t> view(plane, coding.source.texels.extent(), mask);
+    if (forest != nullptr) view.patch_rows = forest->side();
+    return view;
   };
   const int bits = bitsOf(coding);
-  const SharedForest& forest = coding.source.forest;
-  const uint32_t patch_rows = forest != nullptr ? forest->side() : 0;
   if (coding.purpose == Purpose::kLossless) {
     Planes planes = sheared(colour, 0, std::move(channels));
     std::vector<PlaneView<const int32_t>> views;
     for (const std::vector<int32_t>& plane : planes) views.push_back(view_of(plane));
-    return {std::move(planes), chooseLosslessWavelet(views, bits, patch_rows)};
+    return {std::move(planes), chooseLosslessWavelet(views, bits)};
   }
-  const WaveletHeader wavelet = chooseWavelet(view_of(channels[channels.size() >= 3 ? 1 : 0]), bits,
-                                              coding.purpose, {}, patch_rows);
+  const WaveletHeader wavelet =
+      chooseWavelet(view_of(channels[channels.size() >= 3 ? 1 : 0]), bits, coding.purpose);
   return {sheared(colour, wavelet.fraction_bits, std::move(channels)), wavelet};
 }
 

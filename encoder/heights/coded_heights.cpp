@@ -149,8 +149,7 @@ bool CodedHeights::restoresSamples() const {
 
 WaveletHeader chooseHeightFilters(const QuantisedHeights& heights, Purpose purpose) {
   const HeightSteps& steps = heights.steps;
-  return chooseWavelet(steps.lifting(extentOf(*heights.samples)), steps.range_bits, purpose, {},
-                       heights.patchRows());
+  return chooseWavelet(steps.lifting(extentOf(*heights.samples)), steps.range_bits, purpose);
 }
 
 std::vector<EncodedTrack> codeCoefficients(const QuantisedHeights& heights,
@@ -170,7 +169,7 @@ CodedHeights tryHeights(std::shared_ptr<const QuantisedHeights> quantised,
   FlatChoice choice =
       chooseFlatAreas(steps.lifting(extentOf(*quantised->samples)), quantised->mayBeFlat(),
                       {steps.range_bits, target.purpose, target.bytes, target.mean_square,
-                       options.threads, target.purpose == Purpose::kLossy, quantised->patchRows()});
+                       options.threads, target.purpose == Purpose::kLossy});
   if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
   HeightLayers layers = layersAround(*quantised, std::move(choice), options.priorities);
   layers.mask_room = target.mask_room;

@@ -101,6 +101,8 @@ QuantisedHeights withoutTable(const EncodeInputs& inputs, HeightSteps steps, Bri
     target.needed = room < besideMaskAtLeast(target.bytes);
     if (!target.needed) target.bytes -= validity.size();
   }
+  const SharedForest forest = forestOf(samples);
+  if (forest != nullptr) steps.patch_rows = forest->side();
   steps = withBridgesFor(target, std::move(steps), extentOf(samples));
   GeometryLayers layers = layersOf(samples, validity.size());
   layers.bridge = steps.bridge;
@@ -110,7 +112,7 @@ QuantisedHeights withoutTable(const EncodeInputs& inputs, HeightSteps steps, Bri
           .validity = std::move(validity),
           .late = std::move(late),
           .shown_by = inputs.shownBy(),
-          .forest = forestOf(samples)};
+          .forest = forest};
 }
 
 /// The heights with the table of their values, if they have one.
@@ -242,6 +244,7 @@ GeometryHeader headerOf(const QuantisedHeights& heights) {
   header.base = heights.steps.base;
   header.step = heights.steps.step;
   header.wavelet.ring = heights.samples->domain == TKS_DOMAIN_CYLINDER;
+  assert((heights.forest != nullptr) == (heights.steps.patch_rows > 0));
   header.wavelet.forest = heights.forest;
   return header;
 }

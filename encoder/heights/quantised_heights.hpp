@@ -107,9 +107,6 @@ struct QuantisedHeights {
   double without_table = 0;  ///< squared error, in steps, of complete coefficients without it
   SharedForest forest = {};  ///< that the samples are the raster of; null: of none
 
-  /// As of typicalParts().
-  uint32_t patchRows() const { return forest != nullptr ? forest->side() : 0; }
-
   /// Corrections restore every sample.
   bool restored() const { return layers.restoresSamples(); }
 

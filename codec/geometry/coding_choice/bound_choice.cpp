@@ -106,7 +106,7 @@ BestCut bestCut(std::deque<PartTrial>& trials, int32_t largest) {
 }  // namespace
 
 BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
-                    int32_t largest, uint32_t patch_rows) {
+                    int32_t largest) {
   assert(steps.steps.size() == plane.samples());
   if (largest == 0) return {.correct = false};
   if (plane.samples() <= kSearchedSamples) return {};
@@ -114,7 +114,7 @@ BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader&
   uint64_t rounded = 0, samples = 0;
   const Mask valid = steps.lifting(plane).valid;
   const IsCoded is_coded = valid.all() ? IsCoded() : [&](size_t i) { return valid[i]; };
-  for (const Window& part : typicalParts(plane, kPartSide, is_coded, patch_rows)) {
+  for (const Window& part : typicalParts(plane, kPartSide, is_coded, steps.patch_rows)) {
     trials.emplace_back(cropped(steps, plane, part), part, wavelet, largest);
     rounded += trials.back().rounded();
     samples += part.extent().samples();

@@ -163,8 +163,7 @@ struct BoundWays {
 /// will be cut. Both ways are worth trying for planes of at most 1025 * 1025 samples, which takes
 /// some twenty times as long as coding them. Of larger planes typical parts are coded in both ways,
 /// and the way that takes fewer bytes for the parts is the one to try for the whole plane.
-/// patch_rows: as of typicalParts().
 BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
-                    int32_t largest, uint32_t patch_rows);
+                    int32_t largest);
 
 }  // namespace tetrakis::inline coding_choice

@@ -193,10 +193,9 @@ class FlatTrials {
 
 FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, Mask valid,
                            const HeightPurpose& purpose) {
-  if (purpose.patch_rows > 0)
+  if (heights.patch_rows > 0)  // there are no flat areas
     return {{},
-            chooseWavelet(heights, purpose.range_bits, purpose.purpose, rateOf(heights, purpose),
-                          purpose.patch_rows)};
+            chooseWavelet(heights, purpose.range_bits, purpose.purpose, rateOf(heights, purpose))};
   return FlatTrials(heights, valid, purpose).choose();
 }
 

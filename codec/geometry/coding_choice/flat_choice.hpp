@@ -37,7 +37,6 @@ struct HeightPurpose {
   double mean_square = 0;       ///< > 0: the error wanted, in squared steps
   uint32_t threads = 1;         ///< nothing depends on them
   bool seen = false;            ///< heights of prefixes are shown without corrections
-  uint32_t patch_rows = 0;      ///< of a forest, on which there are no flat areas; 0: of none
 };
 
 struct FlatChoice {

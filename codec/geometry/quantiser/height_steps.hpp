@@ -52,6 +52,7 @@ struct HeightSteps {
   ValueTable table;    ///< not empty: steps count its values, which `base` and `step` approximate
   bool exact = false;  ///< every valid sample comes back bit for bit
   int range_bits = 0;  ///< the steps span less than 2^range_bits
+  uint32_t patch_rows = 0;  ///< as of PlaneView
 
   size_t validCount() const;
   size_t liftedCount() const;
@@ -59,7 +60,9 @@ struct HeightSteps {
   double liftedShare() const;
   /// The steps as a plane for the transform.
   PlaneView<const int32_t> lifting(Extent plane) const {
-    return {steps, plane, bridge == 0 ? valid : lifted};
+    PlaneView<const int32_t> view(steps, plane, bridge == 0 ? valid : lifted);
+    view.patch_rows = patch_rows;
+    return view;
   }
 };
 

@@ -223,9 +223,8 @@ Choice chooseAmong(const std::vector<PlanePart>& parts, int bits, Purpose purpos
 }  // namespace
 
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose,
-                            const RateTarget& target, uint32_t patch_rows) {
-  const auto parts = typicalPartsOf(std::span(&plane, 1), {}, kUsualSide, patch_rows);
-  return chooseAmong(parts, bits, purpose, target).header;
+                            const RateTarget& target) {
+  return chooseAmong(typicalPartsOf(std::span(&plane, 1)), bits, purpose, target).header;
 }
 
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
@@ -233,10 +232,8 @@ WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSam
   return chooseAmong(typicalPartsOf(std::span(&plane, 1), held), bits, purpose, target).header;
 }
 
-WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits,
-                                    uint32_t patch_rows) {
-  const auto parts = typicalPartsOf(planes, {}, kUsualSide, patch_rows);
-  return chooseLossless(parts, bits, kLosslessImages).header;
+WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits) {
+  return chooseLossless(typicalPartsOf(planes), bits, kLosslessImages).header;
 }
 
 bool suitsSmoothGround(const WaveletHeader& chosen) {

@@ -36,17 +36,16 @@ struct RateTarget {
 /// Chooses the filters of heights, or of a lossy texture by one plane of it. They are tried on
 /// typical parts of the plane, whose samples have `bits` bits, and compared by an estimate of the
 /// bits that their coefficients take, at a step that suits most streams and at a finer one where
-/// the target asks for it. patch_rows: as of typicalParts().
+/// the target asks for it.
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, int bits, Purpose purpose,
-                            const RateTarget& target = {}, uint32_t patch_rows = 0);
+                            const RateTarget& target = {});
 
 /// Chooses the wavelet of a plane of which samples are held.
 WaveletHeader chooseWavelet(const PlaneView<const int32_t>& plane, const HeldSamples& held,
                             int bits, Purpose purpose, const RateTarget& target = {});
 
 /// Chooses the same filters for all planes of an image that is coded to the last bit.
-WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits,
-                                    uint32_t patch_rows = 0);
+WaveletHeader chooseLosslessWavelet(std::span<const PlaneView<const int32_t>> planes, int bits);
 
 /// Whether the plane has no roughness, by the filter that was chosen for it.
 bool suitsSmoothGround(const WaveletHeader& chosen);

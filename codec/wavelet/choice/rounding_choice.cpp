@@ -118,8 +118,7 @@ double roundedSquares(const PlaneView<const int32_t>& plane, const HeldSamples& 
   of_part.ring = false;
   of_part.forest = nullptr;
   std::vector<std::unique_ptr<CodedPart>> parts;
-  const uint32_t patch_rows = wavelet.forest != nullptr ? wavelet.forest->side() : 0;
-  for (PlanePart& cut : typicalPartsOf(std::span(&plane, 1), held, kPartSide, patch_rows)) {
+  for (PlanePart& cut : typicalPartsOf(std::span(&plane, 1), held, kPartSide)) {
     auto part = std::make_unique<CodedPart>(std::move(cut), of_part);
     if (part->tells()) parts.push_back(std::move(part));
   }

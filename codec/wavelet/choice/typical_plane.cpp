@@ -102,14 +102,15 @@ PlanePart partOf(const PlaneView<const int32_t>& plane, const HeldSamples& held,
 }
 
 std::vector<PlanePart> typicalPartsOf(std::span<const PlaneView<const int32_t>> planes,
-                                      const HeldSamples& held, uint32_t side, uint32_t patch_rows) {
+                                      const HeldSamples& held, uint32_t side) {
   assert(!planes.empty());
   std::vector<PlanePart> parts;
+  const Extent extent = planes.front().extent();
   const Mask valid = planes.front().valid;
   IsCoded is_coded;
   if (!valid.all() || !held.none())
     is_coded = [&](size_t i) { return valid[i] && (held.none() || held.numbers[i] == 0); };
-  for (const Window& window : typicalParts(planes.front().extent(), side, is_coded, patch_rows)) {
+  for (const Window& window : typicalParts(extent, side, is_coded, planes.front().patch_rows)) {
     for (const PlaneView<const int32_t>& plane : planes)
       parts.push_back(partOf(plane, held, window));
   }
@@ -185,7 +186,7 @@ TypicalPlane::TypicalPlane(const PlaneView<const int32_t>& plane, int bits, Purp
   size_t samples = 0;
   const Extent extent = plane.extent();
   const IsCoded is_shown = shown.all() ? IsCoded() : [&](size_t i) { return shown[i]; };
-  for (const Window& window : typicalParts(extent, kUsualSide, is_shown)) {
+  for (const Window& window : typicalParts(extent, kUsualSide, is_shown, plane.patch_rows)) {
     const std::vector<uint8_t> here = slice(shown.bytes(), extent, {0, window});
     const size_t shown_here = markedIn(window.extent(), here);
     samples += shown_here;

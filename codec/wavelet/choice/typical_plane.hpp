@@ -34,8 +34,8 @@ using IsCoded = std::function<bool(size_t)>;
 /// plane if neither side is above 256. Otherwise there is a part of each field of a grid of 3 by 3,
 /// with at most `side` samples along each side, because a single part may be water, or a lawn. It
 /// lies in the middle, or where more than twice as many samples are coded: parts of voids say
-/// nothing. There is at least one part. patch_rows: of each patch of a forest, whose raster the
-/// plane is; 0: of none. No part reaches into two patches.
+/// nothing. There is at least one part. patch_rows: as of PlaneView; no part reaches into two
+/// patches.
 std::vector<Window> typicalParts(Extent plane, uint32_t side = kUsualSide,
                                  const IsCoded& is_coded = {}, uint32_t patch_rows = 0);
 
@@ -51,8 +51,7 @@ struct PlanePart {
 
 /// The typical parts of planes that have one size and one mask: of each part every plane's.
 std::vector<PlanePart> typicalPartsOf(std::span<const PlaneView<const int32_t>> planes,
-                                      const HeldSamples& held = {}, uint32_t side = kUsualSide,
-                                      uint32_t patch_rows = 0);
+                                      const HeldSamples& held = {}, uint32_t side = kUsualSide);
 
 /// What a window of a plane holds.
 PlanePart partOf(const PlaneView<const int32_t>& plane, const HeldSamples& held,

@@ -55,6 +55,7 @@ Candidate<CodedHeights> codeRounded(const Bound& bound, HeightSteps steps) {
   const QuantisedHeights& quantised = *bound.quantised;
   const tks_heights& samples = *quantised.samples;
   const uint8_t bridge = quantised.steps.bridge;
+  steps.patch_rows = quantised.steps.patch_rows;
   QuantisedHeights rounded{.samples = &samples,
                            .steps = withBridges(std::move(steps), extentOf(samples), bridge),
                            .layers = quantised.layers,
@@ -134,8 +135,8 @@ Candidate<CodedHeights> expecting(std::optional<double> bytes,
 /// Makes all attempts at a largest error in steps, whether or not they keep it.
 std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t largest) {
   const tks_heights& samples = *bound.quantised->samples;
-  const BoundWays ways = boundWays(bound.quantised->steps, extentOf(samples), bound.wavelet,
-                                   largest, bound.quantised->patchRows());
+  const BoundWays ways =
+      boundWays(bound.quantised->steps, extentOf(samples), bound.wavelet, largest);
   noteRuledOut(bound, ways, largest);
   std::vector<Candidate<CodedHeights>> made;
   if (ways.round) {
