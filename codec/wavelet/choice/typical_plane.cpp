@@ -2,6 +2,7 @@
 #include "codec/wavelet/choice/typical_plane.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <span>
@@ -124,7 +125,11 @@ size_t markedIn(Extent plane, const Mask& mask) {
 
 namespace {
 
-/// Of a forest: some whole patches where these are small, else a field of a patch each.
+/// The fields of a patch in an order of which any few in a row lie far apart.
+constexpr std::array<uint32_t, kFields * kFields> kApart = {0, 4, 8, 5, 6, 1, 7, 2, 3};
+
+/// Of a forest: some whole patches where these are small, else as many fields of each patch, or of
+/// as many patches as there are fields.
 std::vector<Window> partsOfPatches(Extent plane, uint32_t side, uint32_t rows) {
   const uint32_t fields = kFields * kFields;
   const uint32_t patches = plane.height / rows;
@@ -136,9 +141,11 @@ std::vector<Window> partsOfPatches(Extent plane, uint32_t side, uint32_t rows) {
       parts.push_back({0, i * patches / count * rows, rows, rows});
     return parts;
   }
-  for (uint32_t i = 0; i < fields; ++i) {
-    Window part = partOf(i % kFields, i / kFields, {rows, rows}, side, {}).part;
-    part.y += i * patches / fields * rows;
+  const uint32_t seen = std::min(patches, fields), of_each = (fields + seen - 1) / seen;
+  for (uint32_t i = 0; i < seen * of_each; ++i) {
+    const uint32_t field = kApart[i % fields];
+    Window part = partOf(field % kFields, field / kFields, {rows, rows}, side, {}).part;
+    part.y += static_cast<uint32_t>(uint64_t{i / of_each} * patches / seen) * rows;
     parts.push_back(part);
   }
   return parts;
