@@ -138,7 +138,7 @@ Status checkForests(const StreamHeader& header) {
   bool all = sound(header.geometry) && sound(header.texture);
   if (header.geometry && header.geometry->wavelet.forest != nullptr) {
     const bool lifts_all = layers.late_mask && layers.lifted_bytes == 0;
-    all &= layers.flat_bytes == 0 && layers.bridge == 0 &&
+    all &= layers.bridge == 0 &&
            (layers.validity_bytes == 0 || header.geometry->direct() || lifts_all);
   }
   if (header.texture && header.texture->wavelet.forest != nullptr)
@@ -146,8 +146,7 @@ Status checkForests(const StreamHeader& header) {
            header.texture->bridge == 0;
   if (all) return {};
   return {TKS_CORRUPT,
-          "Corrupt stream: a forest has regions, repeated lines, flat areas or voids "
-          "that are not lifted."};
+          "Corrupt stream: a forest has regions, repeated lines or voids that are not lifted."};
 }
 
 /// A decoder may lack what it takes for the components of a later version.

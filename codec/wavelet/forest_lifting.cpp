@@ -77,12 +77,29 @@ void ForestLifting::copyAll(const std::vector<Copy>& copies) {
   for (const auto& [to, from] : copies) patches_[to] = patches_[from];
 }
 
-void ForestLifting::lift(size_t round) {
-  for (const JointStep each : JointLifting::steps(direction_))
-    if (each != JointStep::kHalves) step(round, each);
+void ForestLifting::hold(uint32_t patch, JointStep step, const std::vector<HeldCell>& held) {
+  const size_t log2 = static_cast<size_t>(level_ - 1), width = pyramid_.plane().width;
+  for (uint32_t y = step == JointStep::kCentres; y <= n_; y += step == JointStep::kSides ? 1 : 2) {
+    const uint32_t first = step == JointStep::kSides ? 1 - y % 2 : step == JointStep::kCentres;
+    const uint16_t* const numbers =
+        pyramid_.held().numbers.data() + (size_t{patch} * forest_.side() + (y << log2)) * width;
+    for (uint32_t x = first; x <= n_; x += 2) {
+      const uint16_t number = numbers[x << log2];
+      if (number == 0) continue;
+      const HeldCell& cell = held[number - 1u];
+      patches_[indexOf(patch, x, y)] = step == JointStep::kCorners ? cell.corner
+                                       : step == JointStep::kSides ? cell.side
+                                                                   : cell.centre;
+    }
+  }
 }
 
-void ForestLifting::step(size_t round, JointStep step) {
+void ForestLifting::lift(size_t round, const std::vector<HeldCell>* held) {
+  for (const JointStep each : JointLifting::steps(direction_))
+    if (each != JointStep::kHalves) step(round, each, held);
+}
+
+void ForestLifting::step(size_t round, JointStep step, const std::vector<HeldCell>* held) {
   copyAll(around_);
   const size_t samples = size_t{width_} * width_;
   const bool doubled = doubled_ && round + 1 == jointRounds(id_);
@@ -94,6 +111,7 @@ void ForestLifting::step(size_t round, JointStep step) {
                            doubled,
                            round};
     JointLifting(block, id_, direction_, wide_).run(step, margin_, margin_ + n_ + 1);
+    if (held != nullptr) hold(static_cast<uint32_t>(patch), step, *held);
   });
   copyAll(shared_);
 }
@@ -113,13 +131,22 @@ void ForestLifting::forEachSample(std::span<int32_t> values, bool halved, const 
   }
 }
 
-void ForestLifting::run(std::span<int32_t> values) {
+void ForestLifting::run(std::span<int32_t> values, const HeldRounds& held) {
   assert(values.size() == pyramid_.plane().samples());
   const bool analyses = direction_ == Direction::kAnalysis;
   forEachSample(values, !analyses, [](int32_t from, int32_t& to) { to = from; });
   copyAll(shared_);  // what is not owned has no coefficient
   const size_t rounds = jointRounds(id_);
-  for (size_t i = 0; i < rounds; ++i) lift(analyses ? i : rounds - 1 - i);
+  assert(held.empty() || held.size() == rounds + 1);
+  if (!held.empty() && !analyses) {  // neither has what is held
+    for (uint32_t patch = 0; patch < forest_.patches(); ++patch)
+      for (const JointStep step : {JointStep::kCentres, JointStep::kSides, JointStep::kCorners})
+        hold(patch, step, held.back());
+  }
+  for (size_t i = 0; i < rounds; ++i) {
+    const size_t round = analyses ? i : rounds - 1 - i;
+    lift(round, held.empty() ? nullptr : &held[analyses ? round + 1 : round]);
+  }
   forEachSample(values, analyses, [](int32_t& to, int32_t from) { to = from; });
 }
 

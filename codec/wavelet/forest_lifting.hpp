@@ -4,7 +4,8 @@
 //
 // Where sides are turned the rows of one patch are the columns of the next, so rows and columns are
 // lifted together: a step changes samples at centres, at sides or at corners, and reads none of
-// those that it changes. A sample that several patches share is changed in the one that owns it.
+// those that it changes. A sample that several patches share is changed in the one that owns it. A
+// sample that is held changes as held_cells.hpp says.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "codec/wavelet/held_cells.hpp"
 #include "codec/wavelet/lifting/lifting.hpp"
 #include "codec/wavelet/pyramid.hpp"
 #include "codec/wavelet/wavelet.hpp"
@@ -25,7 +27,8 @@ class ForestLifting {
                 uint32_t threads = 1);
 
   /// Turns the samples of the level into coefficients, or back, in place. values: of the raster.
-  void run(std::span<int32_t> values);
+  /// held: what the level makes of the areas that are held; empty: nothing is held.
+  void run(std::span<int32_t> values, const HeldRounds& held = {});
 
   /// The bytes that the largest level takes.
   static uint64_t bytesOf(const Forest& forest);
@@ -40,8 +43,11 @@ class ForestLifting {
   size_t indexOf(uint32_t patch, int64_t x, int64_t y) const;
   void findCopies();
   void copyAll(const std::vector<Copy>& copies);
-  void lift(size_t round);
-  void step(size_t round, JointStep step);
+  /// held: what held samples become; null: nothing is held.
+  void lift(size_t round, const std::vector<HeldCell>* held);
+  void step(size_t round, JointStep step, const std::vector<HeldCell>* held);
+  /// Gives held samples of a patch their values, of those that a step changes.
+  void hold(uint32_t patch, JointStep step, const std::vector<HeldCell>& held);
   /// Calls move(value of the raster, value here) for all samples of the patches. halved: even
   /// columns come first in the raster.
   template <class Move>

@@ -34,8 +34,9 @@ Pyramid::Pyramid(SharedBits valid, Extent plane, HeldSamples held)
   assert(subbands_.size() == kBandsPerLevel * static_cast<size_t>(levels()) + 1);
 }
 
-Pyramid::Pyramid(const Forest& forest)
+Pyramid::Pyramid(const Forest& forest, HeldSamples held)
     : valid_(shared(ownedSamples(forest))),
+      held_(held),
       lows_{{{forest.side(), forest.side()}, forest.side(), 0, 0}} {
   splitAll();
   addSubbands();

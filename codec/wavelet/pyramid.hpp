@@ -88,8 +88,8 @@ class Pyramid {
   /// The same, of marks that are there as bits.
   Pyramid(SharedBits valid, Extent plane, HeldSamples held = {});
   /// The raster of a forest: each patch has a pyramid of its own, in which the samples exist that
-  /// it owns.
-  explicit Pyramid(const Forest& forest);
+  /// it owns. What is held outlives the pyramid.
+  explicit Pyramid(const Forest& forest, HeldSamples held = {});
   /// What that pyramid takes.
   static uint64_t bytesOf(const Forest& forest);
 

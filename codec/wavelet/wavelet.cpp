@@ -10,6 +10,7 @@
 
 #include "base/forest.hpp"
 #include "codec/wavelet/forest_lifting.hpp"
+#include "codec/wavelet/held_cells.hpp"
 #include "codec/wavelet/held_lifting.hpp"
 #include "codec/wavelet/level_transform.hpp"
 
@@ -50,15 +51,24 @@ class Levels {
   std::optional<HeldLadder> ladder_;  ///< where something is held
 };
 
+/// The levels of a forest, from the first one to the last.
+void runForest(const WaveletSpec& spec, const Pyramid& pyramid, Direction direction,
+               uint32_t threads, std::span<int32_t> values) {
+  std::optional<HeldCells> held;
+  if (!pyramid.held().none()) held.emplace(spec, pyramid);
+  for (int done = 0; done < pyramid.levels(); ++done) {
+    const int level = direction == Direction::kAnalysis ? done + 1 : pyramid.levels() - done;
+    ForestLifting(spec, pyramid, level, direction, threads)
+        .run(values, held ? held->level(level) : HeldRounds());
+  }
+}
+
 }  // namespace
 
 void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
                     uint32_t threads) {
-  if (spec.forest != nullptr) {
-    for (int level = 1; level <= pyramid.levels(); ++level)
-      ForestLifting(spec, pyramid, level, Direction::kAnalysis, threads).run(values);
-    return;
-  }
+  if (spec.forest != nullptr)
+    return runForest(spec, pyramid, Direction::kAnalysis, threads, values);
   const Levels levels(spec, pyramid);
   for (int level = 1; level <= pyramid.levels(); ++level) {
     levels.run(LevelTransform(spec, level, Direction::kAnalysis, threads), level,
@@ -70,8 +80,7 @@ void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<i
                     const InverseOptions& options) {
   if (spec.forest != nullptr) {
     assert(options.level == 0);
-    for (int level = pyramid.levels(); level > 0; --level)
-      ForestLifting(spec, pyramid, level, Direction::kSynthesis, options.threads).run(values);
+    runForest(spec, pyramid, Direction::kSynthesis, options.threads, values);
     return shareOwned(*spec.forest, values, spec.forest->side() - 1);
   }
   const Levels levels(spec, pyramid);

@@ -67,8 +67,15 @@ Opening decodeOpening(const GeometryHeader& header, const Layers& layers, const 
     lifted = layers.bridge > 0 ? bridged(valid, width, height, layers.bridge) : valid;
   }
   if (layers.flatBytes > 0) {
-    const std::vector<uint8_t>& among = layers.lateMask ? lifted : valid;
-    opening.plane.flat = decodeFlat(track.flat, {width, height, {}, among}, layers.flatAreas);
+    const Forest& forest = header.wavelet.domain.forest;
+    std::vector<uint8_t> among = layers.lateMask ? lifted : valid;
+    if (!forest.isGrid()) {
+      among.resize(size_t(width) * size_t(height));
+      for (size_t i = 0; i < among.size(); ++i) among[i] = forest.ownerOf(i) == i;
+    }
+    Flat& flat = opening.plane.flat;
+    flat = decodeFlat(track.flat, {width, height, {}, among}, layers.flatAreas);
+    if (!flat.areas.empty()) forest.share(flat.areas);
   }
   return opening;
 }

@@ -63,7 +63,7 @@ bool suits(const GeometryHeader& geometry, const Layers& layers) {
   const bool all_lifted = layers.lateMask && layers.liftedBytes == 0;
   const bool holes = !direct && layers.validityBytes > 0 && !all_lifted;
   if (!geometry.wavelet.domain.forest.isGrid() &&
-      (holes || layers.bridge > 0 || layers.flatBytes > 0 || !suitsForest(geometry)))
+      (holes || layers.bridge > 0 || !suitsForest(geometry)))
     return false;
   const bool others = layers.flatBytes > 0 || ground || geometry.regions.log2 > 0 ||
                       geometry.priorities.tileLog2 > 0;

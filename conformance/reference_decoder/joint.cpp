@@ -11,10 +11,18 @@ namespace {
 /// A value of the level at a place of its own grid.
 using ValueAt = std::function<int32_t(int64_t x, int64_t y)>;
 
+/// FORMAT 7, "Forests": a, b (and c) and d of an area that is held.
+struct Cell {
+  int32_t a, b, d;
+};
+using Cells = std::vector<Cell>;  ///< of each area
+
 /// A predict step of a filter and the update step behind it, on a level of one patch.
 class Joint {
  public:
-  Joint(const WaveletHeader& header, const JointLevel& of, size_t predict, int patch, Plane& plane)
+  /// cells: what held samples become.
+  Joint(const WaveletHeader& header, const JointLevel& of, size_t predict, int patch, Plane& plane,
+        const Cells& cells)
       : filter_(filterOf(header, of.level)),
         predict_(predict),
         exact_(of.level > 3 || header.sampleBits + 4 >= filter_.widest),
@@ -25,8 +33,27 @@ class Joint {
         patch_(patch),
         rows_(plane.height / forest_.patches()),
         plane_(plane),
+        cells_(cells),
         width_((plane.width - 1) / of.stepX + 1),
         height_((rows_ - 1) / of.stepY + 1) {}
+
+  void hold() {
+    for (const int corner : {0, 1, 2, 3}) each(corner % 2, corner / 2, [](int64_t, int64_t) {});
+  }
+  /// What the analysis makes of a surface of one value.
+  Cell analysed(Cell cell) const {
+    const auto P = [&](int k, int32_t z) { return productOf(kPredict, k, z); };
+    const auto U = [&](int k, int32_t z) { return productOf(kUpdate, k, z); };
+    const auto add = [](int64_t to, int64_t v, int places) {
+      return wrap(to + (wrap(wrap(v) + (int64_t{1} << (places - 1))) >> places));
+    };
+    const auto sixteen = [](int32_t z) { return int64_t{wrap(int64_t{z} * 16)}; };
+    cell.d = add(cell.d, P(4, wrap(sixteen(cell.b) + P(0, cell.a))) + P(0, cell.b), 4);
+    cell.b = add(cell.b, P(0, cell.a) + U(0, cell.d), 4);
+    const int64_t v = U(4, wrap(sixteen(cell.b) - U(0, cell.d))) + U(0, cell.b);
+    cell.a = doubled_ ? add(int64_t{cell.a} * 2, v, 3) : add(cell.a, v, 4);
+    return cell;
+  }
 
   void liftA() {
     const ValueAt lowered = [&](int64_t x, int64_t y) {
@@ -71,12 +98,19 @@ class Joint {
   }
   int64_t sixteenths(int64_t x, int64_t y) { return wrap(int64_t{at(x, y)} * 16); }
 
-  /// All owned samples of one parity in x and y.
+  /// All owned samples of one parity in x and y; those that are held get their value instead.
   void each(int64_t first_x, int64_t first_y, const std::function<void(int64_t, int64_t)>& call) {
     for (int64_t y = first_y; y < height_; y += 2) {
       for (int64_t x = first_x; x < width_; x += 2) {
         const size_t sample = index({patch_, x, y});
-        if (forest_.ownerOf(sample) == sample) call(x, y);
+        if (forest_.ownerOf(sample) != sample) continue;
+        const uint32_t area = plane_.flat.areas.empty() ? 0 : plane_.flat.areas.at(sample);
+        if (area == 0) {
+          call(x, y);
+        } else {
+          const Cell& cell = cells_.at(area - 1);
+          at(x, y) = first_x != first_y ? cell.b : first_x == 0 ? cell.a : cell.d;
+        }
       }
     }
   }
@@ -89,6 +123,10 @@ class Joint {
       distance += 2;
     }
     return wrap((exact_ ? sum : wrap(sum)) >> shift);
+  }
+  /// Of values that are all z.
+  int64_t productOf(Step step, int k, int32_t z) const {
+    return product(step, k, [&](int64_t) { return int64_t{z}; });
   }
   int64_t alongX(Step step, int k, int64_t x, int64_t y, const ValueAt& value) const {
     return product(step, k,
@@ -117,6 +155,7 @@ class Joint {
   JointLevel of_;
   int patch_, rows_;
   Plane& plane_;
+  const Cells& cells_;
   int64_t width_, height_;  ///< of the level
   const ValueAt whole_ = [this](int64_t x, int64_t y) { return at(x, y); };
 };
@@ -129,11 +168,38 @@ bool liftsJointly(const WaveletHeader& header, int level, const Plane& plane) {
          plane.flat.areas.empty();
 }
 
+namespace {
+
+/// The cells before each round of the analysis of a level, and after the last one.
+std::vector<Cells> cellsOf(const WaveletHeader& header, int level, Plane& plane) {
+  std::vector<Cells> rounds(1);
+  for (const int32_t value : plane.flat.heights) rounds[0].push_back({value, value, value});
+  for (int l = 1; l <= level; ++l) {
+    if (l > 1) {
+      rounds = {rounds.back()};
+      for (Cell& cell : rounds[0]) cell = {cell.a, cell.a, cell.a};
+    }
+    for (size_t step = 0; step < filterOf(header, l).steps.size(); step += 2) {
+      const Joint joint(header, {l, 1 << (l - 1), 1 << (l - 1)}, step, 0, plane, rounds[0]);
+      Cells after;
+      for (const Cell& cell : rounds.back()) after.push_back(joint.analysed(cell));
+      rounds.push_back(std::move(after));
+    }
+  }
+  return rounds;
+}
+
+}  // namespace
+
 void synthesiseJointly(const WaveletHeader& header, const JointLevel& of, Plane& plane) {
-  for (size_t steps = filterOf(header, of.level).steps.size(); steps > 0; steps -= 2) {
+  const int patches = header.domain.forest.patches();
+  const std::vector<Cells> cells = cellsOf(header, of.level, plane);
+  for (int patch = 0; patch < patches; ++patch)
+    Joint(header, of, 0, patch, plane, cells.back()).hold();
+  for (size_t round = cells.size() - 1; round-- > 0;) {
     for (const auto& lift : {&Joint::liftA, &Joint::liftBC, &Joint::liftD}) {
-      for (int patch = 0; patch < header.domain.forest.patches(); ++patch)
-        (Joint(header, of, steps - 2, patch, plane).*lift)();
+      for (int patch = 0; patch < patches; ++patch)
+        (Joint(header, of, 2 * round, patch, plane, cells[round]).*lift)();
     }
   }
 }

@@ -169,7 +169,7 @@ CodedHeights tryHeights(std::shared_ptr<const QuantisedHeights> quantised,
   FlatChoice choice =
       chooseFlatAreas(steps.lifting(extentOf(*quantised->samples)), quantised->mayBeFlat(),
                       {steps.range_bits, target.purpose, target.bytes, target.mean_square,
-                       options.threads, target.purpose == Purpose::kLossy});
+                       options.threads, target.purpose == Purpose::kLossy, quantised->forest});
   if (options.windows) choice.wavelet = withShortReach(choice.wavelet);
   HeightLayers layers = layersAround(*quantised, std::move(choice), options.priorities);
   layers.mask_room = target.mask_room;

@@ -13,6 +13,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/forest.hpp"
 #include "codec/geometry/coding_choice/tried_plane.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/wavelet/choice/plane_cost.hpp"
@@ -76,7 +77,7 @@ class FlatTrials {
     FlatChoice plain = {{}, wavelet_};
     const uint64_t samples = heights_.extent().samples();
     if (finder_.samplesOf(kPond, whole()) * kLeastShare < samples) return plain;
-    for (const SampledPart& part : sampleParts(finder_, kPond, kLeastSamples))
+    for (const SampledPart& part : sampleParts(finder_, kPond, kLeastSamples, heights_.patch_rows))
       parts_.emplace_back(heights_, valid_, part);
     const Trial best = bestTrial();
     if (best.price != kNoAreas) plain.flat.ratio = best.ratio;
@@ -169,11 +170,12 @@ class FlatTrials {
                        kHeaderBits + plane.bitsOfAreas());
   }
 
-  /// Early doubling is cheap where levels are lifted jointly. Beside held samples levels are not.
+  /// Early doubling is cheap where levels are lifted jointly. Beside held samples levels are not,
+  /// but on forests.
   WaveletHeader waveletBeside(const FlatAreas& areas) const {
     WaveletHeader header = chooseWavelet(heights_, areas.held(), purpose_.range_bits,
                                          purpose_.purpose, rateOf(heights_, purpose_));
-    if (header.first_doubled > 0)
+    if (header.first_doubled > 0 && purpose_.forest == nullptr)
       header.first_doubled = static_cast<uint8_t>(WaveletSpec().first_doubled);
     return header;
   }
@@ -193,10 +195,13 @@ class FlatTrials {
 
 FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, Mask valid,
                            const HeightPurpose& purpose) {
-  if (heights.patch_rows > 0)  // there are no flat areas
-    return {{},
-            chooseWavelet(heights, purpose.range_bits, purpose.purpose, rateOf(heights, purpose))};
-  return FlatTrials(heights, valid, purpose).choose();
+  const SharedForest& forest = purpose.forest;
+  if (forest == nullptr) return FlatTrials(heights, valid, purpose).choose();
+  const std::vector<uint8_t> owned = ownedSamples(*forest).bytes();
+  FlatChoice choice = FlatTrials(heights, owned, purpose).choose();
+  std::vector<uint16_t>& numbers = choice.flat.areas.numbers;
+  if (!numbers.empty()) shareOwned(*forest, std::span(numbers), forest->side() - 1);
+  return choice;
 }
 
 }  // namespace tetrakis::inline coding_choice

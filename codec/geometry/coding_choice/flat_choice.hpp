@@ -37,6 +37,7 @@ struct HeightPurpose {
   double mean_square = 0;       ///< > 0: the error wanted, in squared steps
   uint32_t threads = 1;         ///< nothing depends on them
   bool seen = false;            ///< heights of prefixes are shown without corrections
+  SharedForest forest = {};     ///< that the heights are the raster of; null: of none
 };
 
 struct FlatChoice {

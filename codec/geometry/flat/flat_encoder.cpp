@@ -118,7 +118,7 @@ constexpr std::array<size_t, 3> kMost = {8, 4, 4};
 constexpr size_t kMostParts = 16;
 
 /// The parts of a grid. The last row and column of parts take the rest of the plane.
-std::vector<Window> partsOf(Extent plane) {
+std::vector<Window> gridOf(Extent plane) {
   const auto count = [](uint32_t side) { return std::max((side + kPartSide / 2) / kPartSide, 1u); };
   const uint32_t columns = count(plane.width), rows = count(plane.height);
   std::vector<Window> parts;
@@ -130,6 +130,16 @@ std::vector<Window> partsOf(Extent plane) {
       parts.push_back({x, y, column + 1 < columns ? kPartSide : plane.width - x, height});
     }
   }
+  return parts;
+}
+
+/// Those of a plane, or of each patch.
+std::vector<Window> partsOf(Extent plane, uint32_t patch_rows) {
+  const uint32_t rows = patch_rows > 0 ? patch_rows : plane.height;
+  const std::vector<Window> first = gridOf({plane.width, rows});
+  std::vector<Window> parts;
+  for (uint32_t y = 0; y < plane.height; y += rows)
+    for (const Window& part : first) parts.push_back({part.x, y + part.y, part.width, part.height});
   return parts;
 }
 
@@ -147,10 +157,18 @@ void takeEvenly(const std::vector<Window>& parts, size_t most, std::vector<Sampl
 
 }  // namespace
 
-std::vector<SampledPart> sampleParts(const FlatFinder& finder, uint32_t large, uint32_t small) {
+std::vector<SampledPart> sampleParts(const FlatFinder& finder, uint32_t large, uint32_t small,
+                                     uint32_t patch_rows) {
   const Extent plane = finder.extent();
-  const std::vector<Window> parts = partsOf(plane);
-  if (parts.size() <= kMostParts) return {{{0, 0, plane.width, plane.height}, 1}};
+  const std::vector<Window> parts = partsOf(plane, patch_rows);
+  if (parts.size() <= kMostParts && patch_rows == 0)
+    return {{{0, 0, plane.width, plane.height}, 1}};
+  if (parts.size() <= kMostParts) {
+    std::vector<SampledPart> patches;
+    for (uint32_t y = 0; y < plane.height; y += patch_rows)
+      patches.push_back({{0, y, plane.width, patch_rows}, 1});
+    return patches;
+  }
   std::array<std::vector<Window>, kMost.size()> kinds;
   for (const Window& part : parts) {
     const uint64_t in_large = finder.samplesOf(large, part);

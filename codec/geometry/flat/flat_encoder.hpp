@@ -64,7 +64,8 @@ struct SampledPart {
 /// Returns one part, the whole plane, if that is small; else parts of each of three kinds: those
 /// with samples of areas of at least `large` samples and others, those of the rest with samples of
 /// areas of at least `small`, and those without. They are taken at equal distances along the rows
-/// of parts of their kind.
-std::vector<SampledPart> sampleParts(const FlatFinder& finder, uint32_t large, uint32_t small);
+/// of parts of their kind. patch_rows: as of PlaneView; no part reaches into two patches.
+std::vector<SampledPart> sampleParts(const FlatFinder& finder, uint32_t large, uint32_t small,
+                                     uint32_t patch_rows = 0);
 
 }  // namespace tetrakis::inline flat

@@ -126,14 +126,15 @@ size_t markedIn(Extent plane, const Mask& mask) {
 namespace {
 
 /// The fields of a patch in an order of which any few in a row lie far apart.
-constexpr std::array<uint32_t, kFields * kFields> kApart = {0, 4, 8, 5, 6, 1, 7, 2, 3};
+constexpr std::array<uint32_t, kFields* kFields> kApart = {0, 4, 8, 5, 6, 1, 7, 2, 3};
 
 /// Of a forest: some whole patches where these are small, else as many fields of each patch, or of
 /// as many patches as there are fields.
-std::vector<Window> partsOfPatches(Extent plane, uint32_t side, uint32_t rows) {
+std::vector<Window> partsOfPatches(Extent plane, uint32_t side, uint32_t rows,
+                                   const IsCoded& is_coded) {
   const uint32_t fields = kFields * kFields;
   const uint32_t patches = plane.height / rows;
-  std::vector<Window> parts;
+  std::vector<Window> parts, empty;
   if (rows <= 2 * side) {
     const uint32_t fit = std::max(fields * side * side / (rows * rows), 1u);
     const uint32_t count = std::min(patches, fit);
@@ -144,18 +145,21 @@ std::vector<Window> partsOfPatches(Extent plane, uint32_t side, uint32_t rows) {
   const uint32_t seen = std::min(patches, fields), of_each = (fields + seen - 1) / seen;
   for (uint32_t i = 0; i < seen * of_each; ++i) {
     const uint32_t field = kApart[i % fields];
-    Window part = partOf(field % kFields, field / kFields, {rows, rows}, side, {}).part;
-    part.y += static_cast<uint32_t>(uint64_t{i / of_each} * patches / seen) * rows;
-    parts.push_back(part);
+    const auto patch = static_cast<uint32_t>(uint64_t{i / of_each} * patches / seen);
+    const size_t before = size_t{patch} * rows * rows;
+    const IsCoded here = is_coded ? [&](size_t k) { return is_coded(before + k); } : IsCoded();
+    FieldPart found = partOf(field % kFields, field / kFields, {rows, rows}, side, here);
+    found.part.y += patch * rows;
+    (found.coded > 0 ? parts : empty).push_back(found.part);
   }
-  return parts;
+  return parts.empty() ? empty : parts;
 }
 
 }  // namespace
 
 std::vector<Window> typicalParts(Extent plane, uint32_t side, const IsCoded& is_coded,
                                  uint32_t patch_rows) {
-  if (patch_rows > 0) return partsOfPatches(plane, side, patch_rows);
+  if (patch_rows > 0) return partsOfPatches(plane, side, patch_rows, is_coded);
   const auto [width, height] = plane;
   if (std::max(width, height) <= kWholeSide) return {{0, 0, width, height}};
   std::vector<Window> parts, empty;

@@ -97,8 +97,13 @@ EncodedTrack cutAt(const EncodedTrack& whole, uint64_t bytes) {
 
 /// The purpose of coefficients that are cut before corrections: the error that cuts usually leave.
 HeightPurpose cutPurpose(const Correctable& heights) {
-  return {heights.quantised->steps.range_bits, heights.purpose, UINT64_MAX,
-          usualCut(heights.largest), heights.options.threads};
+  return {heights.quantised->steps.range_bits,
+          heights.purpose,
+          UINT64_MAX,
+          usualCut(heights.largest),
+          heights.options.threads,
+          false,
+          heights.quantised->forest};
 }
 
 /// One track of complete coefficients, and the layers around it.

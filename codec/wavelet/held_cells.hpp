@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// HeldCells says what joint lifting makes of held samples on a forest (held_lifting.hpp is about
+// those of planes, which are lifted along rows and along columns). A step gives a held sample what
+// it makes of a surface that has its value everywhere. Such a surface keeps one value at all corners
+// of its cells, one at all sides and one at all centres (lifting/lifting.hpp).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "codec/wavelet/pyramid.hpp"
+#include "codec/wavelet/wavelet.hpp"
+
+namespace tetrakis::inline wavelet {
+
+/// The samples of a surface of one value.
+struct HeldCell {
+  int32_t corner, side, centre;
+};
+
+/// [r][area]: before round r of a level's analysis, and after the last one.
+using HeldRounds = std::vector<std::vector<HeldCell>>;
+
+class HeldCells {
+ public:
+  /// Of areas that have these values in the plane.
+  HeldCells(const WaveletSpec& spec, const Pyramid& pyramid);
+
+  /// level: from 1 on.
+  HeldRounds level(int level) const;
+
+ private:
+  WaveletSpec spec_;
+  std::vector<std::vector<int32_t>> values_;  ///< [level]: of its low band
+};
+
+}  // namespace tetrakis::inline wavelet
