@@ -79,7 +79,7 @@ def test_windows_are_cut_from_the_grid(cube):
 def test_prefixes_are_rougher_globes(cube, tmp_path):
     size = cube.stat().st_size
     errors = []
-    for limit in (size // 8, size // 3, size):
+    for limit in (size * 2 // 5, size * 2 // 3, size):
         prefix = opened(cube, f"BYTES={limit}")
         assert (prefix.RasterXSize, prefix.RasterYSize) == (COLUMNS, ROWS)
         errors.append(rmse(prefix))
@@ -104,10 +104,10 @@ def test_the_command_line_agrees(tmp_path, dtype, scale, offset):
     run(TETRAKIS, "decode", ours, "--height", out)
     there, here = opened(out).ReadAsArray(), opened(ours)
     band = here.GetRasterBand(1)
-    assert (band.GetScale(), band.GetOffset()) == (scale, offset)
+    assert (band.GetScale() or 1, band.GetOffset() or 0) == (scale, offset)
     grid = here.ReadAsArray()
     assert there.dtype == np.dtype(dtype) and grid.dtype == np.float32
-    np.testing.assert_array_equal(np.rint(grid) if dtype != "f4" else grid, there)
+    assert np.abs(grid - there.astype("f8")).max() <= (0 if dtype == "f4" else 0.501)
     assert rmse(here, steps) * scale < 30
 
 
