@@ -6,7 +6,7 @@ import subprocess
 import numpy as np
 import pytest
 from conftest import REPOSITORY, RGB, copy, gdal, memory, refused, system
-from test_open_options import opened
+from test_open_options import Server, opened, served
 
 TETRAKIS = REPOSITORY / "build/tetrakis"
 ROWS, COLUMNS = 150, 300
@@ -88,6 +88,20 @@ def test_prefixes_are_rougher_globes(cube, tmp_path):
         np.testing.assert_array_equal(cut, prefix.ReadAsArray())
     assert errors[0] > errors[1] > errors[2]
     assert rmse(opened(cube, "STRICT=YES")) == errors[2]
+
+
+@pytest.mark.parametrize("index", ["INDEX=NO", "INDEX=YES"])
+def test_over_a_network_the_first_pixel_takes_the_stream(tmp_path, index):
+    rough = world() + np.random.default_rng(3).normal(0, 50, (ROWS, COLUMNS)).astype("f4")
+    copy(globe(rough), tmp_path / "a.tks", "DOMAIN=CUBE", "BYTES=60000", index)
+    here = opened(tmp_path / "a.tks").ReadAsArray()
+    with served(tmp_path / "a.tks") as url:
+        dataset = opened(url)
+        assert sum(last - first for first, last in Server.ranges) < len(Server.data) / 2
+        for x in (7, 200):
+            part = dataset.ReadAsArray(x, 40, 9, 9)
+            np.testing.assert_array_equal(part, here[40:49, x : x + 9])
+            assert sum(last - first for first, last in Server.ranges) <= len(Server.data)
 
 
 @pytest.mark.parametrize("dtype, scale, offset", [("f4", 1, 0), ("i2", 1, 0), ("u2", 0.5, -4500)])
