@@ -66,8 +66,8 @@ class Source {
   uint32_t coarsestLevel() const;
   /// Side of the regions by which windows are decoded; 0: they take as long as all.
   uint32_t regionSide() const;
-  /// Of heights on a cube, which are shown as the geographic grid that they were made of, in floats;
-  /// 0: they are none. There is only level 0 of them, and windows alone.
+  /// Of heights on a cube, which are shown as the geographic grid that they were made of, in
+  /// floats; 0: they are none. There is only level 0 of them, and windows alone.
   uint32_t cubeDepth() const { return part_ == TKS_PART_HEIGHTS ? cube_depth_ : 0; }
   /// Says how many degrees the unit of the grid's CRS has, before any window is read. False after a
   /// reported error: this is no such grid.
