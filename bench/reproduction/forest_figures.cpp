@@ -2,6 +2,7 @@
 #include "bench/reproduction/forest_figures.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <numeric>
@@ -53,6 +54,9 @@ void countSizes(const Solid& solid, std::vector<ResultRow>& rows) {
     rows.push_back({solid.name, of, "vertices", static_cast<double>(mesh.vertices.size())});
     rows.push_back({solid.name, of, "triangles", static_cast<double>(mesh.triangleCount())});
     rows.push_back({solid.name, of, "euler", eulerOf(mesh)});
+    const double interior = std::ldexp(forest.patches(), 2 * depth);
+    rows.push_back(
+        {solid.name, of, "vertices_beyond", static_cast<double>(mesh.vertices.size()) - interior});
   }
 }
 

@@ -4,8 +4,6 @@
 // paths beside those of one quadtree, medians of processor time of one thread.
 #include <cstdio>
 #include <ctime>
-#include <memory>
-#include <numeric>
 #include <optional>
 #include <random>
 #include <string>
@@ -16,8 +14,8 @@
 #include "bench/harness/results.hpp"
 #include "bench/reproduction/forest_figures.hpp"
 #include "bench/reproduction/forest_terrain.hpp"
-#include "codec/mesh/forest/forest_lattice.hpp"
-#include "codec/mesh/forest/forest_mesh.hpp"
+#include "bench/reproduction/forest_walks.hpp"
+#include "bench/reproduction/solids.hpp"
 #include "codec/mesh/study/forest_quadtree.hpp"
 
 namespace {
@@ -32,206 +30,116 @@ struct Options {
   std::string csv;
 };
 
-struct Start {
-  ForestNode node;
-  Heading heading;
-};
-
-/// Walks of `steps` nodes each.
-struct Walks {
-  std::string name;
-  uint32_t steps;
-  std::vector<Start> starts;
-};
-
-/// A mesh of a forest, and the nodes that it has.
-struct Stored {
-  Stored(const ForestTerrain& terrain, uint32_t divisor);
-
-  std::string name;
-  std::string mesh;
-  std::unique_ptr<ForestQuadtree> tree;
-  std::vector<ForestNode> nodes;
-};
-
-Stored::Stored(const ForestTerrain& terrain, uint32_t divisor)
-    : name(terrain.name), mesh(divisor == 1 ? "complete" : "fiftieth") {
-  const ForestLattice lattice(terrain.forest);
-  std::vector<ForestVertex> vertices(lattice.vertexCount());
-  std::iota(vertices.begin(), vertices.end(), 0u);
-  const uint32_t triangles = 2u * terrain.forest.patches() << 2 * terrain.forest.depth();
-  if (divisor != 1) vertices = forestBudgetVertices(lattice, terrain.heights, triangles / divisor);
-  const std::vector<float> heights(terrain.heights.begin(), terrain.heights.end());
-  tree = std::make_unique<ForestQuadtree>(lattice, vertices, heights);
-  for (uint32_t patch = 0; patch < terrain.forest.patches(); ++patch)
-    tree->patch(patch).forEachVertex([&](const QuadtreePlace& place) {
-      if (place.tree == QuadtreePlace::kNodes && place.vertex == kCentre)
-        nodes.push_back({patch, tree->patch(patch).shape().squareOf(place.level, place.node)});
-    });
-}
-
-/// Reads the heights of the next nodes in one direction, over sides of patches.
-double walkForest(const ForestQuadtree& tree, const Start& start, uint32_t steps) {
-  ForestTraversal at(tree.adjacency(), start.node);
-  uint32_t patch = start.node.patch;
-  const uint32_t level = start.node.square.level;
-  LevelCursor<3> cursor(tree.patch(patch).nodes(level));
-  const float* values = tree.patch(patch).values().data();
-  double sum = 0;
-  for (uint32_t i = 0; i < steps; ++i) {
-    at.step(start.heading);
-    if (at.node().patch != patch) {
-      patch = at.node().patch;
-      cursor = LevelCursor<3>(tree.patch(patch).nodes(level));
-      values = tree.patch(patch).values().data();
-    }
-    const uint32_t number = cursor.number(at.local(), kCentre);
-    if (number != kNoVertex) sum += static_cast<double>(values[number]);
-  }
-  return sum;
-}
-
-template <class Step>
-double walkTree(const SemilinearQuadtree& tree, const IndexDifferences& differences,
-                const Square& start, uint32_t steps, Step step) {
-  Traversal at(differences, start);
-  LevelCursor<3> cursor(tree.nodes(start.level));
-  double sum = 0;
-  for (uint32_t i = 0; i < steps; ++i) {
-    step(at);
-    const uint32_t number = cursor.number(at.node(), kCentre);
-    if (number != kNoVertex) sum += static_cast<double>(tree.values()[number]);
-  }
-  return sum;
-}
-
-/// The same in one quadtree, which the toroidal differences of theorem 4.1 close.
-double walkOneTree(const ForestQuadtree& forest, const Start& start, uint32_t steps) {
-  const SemilinearQuadtree& tree = forest.patch(0);
-  const IndexDifferences& differences = forest.adjacency().differences();
-  const auto walk = [&](auto step) {
-    return walkTree(tree, differences, start.node.square, steps, step);
-  };
-  switch (start.heading) {
-    case Heading::kNorth:
-      return walk([](Traversal& t) { t.north(); });
-    case Heading::kEast:
-      return walk([](Traversal& t) { t.east(); });
-    case Heading::kSouth:
-      return walk([](Traversal& t) { t.south(); });
-    case Heading::kWest:
-      return walk([](Traversal& t) { t.west(); });
-  }
-  return 0;
-}
-
-bool leavesPatch(const Start& start) {
-  const auto [level, column, row] = start.node.square;
-  const uint32_t last = (1u << level) - 1;
-  const bool ends[] = {row == 0, column == last, row == last, column == 0};
-  return ends[static_cast<size_t>(start.heading)];
-}
-
-std::vector<Walks> makeWalks(const Stored& stored) {
-  constexpr uint32_t kRead = 1 << 19, kCrossings = 1 << 16;
-  std::mt19937 random(1);
-  const auto draw = [&](const std::vector<ForestNode>& nodes) {
-    return Start{nodes[random() % nodes.size()],
-                 turned(Heading::kNorth, static_cast<uint32_t>(random()))};
-  };
-  std::vector<Walks> all;
-  for (const uint32_t steps : {1, 16, 512}) {
-    Walks walks{steps == 1 ? "neighbour" : "path_" + std::to_string(steps), steps, {}};
-    while (walks.starts.size() < kRead / steps) walks.starts.push_back(draw(stored.nodes));
-    all.push_back(std::move(walks));
-  }
-  Walks crossings{"crossing", 1, {}};
-  std::vector<ForestNode> outer;
-  for (const ForestNode& node : stored.nodes)
-    for (uint32_t side = 0; side < Forest::kSides; ++side)
-      if (leavesPatch({node, turned(Heading::kNorth, side)})) outer.push_back(node);
-  while (crossings.starts.size() < kCrossings) {
-    const Start start = draw(outer);
-    if (leavesPatch(start)) crossings.starts.push_back(start);
-  }
-  all.push_back(std::move(crossings));
-  return all;
-}
-
 double processorSeconds(const auto& work) {
   const std::clock_t start = std::clock();
   work();
   return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
-/// Nanoseconds a node of each kind of walk, and their sums: the same of the same terrain.
-template <class Walk>
-std::vector<double> measureWalks(const Stored& stored, const std::string& name, const Walk& walk,
-                                 int runs, std::vector<ResultRow>& rows) {
-  std::vector<double> sums;
-  std::printf("%-20s %-9s %9zu", name.c_str(), stored.mesh.c_str(), stored.nodes.size());
-  rows.push_back({name, stored.mesh, "nodes", static_cast<double>(stored.nodes.size())});
-  for (const Walks& walks : makeWalks(stored)) {
-    std::vector<double> times;
-    double sum = 0;
-    for (int run = 0; run < runs; ++run) {
-      sum = 0;
-      times.push_back(processorSeconds([&] {
-        for (const Start& start : walks.starts) sum += walk(*stored.tree, start, walks.steps);
-      }));
-    }
-    sums.push_back(sum);
-    const double nodes = static_cast<double>(walks.starts.size()) * walks.steps;
-    const double each = 1e9 * median(times) / nodes;
-    std::printf(" %9.1f", each);
-    rows.push_back({name, stored.mesh, walks.name + "_ns_per_node", each});
-  }
-  return sums;
+/// One way to walk over a stored mesh, and what it took.
+struct Contender {
+  std::string name;
+  const Stored* stored;
+  double (*walk)(const ForestQuadtree& tree, const Start& start, uint32_t steps);
+  std::vector<double> figures;
+};
+
+/// Alternating runs of all contenders: medians of nanoseconds for each of so many.
+template <class Work>
+void measureAlike(std::vector<Contender>& contenders, int runs, const Work& work, double count) {
+  std::vector<std::vector<double>> times(contenders.size());
+  for (int run = 0; run < runs; ++run)
+    for (size_t i = 0; i < contenders.size(); ++i)
+      times[i].push_back(processorSeconds([&] { work(contenders[i], i); }));
+  for (size_t i = 0; i < contenders.size(); ++i)
+    contenders[i].figures.push_back(1e9 * median(times[i]) / count);
 }
 
-/// What a forest stores, and the time to find the node at a point.
-void measureStore(const Stored& stored, const std::string& name, int runs,
-                  std::vector<ResultRow>& rows) {
+/// A point of a patch.
+struct At {
+  uint32_t patch;
+  double x, y;
+};
+
+std::vector<At> makePoints(const ForestAdjacency& adjacency) {
   constexpr size_t kPoints = 1 << 17;
   std::mt19937 random(2);
-  const ForestQuadtree& tree = *stored.tree;
-  std::uniform_real_distribution<double> along(0, 1u << tree.adjacency().depth());
-  struct At {
-    uint32_t patch;
-    double x, y;
-  };
+  std::uniform_real_distribution<double> along(0, 1u << adjacency.depth());
   std::vector<At> points;
   for (size_t i = 0; i < kPoints; ++i)
-    points.push_back({static_cast<uint32_t>(random() % tree.adjacency().patches()), along(random),
-                      along(random)});
-  std::vector<double> times;
-  uint64_t levels = 0;
-  for (int run = 0; run < runs; ++run)
-    times.push_back(processorSeconds([&] {
-      for (const At& p : points) {
-        const auto node = tree.locate(p.patch, p.x, p.y);
-        levels += node ? node->square.level + 1 : 0;
-      }
-    }));
-  const double each = 1e9 * median(times) / kPoints;
-  const double bytes = static_cast<double>(tree.bytes()) / tree.vertexCount();
-  const double mean_level =
-      static_cast<double>(levels) / static_cast<double>(kPoints) / static_cast<double>(runs);
-  std::printf(" %9.1f %9.2f\n", each, bytes);
-  std::fflush(stdout);
-  rows.push_back({name, stored.mesh, "locate_ns", each});
-  rows.push_back({name, stored.mesh, "located_levels", mean_level});
-  rows.push_back({name, stored.mesh, "bytes_per_vertex", bytes});
+    points.push_back(
+        {static_cast<uint32_t>(random() % adjacency.patches()), along(random), along(random)});
+  return points;
 }
 
-/// One quadtree, and the same with its sides glued to each other: what adjacency costs.
-Status measureOneTree(const Stored& stored, int runs, std::vector<ResultRow>& rows) {
-  const std::vector<double> alone = measureWalks(stored, "one tree", walkOneTree, runs, rows);
-  measureStore(stored, "one tree", runs, rows);
-  const std::vector<double> glued = measureWalks(stored, stored.name, walkForest, runs, rows);
-  measureStore(stored, stored.name, runs, rows);
-  if (alone == glued) return {};
-  return {TKS_MISMATCH, "One quadtree and the forest of it read different heights."};
+/// The levels of the nodes at points, in the mean, and the time to find them.
+void measurePoints(std::vector<Contender>& contenders, int runs) {
+  std::vector<std::vector<At>> points;
+  for (const Contender& c : contenders) points.push_back(makePoints(c.stored->tree->adjacency()));
+  std::vector<uint64_t> levels(contenders.size());
+  const auto count = static_cast<double>(points[0].size());
+  measureAlike(
+      contenders, runs,
+      [&](const Contender& c, size_t i) {
+        levels[i] = 0;
+        for (const At& at : points[i]) {
+          const auto node = c.stored->tree->locate(at.patch, at.x, at.y);
+          levels[i] += node ? node->square.level + 1 : 0;
+        }
+      },
+      count);
+  for (size_t i = 0; i < contenders.size(); ++i)
+    contenders[i].figures.push_back(static_cast<double>(levels[i]) / count);
+}
+
+/// All walks, then points. Fails if the first two contenders, which have one mesh, differ.
+Status measureAll(std::vector<Contender>& contenders, int runs) {
+  std::vector<std::vector<Walks>> walks;
+  for (const Contender& c : contenders) walks.push_back(makeWalks(*c.stored));
+  for (size_t kind = 0; kind < walks[0].size(); ++kind) {
+    std::vector<double> sums(contenders.size());
+    const Walks& first = walks[0][kind];
+    measureAlike(
+        contenders, runs,
+        [&](const Contender& c, size_t i) {
+          sums[i] = 0;
+          for (const Start& start : walks[i][kind].starts)
+            sums[i] += c.walk(*c.stored->tree, start, first.steps);
+        },
+        static_cast<double>(first.starts.size()) * first.steps);
+    if (sums[0] != sums[1])
+      return {TKS_MISMATCH, "One quadtree and the forest of it read different heights."};
+  }
+  measurePoints(contenders, runs);
+  return {};
+}
+
+/// Table 4.1 on forests of meshes of 1 / divisor of all triangles. The first contender has one
+/// quadtree, the second the same with its sides glued to each other: what adjacency costs.
+Status measureForests(const std::vector<ForestTerrain>& terrains, uint32_t divisor, int runs,
+                      std::vector<ResultRow>& rows) {
+  std::vector<Stored> stored;
+  for (const ForestTerrain& terrain : terrains) stored.emplace_back(terrain, divisor);
+  std::vector<Contender> contenders = {{"one tree", &stored[0], walkOneTree, {}}};
+  for (const Stored& s : stored) contenders.push_back({s.name, &s, walkForest, {}});
+  if (Status status = measureAll(contenders, runs); !status.ok()) return status;
+  const char* quantities[] = {
+      "neighbour_ns_per_node", "path_16_ns_per_node", "path_512_ns_per_node",
+      "crossing_ns_per_node",  "locate_ns",           "located_levels"};
+  for (const Contender& c : contenders) {
+    const ForestQuadtree& tree = *c.stored->tree;
+    const double bytes = static_cast<double>(tree.bytes()) / tree.vertexCount();
+    std::printf("%-20s %-9s %9zu", c.name.c_str(), c.stored->mesh.c_str(), c.stored->nodes.size());
+    const auto nodes = static_cast<double>(c.stored->nodes.size());
+    rows.push_back({c.name, c.stored->mesh, "nodes", nodes});
+    rows.push_back({c.name, c.stored->mesh, "bytes_per_vertex", bytes});
+    for (size_t i = 0; i < c.figures.size(); ++i) {
+      std::printf(" %9.1f", c.figures[i]);
+      rows.push_back({c.name, c.stored->mesh, quantities[i], c.figures[i]});
+    }
+    std::printf(" %9.2f\n", bytes);
+  }
+  return {};
 }
 
 Status run(const Options& options) {
@@ -241,24 +149,18 @@ Status run(const Options& options) {
   listPaths(rows);
   if (!options.meshes.empty())
     if (Status status = writeMeshes(options.meshes); !status.ok()) return status;
-  std::printf("%-20s %-9s %9s %9s %9s %9s %9s %9s %9s\n", "forest (ns a node)", "mesh", "nodes",
-              "neighbour", "path_16", "path_512", "crossing", "locate", "bytes");
+  std::printf("%-20s %-9s %9s %9s %9s %9s %9s %9s %9s %9s\n", "forest (ns a node)", "mesh", "nodes",
+              "neighbour", "path_16", "path_512", "crossing", "locate", "levels", "bytes");
   const auto depth = static_cast<int>(options.depth);
-  for (const uint32_t divisor : {1u, 50u}) {
-    if (Status status = measureOneTree({torusOf(1, depth), divisor}, options.runs, rows);
-        !status.ok())
+  const std::vector<ForestTerrain> terrains = {torusOf(1, depth),
+                                               torusOf(2, depth - 1),
+                                               torusOf(4, depth - 2),
+                                               terrainOn(octahedron(), depth - 1),
+                                               terrainOn(tetrakisHexahedron(), depth - 1),
+                                               terrainOn(icosahedron(), depth - 2)};
+  for (const uint32_t divisor : {1u, 50u})
+    if (Status status = measureForests(terrains, divisor, options.runs, rows); !status.ok())
       return status;
-    const auto measure = [&](const ForestTerrain& terrain) {
-      const Stored stored(terrain, divisor);
-      measureWalks(stored, stored.name, walkForest, options.runs, rows);
-      measureStore(stored, stored.name, options.runs, rows);
-    };
-    measure(torusOf(2, depth - 1));
-    measure(torusOf(4, depth - 2));
-    measure(terrainOn(octahedron(), depth - 1));
-    measure(terrainOn(tetrakisHexahedron(), depth - 1));
-    measure(terrainOn(icosahedron(), depth - 2));
-  }
   return updateResults(options.csv, "thesis_forests", rows);
 }
 
