@@ -81,4 +81,11 @@ ForestTerrain torusOf(uint32_t columns, int depth) {
   });
 }
 
+ForestTerrain straightPair(int depth) {
+  return filled("straight pair", Forest(depth, {6, 7, 4, 5, 2, 3, 0, 1}),
+                [](uint32_t patch, double x, double y) {
+                  return Point{patch + x, y, 0};
+                });
+}
+
 }  // namespace tetrakis::bench

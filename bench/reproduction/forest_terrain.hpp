@@ -22,5 +22,8 @@ struct ForestTerrain {
 ForestTerrain terrainOn(const Solid& solid, int depth);
 /// A square of columns x columns patches whose opposite ends are glued to a torus.
 ForestTerrain torusOf(uint32_t columns, int depth);
+/// Two patches, each beyond all sides of the other, that the toroidal differences (4.2) and (4.4)
+/// glue, as section 4.6 has it for an octahedron: no pair turns, and the surface is a torus.
+ForestTerrain straightPair(int depth);
 
 }  // namespace tetrakis::bench

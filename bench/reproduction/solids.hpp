@@ -35,8 +35,7 @@ Solid tetrahedron();
 Solid octahedron();
 /// Ten pairs of triangles.
 Solid icosahedron();
-/// A cube whose faces have middles that are raised to half of its side: the thesis's 4-8 mesh on each
-/// face of a cube.
+/// A cube of six patches, whose middles are raised by a quarter of a side.
 Solid tetrakisHexahedron();
 
 /// What the sides of patches are glued to, as Forest has it. Every edge has two patches.
@@ -46,12 +45,12 @@ Point pointOf(const Solid& solid, uint32_t patch, double x, double y);
 /// The point of the unit sphere in the same direction.
 Point onSphere(const Point& point);
 
-/// Sides that a path does not leave as it enters them, so that what is ahead turns (thesis 4.6):
-/// pairs that are no north and south, and no east and west.
+/// Pairs that are neither a north and a south nor an east and a west: what is ahead of a path turns
+/// there (thesis 4.6).
 uint32_t turnedPairs(const std::vector<uint32_t>& sides);
 
-/// Ways to lay the patches of a solid, which start at any corner, or, where they have a diagonal, at
-/// either of its ends.
+/// Ways to lay the patches of a solid. Their north-west is any corner, or, where they have a
+/// diagonal, either of its ends.
 struct Layouts {
   uint64_t count = 0;
   uint32_t least_turned = UINT32_MAX;          ///< pairs, of all layouts

@@ -155,6 +155,7 @@ Status run(const Options& options) {
   const std::vector<ForestTerrain> terrains = {torusOf(1, depth),
                                                torusOf(2, depth - 1),
                                                torusOf(4, depth - 2),
+                                               straightPair(depth - 1),
                                                terrainOn(octahedron(), depth - 1),
                                                terrainOn(tetrakisHexahedron(), depth - 1),
                                                terrainOn(icosahedron(), depth - 2)};

@@ -39,8 +39,8 @@ def figure_33(page):
         column[0].set_title(solid)
     page.figure("Figure 3.3", "Platonic solids of triangles, and spheres made of them", picture,
                 "the three solids; their subdivisions tessellate the sphere.",
-                "4-8 meshes of two, two and ten patches (a colour each) at depth 2; the same on the "
-                "sphere at depth 3; and the best meshes of at most 1600 triangles of fractal "
+                "4-8 meshes of two, two and ten patches (a colour each) at depth 2; the same on "
+                "the sphere at depth 3; and the best meshes of at most 1600 triangles of fractal "
                 "heights at depth 7, conforming across all patches.", FORESTS)
 
 

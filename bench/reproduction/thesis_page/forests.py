@@ -10,7 +10,7 @@ from solids import FORESTS, bare, draw_grid, draw_solid
 
 SIDES = "NESW"
 SOLIDS = ("tetrahedron", "octahedron", "icosahedron", "tetrakishexahedron")
-TREES = ("one tree", "1x1", "2x2", "4x4", *SOLIDS[1:])
+TREES = ("one tree", "1x1", "2x2", "4x4", "straight pair", *SOLIDS[1:])
 # Where the patches of the cube lie when it is unfolded: column and row.
 NET = {0: (0, 1), 1: (1, 1), 2: (2, 1), 3: (3, 1), 4: (0, 0), 5: (0, 2)}
 
@@ -39,11 +39,11 @@ def figure_48(page, results):
     equal = all(c == 2 * 4**d + 2 for d, c in enumerate(counts, 1))
     get = lambda q: int(results("octahedron", "layout", q))
     page.figure("Figure 4.8", "The octahedron of two quadtrees", picture,
-                "a hemisphere a quadtree, no binary tree for borders; (4.2) and (4.4) lead from one "
-                "to the other.",
+                "a hemisphere a quadtree, no binary tree for borders; (4.2) and (4.4) lead from "
+                "one to the other.",
                 f"vertices of depths 1 to 6: {', '.join(map(str, counts))}"
-                f"{', 2·4^d + 2 each' if equal else ''}; {get('border_trees')} border trees. White: "
-                "stored in this hemisphere, filled: in the other, squares: corners. With (4.2) and "
+                f"{', 2·4^d + 2 each' if equal else ''}; {get('border_trees')} border trees. "
+                "White: stored in this hemisphere, filled: in the other, squares: corners. With (4.2) and "
                 "(4.4) on both axes the patches close to a torus; the octahedron needs "
                 f"{get('turned')} pairs that turn, (N,E), (E,N), (S,W) and (W,S). "
                 f"{get('least_turned')} pairs would do, with border trees.", FORESTS)
@@ -74,8 +74,8 @@ def figure_49(page, results):
     get = lambda q: int(results("tetrakishexahedron", "layout", q))
     page.figure("Figure 4.9", "The tetrakishexahedron, and its adjacency", picture,
                 "6 of the 12 edges need a rotation.",
-                f"{get('turned')} of 12 (in colour; a side, the side behind it, and its patch), the "
-                f"least of all {get('layouts')} ways to lay the faces. This layout, that of globes "
+                f"{get('turned')} of 12 (in colour; a side, the side behind it, and its patch), "
+                f"the least of all {get('layouts')} ways to lay the faces. This layout, that of globes "
                 f"in streams, needs {get('border_trees')} border trees; others need "
                 f"{get('least_border_trees')}, at {get('turned_without_trees')} turns.", FORESTS)
 
@@ -128,10 +128,11 @@ def figure_410(page, results):
         axis.set_ylim(bottom + 0.05, -0.05)
         bare(axis)
     page.figure("Figure 4.10", "Traversals between the quadtrees of a forest", picture,
-                "p<sub>t</sub> = p<sub>s</sub> + δ, without side information for a grid of patches.",
+                "p<sub>t</sub> = p<sub>s</sub> + δ, without side information for a grid of "
+                "patches.",
                 f"codes of level 2 of four patches: {'; '.join(texts)}. Round the cube three paths "
-                "of 15 steps keep straight over sides that turn (white: first node), and end beside "
-                "the node that they left.", FORESTS)
+                "of 15 steps keep straight over sides that turn (white: first node), and end "
+                "beside the node that they left.", FORESTS)
 
 
 def table_counts(page, results):
@@ -146,8 +147,8 @@ def table_counts(page, results):
                      int(get("turned")), int(get("least_turned")), int(get("border_trees")),
                      int(get("least_border_trees")), int(get("turned_without_trees"))])
     page.table("Section 4.6, counts", "Forests of solids",
-               ["solid", "patches P", "vertices, d = 3", "beyond P·4<sup>d</sup>", "χ", "layouts", "turned pairs", "least", "border trees", "least",
-                "turned with those"], rows,
+               ["solid", "patches P", "vertices, d = 3", "beyond P·4<sup>d</sup>", "χ", "layouts",
+                "turned pairs", "least", "border trees", "least", "turned with those"], rows,
                "octahedron: no border tree; tetrakishexahedron: 6 pairs turned.",
                "counted on complete meshes of depths 1 to 6; χ = vertices − edges + triangles. "
                "Layouts: patches with a middle begin at any corner, those of two triangles at "
@@ -167,13 +168,15 @@ def table_41_forests(page, results):
                          number(get("path_512_ns_per_node") / one, 2), number(get("locate_ns"), 0),
                          number(get("located_levels"), 1), number(get("bytes_per_vertex"))])
     page.table("Table 4.1, forests", "Neighbours, paths and points on forests",
-               ["forest", "mesh", "nodes / 1000", "neighbour, ns", "over a side", "path of 16, ns a node",
-                "of 512", "times one tree", "point, ns", "its levels", "bytes a vertex"], rows,
+               ["forest", "mesh", "nodes / 1000", "neighbour, ns", "over a side",
+                "path of 16, ns a node", "of 512", "times one tree", "point, ns", "its levels",
+                "bytes a vertex"], rows,
                "exactly the same traversal properties as surfaces (4.6).",
                "one tree: steps of theorem 4.1 alone, torus and all. 1 × 1: the same tree, its "
-               "sides glued to themselves; k × k: tori of patches. Nodes that a walk starts from "
-               "are drawn at random, those of the fifth column at a side that it leaves. Point: "
-               "the deepest node at a point, from the top.", FORESTS)
+               "sides glued to themselves; k × k: tori of patches; straight pair: a torus of two, "
+               "no side of which turns. Nodes that a walk starts from are drawn at random, those "
+               "of the fifth column at a side that it leaves. Point: the deepest node at a point, "
+               "from the top.", FORESTS)
 
 
 def write(page, results):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// ForestTraversal goes from node to node of a forest of quadtrees whose patches are glued in any way
-// (thesis 4.6): within a patch by one addition to a code, as location_code.hpp has it, and over a
-// side by a rotation of the interleaved coordinates.
+// ForestTraversal goes from node to node of a forest of quadtrees whose patches are glued in any
+// way (thesis 4.6): within a patch by one addition to a code, as location_code.hpp has it, and over
+// a side by a rotation of the interleaved coordinates.
 //
 // A node is the number of its patch and a code in the quadtree of that patch. All codes of a forest
 // are one range, that of QuadtreeShape for patches in a row; only what lies beyond a side differs:
