@@ -43,8 +43,8 @@ def figure_48(page, results):
                 "one to the other.",
                 f"vertices of depths 1 to 6: {', '.join(map(str, counts))}"
                 f"{', 2·4^d + 2 each' if equal else ''}; {get('border_trees')} border trees. "
-                "White: stored in this hemisphere, filled: in the other, squares: corners. With (4.2) and "
-                "(4.4) on both axes the patches close to a torus; the octahedron needs "
+                "White: stored in this hemisphere, filled: in the other, squares: corners. With "
+                "(4.2) and (4.4) on both axes the patches close to a torus; the octahedron needs "
                 f"{get('turned')} pairs that turn, (N,E), (E,N), (S,W) and (W,S). "
                 f"{get('least_turned')} pairs would do, with border trees.", FORESTS)
 
@@ -75,8 +75,8 @@ def figure_49(page, results):
     page.figure("Figure 4.9", "The tetrakishexahedron, and its adjacency", picture,
                 "6 of the 12 edges need a rotation.",
                 f"{get('turned')} of 12 (in colour; a side, the side behind it, and its patch), "
-                f"the least of all {get('layouts')} ways to lay the faces. This layout, that of globes "
-                f"in streams, needs {get('border_trees')} border trees; others need "
+                f"the least of all {get('layouts')} ways to lay the faces. This layout, "
+                f"that of globes in streams, needs {get('border_trees')} border trees; others need "
                 f"{get('least_border_trees')}, at {get('turned_without_trees')} turns.", FORESTS)
 
 
