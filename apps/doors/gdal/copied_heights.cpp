@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "apps/doors/gdal/copied_raster.hpp"
 #include "apps/doors/gdal/copied_samples.hpp"
@@ -22,12 +21,6 @@ double scaleOf(const std::string& name, GDALRasterBand& band) {
   CPLError(CE_Warning, CPLE_AppDefined, "%s: A scale of %g is none and is left out.", name.c_str(),
            scale);
   return 1;
-}
-
-/// In the unit of the system; 0: it has no angles, or is unknown.
-double degreesOf(const OGRSpatialReference* system) {
-  if (system == nullptr || !system->IsGeographic()) return 0;
-  return system->GetAngularUnits() * (180 / std::numbers::pi);
 }
 
 /// Of the rows of a geographic grid, so that errors count by area as those of the command line do.

@@ -190,8 +190,10 @@ std::string whyNone(GDALDataset& raster, const CopySettings& settings) {
            GDALGetDataTypeName(raster.GetRasterBand(1)->GetRasterDataType()) +
            " are not supported; write Int32 or Float32 (-ot).";
   }
-  if (settings.max_z_error > 0 || !settings.texture.empty()) {
-    return "MAX_Z_ERROR and TEXTURE need heights, which have one band, and there are " +
+  const bool cube = settings.domain == TKS_DOMAIN_FOREST;
+  if (settings.max_z_error > 0 || !settings.texture.empty() || cube) {
+    return "MAX_Z_ERROR, TEXTURE and DOMAIN=CUBE need heights, which have one band, and there "
+           "are " +
            std::to_string(raster.GetRasterCount()) + ".";
   }
   return whyNoTexture(raster);

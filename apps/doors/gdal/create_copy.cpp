@@ -13,6 +13,7 @@
 
 #include <gdal_pam.h>
 #include "apps/doors/gdal/copied_raster.hpp"
+#include "apps/doors/gdal/cube.hpp"
 #include "apps/doors/gdal/dataset.hpp"
 #include "apps/doors/gdal/ground_positions.hpp"
 #include "apps/doors/gdal/output_file.hpp"
@@ -137,11 +138,12 @@ Parts onDomain(Parts parts, const CopySettings& settings) {
 /// A picture alone. Nothing after a reported error.
 std::optional<Parts> readPicture(const std::string& name, GDALDataset& source,
                                  const CopySettings& settings) {
-  if (settings.max_z_error > 0) {
+  const bool cube = settings.domain == TKS_DOMAIN_FOREST;
+  if (settings.max_z_error > 0 || cube) {
     reportFailure(TKS_USAGE, name,
-                  CPLSPrintf("MAX_Z_ERROR needs heights, and the source was taken for a texture, "
-                             "since it has %d bands; for heights choose one (gdal_translate -b 1).",
-                             source.GetRasterCount()));
+                  CPLSPrintf("%s needs heights, and the source was taken for a texture, since it "
+                             "has %d bands; for heights choose one (gdal_translate -b 1).",
+                             cube ? "DOMAIN=CUBE" : "MAX_Z_ERROR", source.GetRasterCount()));
     return std::nullopt;
   }
   Parts parts;
@@ -160,6 +162,14 @@ std::optional<Parts> readParts(const std::string& name, GDALDataset& source, boo
   if (!settings.texture.empty()) parts.texture = copyTexture(name, settings.texture, source);
   if (!settings.texture.empty() && !parts.texture) return std::nullopt;
   return withWhiteLevel(onDomain(std::move(parts), settings), name, settings);
+}
+
+/// On a cube, if one is asked for. False after a reported error.
+bool resampled(const std::string& name, GDALDataset& source, const CopySettings& settings,
+               Parts& parts) {
+  if (settings.domain != TKS_DOMAIN_FOREST) return true;
+  const double degrees = degreesOf(source.GetSpatialRef());
+  return resampleOnCube(name, {settings.depth, settings.encode.threads, degrees}, *parts.heights);
 }
 
 bool encode(const std::string& name, const Parts& parts, CopySettings settings, Watch watch,
@@ -234,7 +244,8 @@ GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
     std::optional<Parts> parts =
         readParts(name, source, strict, settings, {progress, 0, kReadShare});
     if (parts) addPlaces(name, *parts, settings.encode);
-    if (!parts || !encode(name, *parts, settings, {{progress, kReadShare, 1}}, stream))
+    if (!parts || !resampled(name, source, settings, *parts) ||
+        !encode(name, *parts, settings, {{progress, kReadShare, 1}}, stream))
       return nullptr;
     rounding = parts->rounding() * parts->scale();
   }

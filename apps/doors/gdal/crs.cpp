@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/doors/gdal/crs.hpp"
 
+#include <cmath>
+#include <numbers>
+
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
@@ -99,6 +102,13 @@ CrsTexts crsTexts(const OGRSpatialReference& system) {
   const bool codes = !over.empty() && !up.empty() && says(parse(over + "+" + up.substr(5)), system);
   if (codes) return {over, up, ""};
   return {wktOf(system), "", ""};
+}
+
+double degreesOf(const OGRSpatialReference* system) {
+  constexpr double kDegree = std::numbers::pi / 180, kAlike = 1e-9;
+  if (system == nullptr || !system->IsGeographic()) return 0;
+  const double degrees = system->GetAngularUnits() / kDegree;
+  return std::abs(degrees - 1) < kAlike ? 1 : degrees;
 }
 
 std::string heightUnitOf(const OGRSpatialReference& system) {

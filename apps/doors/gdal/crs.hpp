@@ -19,6 +19,9 @@ std::string asUtf8(const char* text);
 /// Codes where they say all, else WKT2.
 CrsTexts crsTexts(const OGRSpatialReference& system);
 
+/// In the unit of a geographic system; 0: it has no angles, or is unknown (null).
+double degreesOf(const OGRSpatialReference* system);
+
 /// The name of the unit of heights, of a CRS that has some; else "".
 std::string heightUnitOf(const OGRSpatialReference& system);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/doors/gdal/band.hpp"
+#include "apps/doors/gdal/cube.hpp"
 #include "apps/doors/gdal/settings.hpp"
 #include "apps/doors/gdal/subdataset_name.hpp"
 
@@ -31,13 +32,27 @@ std::optional<double> voidValueOf(const tks_info& info) {
   return std::nullopt;
 }
 
+/// A sentence that says why a component is no raster; "" if it is one.
+std::string whyNoRaster(tks_part part, const tks_info& info) {
+  const bool heights = part == TKS_PART_HEIGHTS;
+  const bool there = heights ? info.has_heights != 0 : info.has_texture != 0;
+  if (!there) return std::string("The stream has no ") + partName(part) + ".";
+  if ((heights ? info.domain : info.texture_domain) != TKS_DOMAIN_FOREST) return "";
+  if (!heights) return "The texture lies on square patches, which GDAL cannot show as one raster.";
+  if (isGridOnCube(info)) return "";
+  return "The heights lie on square patches that were not made of a geographic grid, and GDAL "
+         "cannot show them as one raster.";
+}
+
 /// The component that is asked for, or that there is; nothing after a reported error.
 std::optional<tks_part> partOf(const std::optional<SubdatasetName>& named, const Source& source) {
   const tks_info& info = source.info();
-  const tks_part there = info.has_heights ? TKS_PART_HEIGHTS : TKS_PART_TEXTURE;
-  const tks_part part = named ? named->part : there;
-  if (part == TKS_PART_HEIGHTS ? info.has_heights : info.has_texture) return part;
-  reportFailure(TKS_USAGE, source.name(), std::string("The stream has no ") + partName(part) + ".");
+  const tks_part first = info.has_heights ? TKS_PART_HEIGHTS : TKS_PART_TEXTURE;
+  const tks_part part = named ? named->part : first;
+  const std::string why = whyNoRaster(part, info);
+  if (why.empty()) return part;
+  const bool there = part == TKS_PART_HEIGHTS ? info.has_heights != 0 : info.has_texture != 0;
+  reportFailure(there ? TKS_UNSUPPORTED : TKS_USAGE, source.name(), why);
   return std::nullopt;
 }
 
@@ -47,12 +62,23 @@ bool isStream(const GDALOpenInfo& info) {
          std::memcmp(info.pabyHeader, kMagic, sizeof kMagic) == 0;
 }
 
+struct Size {
+  uint32_t width, height;
+};
+
+/// Of the raster that the georeference of the heights is about.
+Size placedSize(const tks_info& info) {
+  return info.grid_width > 0 ? Size{info.grid_width, info.grid_height}
+                             : Size{info.width, info.height};
+}
+
 /// Of a texture that has none: it reaches from the middle of the first sample of the heights to
 /// that of the last, as on all meshes.
 std::array<double, 6> drapedTransform(const tks_info& info) {
   const auto& [x0, a, b, y0, c, d] = info.geotransform;
-  const double across = std::max(info.width - 1.0, 1.0) / info.texture_width;
-  const double down = std::max(info.height - 1.0, 1.0) / info.texture_height;
+  const auto [width, height] = placedSize(info);
+  const double across = std::max(width - 1.0, 1.0) / info.texture_width;
+  const double down = std::max(height - 1.0, 1.0) / info.texture_height;
   return {x0 + (a + b) / 2, a * across, b * down, y0 + (c + d) / 2, c * across, d * down};
 }
 
@@ -85,12 +111,14 @@ GDALDataset* Dataset::Open(GDALOpenInfo* info) {
   if (!part) return nullptr;
   source->choose(*part);
   const bool heights = *part == TKS_PART_HEIGHTS;
-  const std::optional<double> voids = heights ? voidValueOf(facts) : std::nullopt;
+  const bool may_be_void = heights && source->cubeDepth() == 0;
+  const std::optional<double> voids = may_be_void ? voidValueOf(facts) : std::nullopt;
   std::unique_ptr<Dataset> dataset(new Dataset(source, voids));
   dataset->takeFacts();
-  dataset->takePlace(facts, heights);
+  if (!dataset->takePlace(facts, heights)) return nullptr;
   dataset->addOverviews();
-  if (!named && facts.has_heights && facts.has_texture) dataset->listSubdatasets();
+  const bool both = facts.has_heights && whyNoRaster(TKS_PART_TEXTURE, facts).empty();
+  if (!named && both) dataset->listSubdatasets();
   dataset->SetDescription(info->pszFilename);
   if (named) {
     dataset->SetPhysicalFilename(file.c_str());
@@ -122,7 +150,8 @@ void Dataset::addBands() {
     BandFacts facts;
     facts.colour = colourOf(source_->channels(), channel, source_->hasAlpha());
     if (isHeights()) {
-      if (info.has_nodata) facts.nodata = info.nodata;
+      // A cube has no voids, and what is interpolated may be any number.
+      if (info.has_nodata && source_->cubeDepth() == 0) facts.nodata = info.nodata;
       facts.scaling = {info.scale, info.offset};
       facts.unit = info.unit;
     }
@@ -135,7 +164,7 @@ void Dataset::addBands() {
 
 void Dataset::takeFacts() {
   const tks_info& info = source_->info();
-  const bool exact = info.lossless && source_->complete();
+  const bool exact = info.lossless && source_->complete() && source_->cubeDepth() == 0;
   GDALDataset::SetMetadataItem("COMPRESSION_REVERSIBILITY", exact ? "LOSSLESS" : "LOSSY",
                                "IMAGE_STRUCTURE");
   const auto registration = isHeights() ? info.registration : info.texture_registration;
@@ -149,7 +178,7 @@ void Dataset::takeFacts() {
   GetRasterBand(1)->GDALRasterBand::SetDescription(info.description);
 }
 
-void Dataset::takePlace(const tks_info& info, bool heights) {
+bool Dataset::takePlace(const tks_info& info, bool heights) {
   const auto take = [this](const double(&transform)[6]) {
     transform_.emplace();
     std::copy_n(transform, 6, transform_->begin());
@@ -158,7 +187,8 @@ void Dataset::takePlace(const tks_info& info, bool heights) {
   if (heights) {
     if (info.has_geotransform) take(info.geotransform);
     crs_ = readCrs({info.crs, info.vertical_datum, info.geo_keys}, file);
-    return;
+    // Where nothing is known of the CRS, the grid of a cube is in degrees.
+    return source_->cubeDepth() == 0 || source_->placeGrid(crs_ ? degreesOf(crs_.get()) : 1);
   }
   const bool own = *info.texture_crs != '\0' || *info.texture_geo_keys != '\0';
   if (info.texture_has_geotransform) {
@@ -169,9 +199,11 @@ void Dataset::takePlace(const tks_info& info, bool heights) {
   crs_ = own ? readCrs({info.texture_crs, "", info.texture_geo_keys}, file)
              : readCrs({info.crs, "", info.geo_keys}, file);
   if (crs_ && !own) crs_->StripVertical();
+  return true;
 }
 
 void Dataset::addOverviews() {
+  if (source_->cubeDepth() > 0) return;
   for (uint32_t level = 1; level <= source_->coarsestLevel() + 1 && level < 31; ++level) {
     if (std::max(source_->width(level - 1), source_->height(level - 1)) <= kOverviewEnds) return;
     overviews_.emplace_back(new Dataset(*this, level));
@@ -184,7 +216,8 @@ void Dataset::listSubdatasets() {
     GDALDataset::SetMetadataItem(key.c_str(), value.c_str(), "SUBDATASETS");
   };
   add("SUBDATASET_1_NAME", nameOf({source_->name(), TKS_PART_HEIGHTS}));
-  add("SUBDATASET_1_DESC", CPLSPrintf("[%ux%u] heights", info.height, info.width));
+  const auto [width, height] = placedSize(info);
+  add("SUBDATASET_1_DESC", CPLSPrintf("[%ux%u] heights", height, width));
   add("SUBDATASET_2_NAME", nameOf({source_->name(), TKS_PART_TEXTURE}));
   add("SUBDATASET_2_DESC", CPLSPrintf("[%ux%ux%u] texture", info.texture_channels,
                                       info.texture_height, info.texture_width));

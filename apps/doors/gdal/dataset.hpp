@@ -83,7 +83,8 @@ class Dataset final : public GDALPamDataset {
 
   void addBands();
 
-  void takePlace(const tks_info& info, bool heights);
+  /// False after a reported error.
+  bool takePlace(const tks_info& info, bool heights);
   void takeFacts();
   /// What the domain TKS says, but for errors.
   void tellStream();

@@ -71,7 +71,8 @@ bool Dataset::makeOverview(const tks_window& part, std::byte* out) {
 
 bool Dataset::read(const tks_window& window, std::vector<std::byte>& out) {
   try {
-    if (level_ == 0 && readsWindows()) return source_->window(window, out);
+    const bool of_window = readsWindows() || source_->cubeDepth() > 0;
+    if (level_ == 0 && of_window) return source_->window(window, out);
     const size_t pixel = source_->pixelBytes(), row = window.width * pixel;
     if (level_ == 0) {
       const std::byte* const pixels = source_->level(0);

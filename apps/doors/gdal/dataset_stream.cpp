@@ -30,9 +30,12 @@ void Dataset::tellStream() {
   tell("COMPLETE", source_->complete() ? "YES" : "NO");
   tell("BYTES", std::to_string(source_->bytes()));
   tell("BYTES_ANNOUNCED", std::to_string(info.stream_bytes));
-  if (info.lossless) {
+  const uint32_t cube_depth = source_->cubeDepth();
+  // What is kept of a cube says nothing of the grid's samples.
+  const bool promises_error = info.max_error >= 0 && cube_depth == 0;
+  if (info.lossless && cube_depth == 0) {
     tell("TARGET", "LOSSLESS");
-  } else if (info.max_error >= 0) {
+  } else if (promises_error) {
     tell("TARGET", CPLSPrintf("MAX_ERROR=%.17g", info.max_error));
   }
   if (info.triangles > 0) tell("TRIANGLES", std::to_string(info.triangles));
@@ -40,14 +43,17 @@ void Dataset::tellStream() {
   if (source_->regionSide() != 0) tell("BLOCKSIZE", std::to_string(source_->regionSide()));
   if ((isHeights() ? info.domain : info.texture_domain) == TKS_DOMAIN_CYLINDER)
     tell("DOMAIN", "CYLINDER");
+  if (cube_depth > 0) {
+    tell("DOMAIN", "CUBE");
+    tell("DEPTH", std::to_string(cube_depth));
+  }
   if (!isHeights()) {
     if (info.texture_white_level < UINT16_MAX && info.texture_sample == TKS_U16)
       tell("WHITE_LEVEL", std::to_string(info.texture_white_level));
     return;
   }
   if (*info.vertical_datum != '\0') tell("VERTICAL_DATUM", info.vertical_datum);
-  if (info.max_error >= 0 && source_->complete())
-    tell("MAX_ERROR", CPLSPrintf("%.17g", info.max_error));
+  if (promises_error && source_->complete()) tell("MAX_ERROR", CPLSPrintf("%.17g", info.max_error));
 }
 
 void Dataset::tellQuality() {

@@ -43,7 +43,10 @@ const char* const kCreationOptions =
     "<Value>NO</Value><Value>YES</Value><Value>WINDOWS</Value></Option>"
     "<Option name='DOMAIN' type='string-select' default='AUTO' description='CYLINDER: the last "
     "column lies beside the first one, and no seam is seen between them; AUTO: of geographic grids "
-    "of 360 degrees'><Value>AUTO</Value><Value>PLANE</Value><Value>CYLINDER</Value></Option>"
+    "of 360 degrees; CUBE: such a grid is resampled on a cube, for BYTES or PSNR'>"
+    "<Value>AUTO</Value><Value>PLANE</Value><Value>CYLINDER</Value><Value>CUBE</Value></Option>"
+    "<Option name='DEPTH' type='int' description='Of DOMAIN=CUBE, from 1 to 14: the faces have "
+    "2^DEPTH x 2^DEPTH squares; chosen if not given'/>"
     "<Option name='NUM_THREADS' type='string' description='Threads of encoding: a number, or "
     "ALL_CPUS' default='1'/>"
     "</CreationOptionList>";
@@ -178,8 +181,35 @@ std::optional<tks_domain> domainGiven(Options& options) {
   if (given == nullptr || EQUAL(given, "AUTO")) return std::nullopt;
   if (EQUAL(given, "PLANE")) return TKS_DOMAIN_PLANE;
   if (EQUAL(given, "CYLINDER")) return TKS_DOMAIN_CYLINDER;
-  options.refuse(std::string("DOMAIN=") + given + " is none of AUTO, PLANE and CYLINDER.");
+  if (EQUAL(given, "CUBE")) return TKS_DOMAIN_FOREST;
+  options.refuse(std::string("DOMAIN=") + given + " is none of AUTO, PLANE, CYLINDER and CUBE.");
   return std::nullopt;
+}
+
+/// Of a cube; 0 if it is to be chosen, or after a refusal.
+uint32_t depthGiven(Options& options) {
+  const uint64_t depth = options.count("DEPTH", "depth of a cube, which is from 1 to 14");
+  if (depth <= TKS_MOST_CUBE_DEPTH) return static_cast<uint32_t>(depth);
+  options.refuse("DEPTH=" + std::to_string(depth) +
+                 " is no depth of a cube, which is from 1 to 14.");
+  return 0;
+}
+
+/// A cube has other samples than the source.
+void checkCube(Options& options, const CopySettings& settings) {
+  if (settings.domain != TKS_DOMAIN_FOREST) {
+    if (options.text("DEPTH") != nullptr)
+      options.refuse("DEPTH is about a cube: give DOMAIN=CUBE.");
+    return;
+  }
+  if (settings.encode.lossless || settings.max_z_error > 0)
+    options.refuse(
+        "DOMAIN=CUBE resamples heights, so that nothing is lossless or within MAX_Z_ERROR: give "
+        "BYTES or PSNR.");
+  const bool regions = settings.encode.regions > kNoRegions;
+  if (regions || !settings.texture.empty())
+    options.refuse(std::string("DOMAIN=CUBE resamples heights, so that ") +
+                   (regions ? "BLOCKSIZE" : "TEXTURE") + " does not go with it.");
 }
 
 /// What is to be kept of the samples.
@@ -232,7 +262,9 @@ std::optional<CopySettings> copySettings(const std::string& name, CSLConstList o
     given.refuse("INDEX=WINDOWS lays out regions, and BLOCKSIZE=NONE says that there are none.");
   encode.threads = given.threads();
   settings.domain = domainGiven(given);
+  settings.depth = depthGiven(given);
   settings.texture = textureName(given);
+  checkCube(given, settings);
   const uint64_t white = given.count("WHITE_LEVEL", "value of UInt16 above 0");
   settings.white_level = static_cast<uint32_t>(std::min<uint64_t>(white, UINT32_MAX));
   return given.good() ? std::optional(settings) : std::nullopt;

@@ -21,7 +21,8 @@ struct CopySettings {
   double max_z_error = 0;     ///< in samples; 0: none
   std::string texture;        ///< a dataset; "": none
   std::optional<tks_index> index;
-  std::optional<tks_domain> domain;  ///< nothing: as the columns say
+  std::optional<tks_domain> domain;  ///< nothing: as the columns say; a forest: a cube
+  uint32_t depth = 0;                ///< of a cube; 0: the one that suits the grid
   uint32_t white_level = 0;          ///< of a texture; 0: as its dataset says, or found
 };
 

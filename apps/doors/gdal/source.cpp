@@ -9,6 +9,7 @@
 #include <cpl_error.h>
 #include <cpl_string.h>
 
+#include "apps/doors/gdal/cube.hpp"
 #include "base/shown_text.hpp"
 
 namespace tetrakis::gdal {
@@ -58,6 +59,7 @@ std::unique_ptr<Source> Source::open(const std::string& name, const OpenSettings
   }
   std::unique_ptr<Source> source(new Source(name, settings, std::move(file)));
   if (!source->readHeader() || !source->checkLength()) return nullptr;
+  if (isGridOnCube(source->info_)) source->cube_depth_ = source->info_.forest.depth;
   return source;
 }
 
@@ -274,6 +276,7 @@ const std::byte* Source::level(uint32_t level) {
 bool Source::window(const tks_window& window, std::vector<std::byte>& out) {
   CPLDebug("TKS", "%s: decoding %u x %u from %u, %u", name_.c_str(), window.width, window.height,
            window.x, window.y);
+  if (cubeDepth() > 0) return gridWindow(window, out);
   if (!load(0, &window)) return false;
   tks_decoder* const decoder = decoder_.get();
   tks_status status = tks_set_levels(decoder, 0, 0);

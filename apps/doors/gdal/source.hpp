@@ -66,6 +66,12 @@ class Source {
   uint32_t coarsestLevel() const;
   /// Side of the regions by which windows are decoded; 0: they take as long as all.
   uint32_t regionSide() const;
+  /// Of heights on a cube, which are shown as the geographic grid that they were made of, in
+  /// floats; 0: they are none. There is only level 0 of them, and windows alone.
+  uint32_t cubeDepth() const { return part_ == TKS_PART_HEIGHTS ? cube_depth_ : 0; }
+  /// Says how many degrees the unit of the grid's CRS has, before any window is read. False after a
+  /// reported error: this is no such grid.
+  bool placeGrid(double degrees);
 
   /// All pixels of a level, channels interleaved, which are kept: coarse ones take a third of the
   /// raster's memory together. Null after an error was reported. A level above 0 takes no more
@@ -102,6 +108,9 @@ class Source {
   static bool cutShares(std::vector<tks_range>& ranges, uint64_t bytes);
   bool failed(tks_status status);
   bool decodeLevel(uint32_t level, std::vector<std::byte>& out);
+  bool decodeCube();
+  /// A part of the grid of a cube.
+  bool gridWindow(const tks_window& window, std::vector<std::byte>& out);
 
   std::string name_;
   OpenSettings settings_;
@@ -114,6 +123,9 @@ class Source {
   DecoderPointer decoder_{nullptr, tks_close};
   tks_info info_{};
   std::map<uint32_t, std::vector<std::byte>> kept_;  ///< what was decoded of whole levels
+  uint32_t cube_depth_ = 0;
+  tks_geographic_grid grid_{};  ///< that the cube was made of, in degrees
+  std::vector<float> cube_;     ///< its heights, once some were asked for
 };
 
 }  // namespace tetrakis::gdal

@@ -20,10 +20,12 @@ std::string Source::checksum() const {
 }
 
 uint32_t Source::width(uint32_t level) const {
+  if (cubeDepth() > 0) return info_.grid_width;
   return sideOfLevel(part_ == TKS_PART_HEIGHTS ? info_.width : info_.texture_width, level);
 }
 
 uint32_t Source::height(uint32_t level) const {
+  if (cubeDepth() > 0) return info_.grid_height;
   return sideOfLevel(part_ == TKS_PART_HEIGHTS ? info_.height : info_.texture_height, level);
 }
 
@@ -40,6 +42,7 @@ bool Source::isDrawn() const {
 }
 
 tks_sample Source::sample() const {
+  if (cubeDepth() > 0) return TKS_F32;
   return part_ == TKS_PART_HEIGHTS ? info_.sample : info_.texture_sample;
 }
 
@@ -48,6 +51,7 @@ uint32_t Source::coarsestLevel() const {
 }
 
 uint32_t Source::regionSide() const {
+  if (cubeDepth() > 0) return 0;
   return part_ == TKS_PART_TEXTURE ? info_.texture_regions : info_.regions;
 }
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from page import COLOURS, GREY, INK, panels
 from results import Results, number, power
+from solids import FORESTS, draw_solid
 
 DOMAINS = "build/bench/bench_thesis_domains"
 
@@ -28,6 +29,19 @@ def support_size(l, log4n):
         return 2.0 ** (1 - l) * n - 2
     c1 = 2.0 ** math.floor(log4n - (l + 4) / 2)
     return 32 * (2.0 ** -(l + 4) * n / c1 + 1.5 * c1) - 16 * (log4n - l / 2) - 18
+
+
+def figure_33(page):
+    picture, axes = panels(3, 2.7, rows=3)
+    for column, solid in zip(axes.T, ("tetrahedron", "octahedron", "icosahedron")):
+        for axis, kind in zip(column, ("flat", "sphere", "relief")):
+            draw_solid(axis, page.folder, solid, kind)
+        column[0].set_title(solid)
+    page.figure("Figure 3.3", "Platonic solids of triangles, and spheres made of them", picture,
+                "the three solids; their subdivisions tessellate the sphere.",
+                "4-8 meshes of two, two and ten patches (a colour each) at depth 2; the same on "
+                "the sphere at depth 3; and the best meshes of at most 1600 triangles of fractal "
+                "heights at depth 7, conforming across all patches.", FORESTS)
 
 
 def figure_35(page, results):
@@ -188,6 +202,7 @@ def figure_39(page, results):
 def write(page):
     results = Results(page.folder / "chapter_3.csv")
     page.chapter(3, "The 4-8 mesh", "Counts on complete meshes: no terrain is involved.")
+    figure_33(page)
     figure_35(page, results)
     theorem_31(page, results)
     figure_37(page, results)

@@ -6,6 +6,7 @@ import math
 import matplotlib.pyplot as plt
 import numpy as np
 
+import forests
 from page import COLOURS, panels
 from results import Results, number, power
 
@@ -125,11 +126,12 @@ def figure_views(page, sides, results):
 
 
 def write(page):
-    sides = sorted(int(p.stem.split("_")[2]) for p in page.folder.glob("chapter_4_*.csv"))
+    sides = sorted(int(p.stem.split("_")[2]) for p in page.folder.glob("chapter_4_[0-9]*.csv"))
     results = {s: Results(page.folder / f"chapter_4_{s}.csv") for s in sides}
     page.chapter(4, "The semi-linear quadtree", "Times of one thread; other programs on the "
                  "machine disturb single points.")
     figure_paths(page, sides, results)
     figure_depth(page, sides, results)
     table_41(page, sides, results)
+    forests.write(page, Results(page.folder / "chapter_4_forests.csv"))
     figure_views(page, sides, results)
