@@ -65,16 +65,14 @@ SharedBits validityOf(const TakenLayers& taken, const SharedBits& lifted,
 }
 
 /// The flat areas of the whole plane. known: which samples may be flat; of a forest those that are
-/// owned, and copies are flat where their owners are.
+/// owned.
 FlatAreas flatAreasOf(const TakenLayers& taken, const SharedBits& known) {
   if (taken.stated.flat_bytes == 0 || taken.flat.empty()) return {};
   const Extent plane = taken.header.extent();
   const SharedForest& forest = taken.header.wavelet.forest;
   if (forest == nullptr) return decodeFlatAreas(taken.flat, plane, known, taken.stated.flat_areas);
-  FlatAreas areas =
-      decodeFlatAreas(taken.flat, plane, shared(ownedSamples(*forest)), taken.stated.flat_areas);
-  if (!areas.empty()) shareOwned(*forest, std::span(areas.numbers), forest->side() - 1);
-  return areas;
+  return decodeFlatAreas(taken.flat, plane, shared(ownedSamples(*forest)), taken.stated.flat_areas,
+                         forest.get());
 }
 
 /// Turns decoded steps into heights: they are places in a table if there is one, else heights

@@ -11,8 +11,12 @@ namespace tetrakis::reference {
 namespace {
 
 /// FORMAT 8.1, "Areas": 0 outside of them, 1 in the first one, …
-std::vector<uint32_t> areasOf(const std::vector<uint8_t>& flat, int width, uint32_t& count) {
+std::vector<uint32_t> areasOf(const std::vector<uint8_t>& flat, int width, const Forest& forest,
+                              uint32_t& count) {
   std::vector<uint32_t> areas(flat.size());
+  std::vector<std::vector<size_t>> shared(flat.size());  // of each owner
+  for (size_t i = 0; i < flat.size(); ++i) shared[forest.ownerOf(i)].push_back(i);
+  const size_t rows = flat.size() / width / forest.patches();
   for (size_t i = 0; i < flat.size(); ++i) {
     if (!flat[i] || areas[i] > 0) continue;
     std::list<size_t> open = {i};
@@ -25,10 +29,12 @@ std::vector<uint32_t> areasOf(const std::vector<uint8_t>& flat, int width, uint3
         areas[next] = count;
         open.push_back(next);
       };
+      const size_t y = at / w % rows;
       visit(x > 0, at - 1);
       visit(x + 1 < w, at + 1);
-      visit(at >= w, at - w);
-      visit(at + w < flat.size(), at + w);
+      visit(y > 0, at - w);
+      visit(y + 1 < rows, at + w);
+      for (const size_t same : shared[forest.ownerOf(at)]) visit(true, same);
     }
   }
   return areas;
@@ -62,12 +68,14 @@ class AreaHeightDecoder {
 
 }  // namespace
 
-Flat decodeFlat(std::span<const uint8_t> codeword, const Plane& plane, uint32_t areas) {
+Flat decodeFlat(std::span<const uint8_t> codeword, const Plane& plane, uint32_t areas,
+                const Forest& forest) {
   RangeDecoder decoder(codeword);
-  const std::optional<std::vector<uint8_t>> mask = decodeFlatMask(decoder, plane);
+  std::optional<std::vector<uint8_t>> mask = decodeFlatMask(decoder, plane);
   if (!mask) return {};
+  forest.share(*mask);
   uint32_t count = 0;
-  Flat flat{areasOf(*mask, plane.width, count), {}};
+  Flat flat{areasOf(*mask, plane.width, forest, count), {}};
   if (count != areas) return {};
   AreaHeightDecoder heights(decoder);
   try {

@@ -73,9 +73,8 @@ Opening decodeOpening(const GeometryHeader& header, const Layers& layers, const 
       among.resize(size_t(width) * size_t(height));
       for (size_t i = 0; i < among.size(); ++i) among[i] = forest.ownerOf(i) == i;
     }
-    Flat& flat = opening.plane.flat;
-    flat = decodeFlat(track.flat, {width, height, {}, among}, layers.flatAreas);
-    if (!flat.areas.empty()) forest.share(flat.areas);
+    opening.plane.flat =
+        decodeFlat(track.flat, {width, height, {}, among}, layers.flatAreas, forest);
   }
   return opening;
 }

@@ -28,7 +28,8 @@ class RangeDecoder;
 std::optional<std::vector<uint8_t>> decodeFlatMask(RangeDecoder& decoder, const Plane& plane);
 
 /// plane: which samples are valid. None unless there are so many areas and all decisions count.
-Flat decodeFlat(std::span<const uint8_t> codeword, const Plane& plane, uint32_t areas);
+Flat decodeFlat(std::span<const uint8_t> codeword, const Plane& plane, uint32_t areas,
+                const Forest& forest);
 
 /// One a sample, modulo 2^32. plane: which samples are valid. hints: one a sample, 0 to 31.
 std::vector<uint32_t> decodeCorrections(std::span<const uint8_t> codeword, const Plane& plane,

@@ -69,7 +69,7 @@ class FlatTrials {
       : heights_(heights),
         valid_(valid),
         purpose_(purpose),
-        finder_({heights.values(), heights.extent(), valid}),
+        finder_({heights.values(), heights.extent(), valid}, purpose.forest.get()),
         wavelet_(chooseWavelet(heights, purpose.range_bits, purpose.purpose,
                                rateOf(heights, purpose))) {}
 
@@ -84,12 +84,17 @@ class FlatTrials {
     if (!pays(best)) return plain;
     FlatLayer flat{finder_.areas(best.shape, whole()), {}, best.ratio};
     if (flat.areas.empty()) return plain;  // there are too many
-    flat.codeword = encodeFlatAreas(flat.areas, heights_.extent(), valid_);
+    flat.codeword = encodeFlatAreas(flat.areas, heights_.extent(), codedMask());
     if (flat.codeword.size() >= purpose_.bytes) return plain;
     return {std::move(flat), *beside_};
   }
 
  private:
+  /// The samples of which the mask of areas tells.
+  std::vector<uint8_t> codedMask() const {
+    if (purpose_.forest != nullptr) return ownedSamples(*purpose_.forest).bytes();
+    return {valid_.bytes().begin(), valid_.bytes().end()};
+  }
   Window whole() const { return {0, 0, heights_.width, heights_.height}; }
 
   /// The price of a trial: its bytes over those of the plane without flat areas, less the worth of
@@ -195,13 +200,7 @@ class FlatTrials {
 
 FlatChoice chooseFlatAreas(const PlaneView<const int32_t>& heights, Mask valid,
                            const HeightPurpose& purpose) {
-  const SharedForest& forest = purpose.forest;
-  if (forest == nullptr) return FlatTrials(heights, valid, purpose).choose();
-  const std::vector<uint8_t> owned = ownedSamples(*forest).bytes();
-  FlatChoice choice = FlatTrials(heights, owned, purpose).choose();
-  std::vector<uint16_t>& numbers = choice.flat.areas.numbers;
-  if (!numbers.empty()) shareOwned(*forest, std::span(numbers), forest->side() - 1);
-  return choice;
+  return FlatTrials(heights, valid, purpose).choose();
 }
 
 }  // namespace tetrakis::inline coding_choice

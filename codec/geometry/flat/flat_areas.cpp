@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry/flat/flat_areas.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,7 @@ uint32_t forEachLabel(const PlaneView<const uint8_t>& flat, const Visit& visit) 
   std::vector<uint32_t> row(flat.width, kNone);
   uint32_t labels = 0, sample = 0;
   for (uint32_t y = 0; y < flat.height; ++y) {
+    if (flat.patch_rows > 0 && y % flat.patch_rows == 0) std::fill(row.begin(), row.end(), kNone);
     uint32_t before = kNone;
     for (uint32_t& above : row) {
       uint32_t label = kNone;
@@ -40,12 +43,61 @@ uint32_t forEachLabel(const PlaneView<const uint8_t>& flat, const Visit& visit) 
 
 }  // namespace
 
+namespace {
+
+/// The labels of samples at the sides of patches, by which areas go on in the next patch.
+class SideLabels {
+ public:
+  explicit SideLabels(const Forest& forest)
+      : forest_(forest),
+        n_(forest.side() - 1),
+        labels_(forest.patches() * Forest::kSides * size_t{n_}, kNone) {}
+
+  /// sample: of the raster.
+  void note(uint32_t sample, uint32_t label) {
+    const uint32_t row = sample / (n_ + 1), x = sample % (n_ + 1), y = row % (n_ + 1);
+    if (x == 0 || x == n_ || y == 0 || y == n_) labels_[placeOf(row / (n_ + 1), x, y)] = label;
+  }
+  void join(JoinedLabels& joined) const {
+    const auto label = [&](const Forest::Place& at) {
+      return labels_[placeOf(at.patch, static_cast<uint32_t>(at.x), static_cast<uint32_t>(at.y))];
+    };
+    forest_.forEachShared(n_, [&](const Forest::Place& sample, const Forest::Place& owner) {
+      if (label(sample) != kNone) joined.join(label(sample), label(owner));
+    });
+  }
+
+ private:
+  static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+
+  /// The first and the last row of a patch, then what is left of its first and last column.
+  size_t placeOf(uint32_t patch, uint32_t x, uint32_t y) const {
+    const size_t before = patch * Forest::kSides * size_t{n_}, width = size_t{n_} + 1;
+    if (y == 0 || y == n_) return before + (y == 0 ? 0 : width) + x;
+    return before + 2 * width + (x == 0 ? 0 : n_ - 1) + y - 1;
+  }
+
+  const Forest& forest_;
+  uint32_t n_;
+  std::vector<uint32_t> labels_;
+};
+
+}  // namespace
+
 /// Labels are joined where they touch, and the first of the joined labels stands for an area. The
 /// plane is visited three times, so that labels need not be kept for all samples.
-NumberedAreas numberAreas(const PlaneView<const uint8_t>& flat) {
+NumberedAreas numberAreas(const PlaneView<const uint8_t>& mask, const Forest* forest) {
+  PlaneView<const uint8_t> flat = mask;
+  if (forest != nullptr) flat.patch_rows = forest->side();
   assert(flat.extent().samples() <= GeometryLayers::kMostFlatSamples);
   JoinedLabels joined(forEachLabel(flat, [](uint32_t, uint32_t, uint32_t) {}));
-  forEachLabel(flat, [&](uint32_t, uint32_t label, uint32_t above) { joined.join(label, above); });
+  std::optional<SideLabels> sides;
+  if (forest != nullptr) sides.emplace(*forest);
+  forEachLabel(flat, [&](uint32_t sample, uint32_t label, uint32_t above) {
+    joined.join(label, above);
+    if (sides) sides->note(sample, label);
+  });
+  if (sides) sides->join(joined);
   NumberedAreas areas;
   std::vector<uint32_t> numbers = std::move(joined).earlier();
   for (uint32_t label = 0; label < numbers.size(); ++label) {
@@ -71,14 +123,17 @@ bool holdsAny(const BitPlane& flat) {
 }  // namespace
 
 FlatAreas decodeFlatAreas(std::span<const uint8_t> codeword, Extent plane, const SharedBits& valid,
-                          uint32_t areas) {
+                          uint32_t areas, const Forest* forest) {
   DecisionDecoding io(codeword);
   NumberedAreas numbered;
   {
     FlatMaskIo<DecisionDecoding<>> mask_io(io, valid.get(), nullptr);
     const BitPlane flat = ValidityPass<FlatMaskIo<DecisionDecoding<>>>(plane, mask_io).run();
-    if (!io.stopped() && holdsAny(flat))
-      numbered = numberAreas(PlaneView<const uint8_t>(flat.bytes(), plane));
+    if (!io.stopped() && holdsAny(flat)) {
+      std::vector<uint8_t> mask = flat.bytes();
+      if (forest != nullptr) shareOwned(*forest, std::span(mask), forest->side() - 1);
+      numbered = numberAreas(PlaneView<const uint8_t>(mask, plane), forest);
+    }
   }
   if (numbered.count != areas) return {};
   FlatAreas out{std::move(numbered.numbers), std::vector<int32_t>(areas)};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Flat areas hold exactly one height each: the sea, lakes, rivers between their weirs. A mask says
-// which samples are flat. Flat samples that touch each other along a row or a column are one area,
-// and areas are numbered in the order of their first samples, row by row; so neither side sends
+// which samples are flat. Flat samples that touch each other along a row or a column, on a forest
+// across sides of patches too, are one area, and areas are numbered in the order of their first samples, row by row; so neither side sends
 // which sample is of which area.
 #pragma once
 
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/bit_plane.hpp"
+#include "base/forest.hpp"
 #include "base/plane.hpp"
 #include "codec/wavelet/pyramid.hpp"
 
@@ -59,14 +60,15 @@ struct NumberedAreas {
   std::vector<uint16_t> numbers;
   uint32_t count = 0;
 };
-NumberedAreas numberAreas(const PlaneView<const uint8_t>& flat);
+/// forest: that the mask is the raster of, alike where patches share a sample; null: of none.
+NumberedAreas numberAreas(const PlaneView<const uint8_t>& flat, const Forest* forest = nullptr);
 
 // decodeFlatAreas() decodes the layer of flat areas (flat_pass.hpp).
 
 /// codeword: any prefix of the codeword of a plane with this number of areas and these valid
 /// samples. The result has no areas unless every decision counts and the number of areas is right.
-/// Safe on any bytes.
+/// forest: that the plane is the raster of; null: of none. Safe on any bytes.
 FlatAreas decodeFlatAreas(std::span<const uint8_t> codeword, Extent plane, const SharedBits& valid,
-                          uint32_t areas);
+                          uint32_t areas, const Forest* forest = nullptr);
 
 }  // namespace tetrakis::inline flat

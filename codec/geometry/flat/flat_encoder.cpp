@@ -13,7 +13,30 @@
 
 namespace tetrakis::inline flat {
 
-FlatFinder::FlatFinder(const PlaneView<const int32_t>& heights) : heights_(heights) {
+namespace {
+
+/// visit(sample, owner): of a raster, where patches share a sample.
+template <class Visit>
+void forEachSharedIndex(const Forest& forest, const Visit& visit) {
+  const size_t side = forest.side();
+  const auto index = [&](const Forest::Place& at) {
+    return (at.patch * side + static_cast<size_t>(at.y)) * side + static_cast<size_t>(at.x);
+  };
+  forest.forEachShared(forest.side() - 1, [&](const auto& sample, const auto& owner) {
+    visit(index(sample), index(owner));
+  });
+}
+
+/// Leaves in the mask of a forest what all patches mark that share a sample.
+void keepCommon(const Forest& forest, std::vector<uint8_t>& mask) {
+  forEachSharedIndex(forest, [&](size_t sample, size_t owner) { mask[owner] &= mask[sample]; });
+  forEachSharedIndex(forest, [&](size_t sample, size_t owner) { mask[sample] = mask[owner]; });
+}
+
+}  // namespace
+
+FlatFinder::FlatFinder(const PlaneView<const int32_t>& heights, const Forest* forest)
+    : heights_(heights), forest_(forest) {
   const Extent extent = heights.extent();
   if (extent.samples() > GeometryLayers::kMostFlatSamples) return;
   const std::span<const int32_t> values = heights.values();
@@ -25,8 +48,13 @@ FlatFinder::FlatFinder(const PlaneView<const int32_t>& heights) : heights_(heigh
   for (uint32_t y = 0; y < extent.height; ++y) {
     for (uint32_t x = 0; x < extent.width; ++x, ++i) {
       if (x > 0) join(i, i - 1);
-      if (y > 0) join(i, i - extent.width);
+      if (y > 0 && (forest == nullptr || y % forest->side() != 0)) join(i, i - extent.width);
     }
+  }
+  if (forest != nullptr) {
+    forEachSharedIndex(*forest, [&](size_t sample, size_t owner) {
+      join(static_cast<uint32_t>(sample), static_cast<uint32_t>(owner));
+    });
   }
   areas_ = std::move(joined).earlier();
   for (i = 0; i < areas_.size(); ++i) {
@@ -78,7 +106,9 @@ FlatAreas FlatFinder::areas(const FlatShape& shape, const Window& window) const 
   if (none()) return {};
   std::vector<uint8_t> flat = marked(shape.least, window);
   if (shape.reach > 0) flat = opened(flat, window.extent(), shape.reach);
-  NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, window.extent()));
+  if (isForest(window)) keepCommon(*forest_, flat);
+  NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, window.extent()),
+                                       isForest(window) ? forest_ : nullptr);
   if (numbered.count == 0) return {};
   FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count)};
   const uint16_t* number = areas.numbers.data();

@@ -20,8 +20,9 @@ struct FlatShape {
 /// The areas of one height in a plane, of any size.
 class FlatFinder {
  public:
-  /// The values of the heights outlive this object.
-  explicit FlatFinder(const PlaneView<const int32_t>& heights);
+  /// The values of the heights, and the forest that they are the raster of, outlive this object.
+  /// forest: null: of none.
+  explicit FlatFinder(const PlaneView<const int32_t>& heights, const Forest* forest = nullptr);
 
   Extent extent() const { return heights_.extent(); }
 
@@ -37,6 +38,10 @@ class FlatFinder {
   static constexpr uint32_t kFirst = uint32_t{1} << 31;
   static constexpr uint32_t kMostSize = kFirst - 1;
 
+  /// Whether the window is all of a forest.
+  bool isForest(const Window& window) const {
+    return forest_ != nullptr && window.extent() == extent();
+  }
   bool none() const { return areas_.empty(); }
   /// The size of the area of a sample; 0 for voids.
   uint32_t sizeAt(size_t sample) const {
@@ -45,6 +50,7 @@ class FlatFinder {
   }
 
   PlaneView<const int32_t> heights_;
+  const Forest* forest_;
   /// Of the first sample of an area kFirst and the area's size, at most kMostSize; of another
   /// sample the place of the first one.
   std::vector<uint32_t> areas_;
