@@ -169,9 +169,12 @@ std::string brokenMeshes(tks_decoder* decoder, const Parts& parts, const SharedS
   return {};
 }
 
-/// Whether the rows of a grid end on the poles, or less than a row before them.
+/// Whether the middles of the outer rows of a grid lie less than a row before the poles.
 bool reachesPoles(const tks_geographic_grid& grid) {
-  return std::abs(grid.geotransform[5]) * (grid.height + 2) > 180;
+  const double first = grid.geotransform[3], row = grid.geotransform[5];
+  const double ends[] = {first + row / 2, first + row * (grid.height - 0.5)};
+  return 90 - std::max(ends[0], ends[1]) < std::abs(row) &&
+         90 + std::min(ends[0], ends[1]) < std::abs(row);
 }
 
 std::string brokenGlobe(tks_decoder* decoder, uint32_t triangles, bool closed) {
