@@ -41,10 +41,12 @@ class CliGlobeTiles : public CliTiles {
     return readTiles("t");
   }
 
-  /// Of the vertices of an edge, which a light shows.
+  /// Of the vertices of a western or eastern edge between its corners. At a pole, straight down has
+  /// four codes.
   static std::string normalsText(const TerrainTile& tile, size_t edge) {
     std::string text;
-    for (const uint16_t i : tile.edges[edge]) text += tile.extensions.at(1).substr(2 * i, 2);
+    for (const uint16_t i : tile.edges[edge])
+      if (tile.v[i] > 0 && tile.v[i] < 32767) text += tile.extensions.at(1).substr(2 * i, 2);
     return text;
   }
 
@@ -89,6 +91,39 @@ TEST_F(CliGlobeTiles, MeetAtTheAntimeridianAndAtThePoles) {
       expectSound(tiles);
       expectClosed(tiles);
       expectPoles(tiles);
+    }
+  }
+}
+
+/// Of a picture whose columns begin at longitude 0, too.
+TEST_F(CliGlobeTiles, HaveTheTextureAllRound) {
+  constexpr uint32_t kWidth = 512, kHeight = 256;
+  constexpr double kTexel = 360. / kWidth;
+  const auto redAt = [](double longitude) {
+    return 128 + 100 * std::cos(longitude * std::acos(-1) / 180);
+  };
+  ASSERT_TRUE(tools::writeHeights(path("h.tif"), earth(-180, false)).ok());
+  for (const double west : {0., -180.}) {
+    tools::ImageFile texture{kWidth, kHeight, 3, TKS_U8, {}};
+    for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
+      const double red = redAt(west + (i % kWidth + 0.5) * kTexel);
+      for (const double value : {red, 90., 40.})
+        texture.data.push_back(static_cast<std::byte>(std::lround(value)));
+    }
+    texture.place.crs = "EPSG:4326";
+    texture.place.geotransform = tools::GeoTransform{west, kTexel, 0, 90, 0, -kTexel};
+    ASSERT_TRUE(tools::writeImage(path("t.tif"), texture).ok());
+    ASSERT_EQ(cli("-q encode h.tif --texture t.tif --psnr 45 -f -o s.tks").code, 0);
+    const Outcome run = cli("-q tiles s.tks -f -o t");
+    ASSERT_EQ(run.code, 0) << run.err;
+    for (uint32_t x = 0; x < 4; ++x) {
+      const auto picture = tools::readImage(path("t/imagery/1/" + std::to_string(x) + "/0.webp"));
+      ASSERT_TRUE(picture.ok()) << x;
+      for (const uint32_t column : {0u, 100u, 255u}) {
+        const std::byte red = picture->data[(100 * 256 + column) * size_t{picture->channels}];
+        EXPECT_NEAR(std::to_integer<int>(red), redAt(x * 90 - 180 + (column + 0.5) / 256 * 90), 6)
+            << west << ' ' << x << ' ' << column;
+      }
     }
   }
 }

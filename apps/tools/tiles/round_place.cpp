@@ -29,7 +29,7 @@ uint32_t columnsRound(const RasterPlace& place, uint32_t width, uint32_t height)
 }
 
 SamplesBeside samplesBeside(double at, uint32_t count) {
-  at = std::clamp(at, 0.0, count - 1.0);
+  at = std::isfinite(at) ? std::clamp(at, 0.0, count - 1.0) : 0;
   const auto first = static_cast<uint32_t>(at);
   return {first, std::min(first + 1, count - 1), at - first};
 }
