@@ -121,7 +121,7 @@ TEST_F(CliGlobeTiles, HaveTheTextureAllRound) {
       ASSERT_TRUE(picture.ok()) << x;
       for (const uint32_t column : {0u, 100u, 255u}) {
         const std::byte red = picture->data[(100 * 256 + column) * size_t{picture->channels}];
-        EXPECT_NEAR(std::to_integer<int>(red), redAt(x * 90 - 180 + (column + 0.5) / 256 * 90), 6)
+        EXPECT_NEAR(std::to_integer<int>(red), redAt(90.0 * x - 180 + (column + 0.5) / 256 * 90), 6)
             << west << ' ' << x << ' ' << column;
       }
     }

@@ -35,9 +35,9 @@ LevelSurface coarser(const LevelSurface& surface, bool round);
 /// Not thread safe.
 class EarthGround {
  public:
-  /// Of a cube: the grid that it was made of. TKS_USAGE if the stream does not say where its heights
-  /// lie, PROJ does not know the CRS, or the ground holds a pole or crosses the antimeridian, where
-  /// tiles would have to be of both sides, and does not go round the Earth.
+  /// Of a cube: the grid that it was made of. TKS_USAGE if the stream does not say where its
+  /// heights lie, PROJ does not know the CRS, or the ground holds a pole or crosses the
+  /// antimeridian, where tiles would have to be of both sides, and does not go round the Earth.
   static Result<EarthGround> create(const tks_info& info);
 
   const GeographicBounds& bounds() const { return bounds_; }

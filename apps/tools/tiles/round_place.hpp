@@ -9,8 +9,8 @@
 
 namespace tetrakis::tools {
 
-/// The columns that go once round the Earth, at equal longitudes: all of a raster, or all but a last
-/// one that is the first again. 0: the raster does not go round.
+/// The columns that go once round the Earth, at equal longitudes: all of a raster, or all but a
+/// last one that is the first again. 0: the raster does not go round.
 uint32_t columnsRound(const RasterPlace& place, uint32_t width, uint32_t height);
 
 /// Two samples along a row or a column, and what share the second one has in a place between them.
