@@ -40,14 +40,14 @@ void samplesToSurface(const DecodedGeometry& geometry, const Metadata& metadata,
     T sample;
     std::memcpy(&sample, bytes + i * sizeof sample, sizeof sample);
     const bool valid = geometry.valid.empty() || geometry.valid[i];
-    out[i] = valid ? static_cast<float>(sample * metadata.scale + metadata.offset)
+    out[i] = valid ? finiteFloat(sample * metadata.scale + metadata.offset)
                    : std::numeric_limits<float>::quiet_NaN();
   }
 }
 
 float surfaceAt(const DecodedGeometry& geometry, const SurfaceScale& scale, size_t sample) {
   const bool valid = geometry.valid.empty() || geometry.valid[sample];
-  return valid ? static_cast<float>(geometry.heights[sample] * scale.scale + scale.offset)
+  return valid ? finiteFloat(geometry.heights[sample] * scale.scale + scale.offset)
                : std::numeric_limits<float>::quiet_NaN();
 }
 

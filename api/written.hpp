@@ -3,6 +3,7 @@
 // that callers of the C interface want: samples, texels, triangles.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -70,6 +71,13 @@ struct ForestMeshing {
 Result<ForestSurface> forestSurface(tks_decoder& decoder, const ForestMeshing& meshing,
                                     uint64_t beside = 0);
 
+/// The float that is nearest to a height, and finite: what is decoded or fitted may lie beyond all
+/// samples.
+inline float finiteFloat(double height) {
+  constexpr double kMost = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(height, -kMost, kMost));
+}
+
 /// Heights of the vertices in the unit, NaN where they are void. valid: of all samples.
 /// steps_of(vertex): its height in the decoder's steps.
 template <class StepsOf>
@@ -79,7 +87,7 @@ std::vector<float> heightsInUnit(const LatticeMesh& mesh, Mask valid, const Surf
   heights.reserve(mesh.vertices.size());
   for (size_t v = 0; v < mesh.vertices.size(); ++v)
     heights.push_back(valid[mesh.vertices[v]]
-                          ? static_cast<float>(steps_of(v) * scale.scale + scale.offset)
+                          ? finiteFloat(steps_of(v) * scale.scale + scale.offset)
                           : std::numeric_limits<float>::quiet_NaN());
   return heights;
 }

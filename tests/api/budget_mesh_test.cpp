@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
+#include <span>
 
 #include "codec/mesh/fitted_heights.hpp"
 #include "codec/mesh/topology/lattice_mesh.hpp"
@@ -111,6 +113,29 @@ TEST(BudgetMesh, StaysWithinTheRangeOfTheSurface) {
 }
 
 /// What is under water shows nothing, however much the budget has left.
+/// What is decoded, or fitted, may lie beyond the largest floats, which samples may be.
+TEST(BudgetMesh, HasFiniteHeights) {
+  Raster raster{96, 40, 1, TKS_F32, {}};
+  for (uint32_t i = 0; i < 96 * 40; ++i) {
+    const bool high = samples::valueNoise(i % 96, i / 96, 4, 3) > 32768;
+    const float sample = (high ? 1 : -1) * FLT_MAX * static_cast<float>(i % 7 < 6 ? 1 : 0.9);
+    const auto bytes = std::as_bytes(std::span(&sample, 1));
+    raster.data.insert(raster.data.end(), bytes.begin(), bytes.end());
+  }
+  const Bytes bytes = encodeHeights(raster.heights(), budget(700));
+  for (const size_t size : {bytes.size(), bytes.size() / 2}) {
+    Stream stream(Prefix(bytes).first(size));
+    std::vector<float> heights(96 * 40);
+    ASSERT_EQ(tks_decode_surface(stream.get(), heights.data(), heights.size()), TKS_OK);
+    for (const uint32_t triangles : {20u, 200u, 2000u, 0u}) {
+      const DrawnMesh drawn = decode(stream, triangles);
+      for (const double height : drawn.heights) heights.push_back(static_cast<float>(height));
+    }
+    const auto finite = [](float height) { return std::isfinite(height); };
+    EXPECT_TRUE(std::all_of(heights.begin(), heights.end(), finite)) << size;
+  }
+}
+
 TEST(BudgetMesh, HasNoVerticesOnWaterThatNothingNeeds) {
   for (const auto& [width, height] :
        {std::pair{129u, 129u}, {150u, 131u}, {97u, 200u}, {70u, 33u}}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/awkward/promises.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "base/samples.hpp"
+#include "tests/awkward/surface_promises.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::test {
@@ -87,7 +89,7 @@ class Comparison {
 /// What a stream may take at most beside its samples: the header, and a mask that no model helps.
 uint64_t mostBytes(const AwkwardCase& c) {
   const uint64_t samples = c.heights.data.size() / tks_sample_bytes(c.heights.sample);
-  return c.heights.data.size() + 64 + samples / 6 +
+  return c.heights.data.size() + 64 + samples / 6 + 3 * c.sides.size() + (c.grid ? 80 : 0) +
          (c.texture ? c.texture->data.size() * 5 / 4 + 200 : 0) + 64;
 }
 
@@ -112,10 +114,13 @@ std::string checkWhole(const AwkwardCase& c, std::span<const uint8_t> stream) {
   const Decoded heights = decode(decoder, true);
   if (!heights.complaint.empty()) return heights.complaint;
   const std::string found = Comparison(c).complaint(heights.samples, info.lossless != 0);
-  if (!found.empty() || !c.texture) return found;
-  const Decoded texture = decode(decoder, false);
-  if (!texture.complaint.empty()) return texture.complaint;
-  return info.lossless && texture.samples != c.texture->data ? "a texel has changed" : "";
+  if (!found.empty()) return found;
+  if (c.texture) {
+    const Decoded texture = decode(decoder, false);
+    if (!texture.complaint.empty()) return texture.complaint;
+    if (info.lossless && texture.samples != c.texture->data) return "a texel has changed";
+  }
+  return brokenSurface(c, decoder);
 }
 
 bool hasArea(tks_decoder* decoder) {
@@ -126,13 +131,13 @@ bool hasArea(tks_decoder* decoder) {
 }
 
 /// A prefix decodes, and so do a level and a mesh of it.
-std::string checkCut(std::span<const uint8_t> prefix) {
+std::string checkCut(const AwkwardCase& c, std::span<const uint8_t> prefix) {
   tks_decoder* decoder = nullptr;
   const tks_status status = tks_open(prefix.data(), prefix.size(), nullptr, &decoder, nullptr, 0);
   if (status == TKS_TRUNCATED) return {};
   if (status != TKS_OK) return "a prefix does not open";
   const std::unique_ptr<tks_decoder, void (*)(tks_decoder*)> owner(decoder, tks_close);
-  if (std::string found = decode(decoder, true).complaint; !found.empty()) return found;
+  if (std::string found = brokenSurface(c, decoder); !found.empty()) return found;
   tks_mesh mesh = {};
   const tks_status meshed = tks_decode_mesh(decoder, TKS_MESH_BUDGET, 40, &mesh);
   if (meshed != (hasArea(decoder) ? TKS_OK : TKS_USAGE)) return tks_message(decoder);
@@ -141,12 +146,34 @@ std::string checkCut(std::span<const uint8_t> prefix) {
   return decode(decoder, true).complaint;
 }
 
+/// A decoder that gets its bytes in two pieces, and decodes in between, gives what others give.
+std::string checkGrown(std::span<const uint8_t> stream, size_t first) {
+  Samples heights[2], texels[2];
+  for (const bool grown : {false, true}) {
+    tks_decoder* decoder = nullptr;
+    const size_t size = grown ? first : stream.size();
+    if (tks_open(stream.data(), size, nullptr, &decoder, nullptr, 0) != TKS_OK)
+      return "a prefix does not open";
+    const std::unique_ptr<tks_decoder, void (*)(tks_decoder*)> owner(decoder, tks_close);
+    if (grown) {
+      decode(decoder, true);
+      decode(decoder, false);
+      const std::span<const uint8_t> rest = stream.subspan(first);
+      if (tks_append(decoder, rest.data(), rest.size()) != TKS_OK) return tks_message(decoder);
+    }
+    heights[grown] = decode(decoder, true).samples;
+    texels[grown] = decode(decoder, false).samples;
+  }
+  return heights[0] == heights[1] && texels[0] == texels[1]
+             ? ""
+             : "bytes that come later decode to something else";
+}
+
 }  // namespace
 
 std::string brokenPromise(const AwkwardCase& c) {
   const tks_heights heights = c.input();
-  tks_image image = c.texture ? c.texture->image() : tks_image{};
-  image.domain = c.domain;
+  const tks_image image = c.texture ? c.picture() : tks_image{};
   tks_buffer buffer = {};
   char message[256] = "";
   const tks_status status = tks_encode(&heights, c.texture ? &image : nullptr, &c.options, &buffer,
@@ -156,12 +183,14 @@ std::string brokenPromise(const AwkwardCase& c) {
   if (status != TKS_OK) return "encoding fails: " + std::string(message);
   const std::span<const uint8_t> stream = owner.bytes();
   if (std::string found = checkWhole(c, stream); !found.empty()) return found;
-  for (uint64_t part = 0; part < 4; ++part) {
-    const size_t cut = stream.size() * (2 * part + 1) / 8;
-    if (std::string found = checkCut(stream.first(cut)); !found.empty())
+  uint64_t header = 0;
+  tks_header_bytes(stream.data(), stream.size(), &header);
+  for (const uint64_t eighths : {0, 1, 3, 5, 7}) {
+    const size_t cut = eighths == 0 ? header : stream.size() * eighths / 8;
+    if (std::string found = checkCut(c, stream.first(cut)); !found.empty())
       return "cut at " + std::to_string(cut) + ": " + found;
   }
-  return {};
+  return checkGrown(stream, std::max<size_t>(header, stream.size() / 3));
 }
 
 }  // namespace tetrakis::test

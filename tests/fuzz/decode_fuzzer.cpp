@@ -84,7 +84,19 @@ void planAndMeasure(tetrakis::Decoder& decoder) {
   }
 }
 
+/// Where the heights lie round a globe.
+void makeGlobes(tetrakis::Decoder& decoder) {
+  const tks_globe moon = {sizeof moon, 1737400, 1737400, 0, 0};
+  const auto coded = decoder.codedGlobe(moon), budget = decoder.budgetGlobe(moon, 100);
+  for (const auto* const mesh : {&coded, &budget}) {
+    if (!*mesh) continue;
+    for (const uint32_t corner : (*mesh)->triangles())
+      if (corner >= (*mesh)->vertexCount()) std::abort();
+  }
+}
+
 void makeMeshes(tetrakis::Decoder& decoder) {
+  makeGlobes(decoder);
   const tks_info& info = decoder.info();
   checkMesh(decoder.codedMesh(), info);
   checkMesh(decoder.budgetMesh(100), info);

@@ -16,6 +16,7 @@
 
 #include "base/samples.hpp"
 #include "tests/awkward/promises.hpp"
+#include "tests/awkward/shared_samples.hpp"
 
 namespace {
 
@@ -130,6 +131,40 @@ void aim(FuzzedDataProvider& bytes, tks_encode_options& options) {
   options.weights = bytes.ConsumeBool() ? TKS_WEIGHTS_VISUAL : TKS_WEIGHTS_PSNR;
 }
 
+/// Up to four patches, glued as the bytes say where they say it of both sides.
+void becomeForest(FuzzedDataProvider& bytes, AwkwardCase& c) {
+  c.domain = TKS_DOMAIN_FOREST;
+  c.sides.assign(4 * bytes.ConsumeIntegralInRange<size_t>(1, 4), TKS_BORDER);
+  for (uint32_t side = 0; side < c.sides.size(); ++side) {
+    const auto last = static_cast<uint32_t>(c.sides.size()) - 1;
+    const auto other = bytes.ConsumeIntegralInRange<uint32_t>(0, last);
+    if (other == side || c.sides[side] != TKS_BORDER || c.sides[other] != TKS_BORDER) continue;
+    c.sides[side] = other;
+    c.sides[other] = side;
+  }
+  c.options.regions = c.options.triangles = 0;
+  c.options.index %= 2;
+  c.nodata.reset();
+  const auto patches = static_cast<uint32_t>(c.sides.size() / 4);
+  const auto fit = [&](Raster& raster, uint32_t& depth) {
+    depth = bytes.ConsumeIntegralInRange<uint32_t>(1, 4);
+    raster.width = (1u << depth) + 1;
+    raster.height = patches * raster.width;
+  };
+  fit(c.heights, c.depth);
+  if (c.texture) fit(*c.texture, c.texture_depth);
+}
+
+/// Of a forest, once they are painted.
+void shareSamples(AwkwardCase& c) {
+  if (c.sides.empty()) return;
+  using tetrakis::test::SharedSamples;
+  SharedSamples(c.depth, c.sides).share(c.heights.data, tks_sample_bytes(c.heights.sample));
+  if (!c.texture) return;
+  SharedSamples(c.texture_depth, c.sides)
+      .share(c.texture->data, c.texture->channels * tks_sample_bytes(c.texture->sample));
+}
+
 AwkwardCase caseOf(FuzzedDataProvider& bytes) {
   AwkwardCase c;
   aim(bytes, c.options);
@@ -144,10 +179,13 @@ AwkwardCase caseOf(FuzzedDataProvider& bytes) {
     c.texture->channels = bytes.ConsumeIntegralInRange<uint32_t>(1, 4);
     c.texture->sample = bytes.ConsumeBool() ? TKS_U16 : TKS_U8;
     c.texture->opaque = bytes.ConsumeBool();
-    paint(bytes, *c.texture);
   }
-  if (bytes.ConsumeBool()) c.domain = TKS_DOMAIN_CYLINDER;
+  const auto domain = bytes.ConsumeIntegralInRange<int>(0, 3);
+  if (domain == 1) c.domain = TKS_DOMAIN_CYLINDER;
+  if (domain == 2) becomeForest(bytes, c);
   paint(bytes, c.heights);
+  if (c.texture) paint(bytes, *c.texture);
+  shareSamples(c);
   return c;
 }
 

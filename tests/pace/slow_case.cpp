@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <memory>
 #include <random>
+#include <utility>
 
 #include "bitstream/stream/fields.hpp"
 #include "bitstream/stream/header.hpp"
@@ -145,7 +147,47 @@ void anyRepeats(Dice& dice, LineRepeats& repeats, uint32_t& width, uint32_t& hei
   height = coded.height;
 }
 
+/// Few large patches or many small ones, of which any two sides are glued.
+SharedForest anyForest(Dice& dice, uint64_t most_samples) {
+  int depth = 1 + static_cast<int>(dice.below(10));
+  while (depth > 1 && most_samples >> 2 * depth == 0) --depth;
+  const uint64_t most = std::max<uint64_t>(1, most_samples >> 2 * depth);
+  const auto patches =
+      static_cast<uint32_t>(dice.anySize(std::min<uint64_t>(most, Forest::mostPatches(depth))));
+  std::vector<uint32_t> sides(size_t{Forest::kSides} * patches, Forest::kBorder);
+  for (uint32_t side = 0; side < sides.size(); ++side) {
+    const auto other = static_cast<uint32_t>(dice.below(sides.size()));
+    if (other == side || sides[side] != Forest::kBorder || sides[other] != Forest::kBorder)
+      continue;
+    sides[side] = other;
+    sides[other] = side;
+  }
+  return std::make_shared<const Forest>(depth, std::move(sides));
+}
+
+/// Of heights or a texture, with the tools that may stand there.
+template <class Plane>
+void putOnForest(Dice& dice, uint64_t most_samples, Plane& plane) {
+  anyWavelet(dice, plane.wavelet);
+  plane.wavelet.forest = anyForest(dice, most_samples);
+  plane.width = plane.wavelet.forest->raster().width;
+  plane.height = plane.wavelet.forest->raster().height;
+  if (dice.oneIn(4)) anyPriorities(dice, plane.extent(), plane.priorities);
+}
+
+StreamHeader anyForestHeights(Dice& dice, uint64_t most_samples) {
+  StreamHeader header;
+  GeometryHeader& g = header.geometry.emplace();
+  g.sample = static_cast<uint8_t>(dice.oneIn(2) ? TKS_F32 : TKS_I16);
+  g.planes = static_cast<uint8_t>(dice.oneIn(2) ? 30 : dice.below(31));
+  putOnForest(dice, most_samples, g);
+  if (dice.oneIn(4)) anyTable(dice, header.layers);
+  if (dice.oneIn(2)) anyCorrections(dice, g, header.layers);
+  return header;
+}
+
 StreamHeader anyHeights(Dice& dice, uint64_t most_samples) {
+  if (dice.oneIn(4)) return anyForestHeights(dice, most_samples);
   StreamHeader header;
   GeometryHeader& g = header.geometry.emplace();
   const Extent extent = anyExtent(dice, most_samples, kMaxSide);
@@ -181,12 +223,17 @@ StreamHeader anyTexture(Dice& dice, uint64_t most_samples) {
   StreamHeader header;
   TextureHeader& t = header.texture.emplace();
   t.channels = static_cast<uint8_t>(1 + dice.below(4));
+  t.sample = TKS_U8;
+  t.centre = {100, 130, 90, 128};
+  t.planes = static_cast<uint8_t>(dice.oneIn(2) ? 30 : dice.below(31));
+  if (dice.oneIn(4)) {
+    putOnForest(dice, most_samples / t.channels, t);
+    return header;
+  }
   const Extent extent = anyExtent(dice, most_samples / t.channels, kMaxTextureSide);
   t.width = extent.width;
   t.height = extent.height;
   t.sample = static_cast<uint8_t>(dice.oneIn(2) ? TKS_U8 : TKS_U16);
-  t.centre = {100, 130, 90, 128};
-  t.planes = static_cast<uint8_t>(dice.oneIn(2) ? 30 : dice.below(31));
   if (dice.oneIn(4)) anyRepeats(dice, t.repeats, t.width, t.height);
   anyWavelet(dice, t.wavelet);
   if (dice.oneIn(5)) {
@@ -216,6 +263,10 @@ Bytes anyPayload(Dice& dice, const StreamHeader& header, size_t size, std::strin
   return payload.bytes;
 }
 
+std::string described(const SharedForest& forest) {
+  return forest == nullptr ? "" : ", patches " + std::to_string(forest->patches());
+}
+
 std::string described(const StreamHeader& header) {
   if (header.texture) {
     const TextureHeader& t = *header.texture;
@@ -224,7 +275,7 @@ std::string described(const StreamHeader& header) {
            ", regions " + std::to_string(t.regions.side_log2) + ", alpha " +
            std::to_string(t.alpha_bytes) + ", overlay " + std::to_string(t.overlay_bytes) +
            ", bridge " + std::to_string(t.bridge) + ", priorities " +
-           std::to_string(t.priorities.tile_log2);
+           std::to_string(t.priorities.tile_log2) + described(t.wavelet.forest);
   }
   const GeometryHeader& g = *header.geometry;
   const GeometryLayers& l = header.layers;
@@ -235,7 +286,7 @@ std::string described(const StreamHeader& header) {
          std::to_string(l.flat_bytes) + ", table " + std::to_string(l.table_values) +
          ", corrections " + std::to_string(static_cast<int>(l.corrections)) + "/" +
          std::to_string(l.correction_step) + ", priorities " +
-         std::to_string(g.priorities.tile_log2);
+         std::to_string(g.priorities.tile_log2) + described(g.wavelet.forest);
 }
 
 }  // namespace

@@ -104,8 +104,8 @@ bool isGridOnCube(const tks_info& info) {
          std::equal(info.forest.sides, info.forest.sides + 4 * kCubePatches, tks_cube_sides());
 }
 
-Result<std::vector<std::byte>> gridOfCube(const tks_info& info, std::span<const float> surface,
-                                          const std::optional<tks_window>& window) {
+Result<std::vector<float>> surfaceOfCube(const tks_info& info, std::span<const float> surface,
+                                         const std::optional<tks_window>& window) {
   const auto grid = gridOf(info.grid_width, info.grid_height, std::to_array(info.geotransform),
                            info.geo_keys, info.crs);
   if (!grid.ok()) return grid.status();
@@ -116,7 +116,14 @@ Result<std::vector<std::byte>> gridOfCube(const tks_info& info, std::span<const 
   const tks_status status = tks_grid_from_cube(surface.data(), info.forest.depth, &*grid, &part, 1,
                                                heights.data(), message.data(), message.size());
   if (status != TKS_OK) return Status(status, message.data());
-  return samplesOf(heights, info.sample, info.scale, info.offset);
+  return heights;
+}
+
+Result<std::vector<std::byte>> gridOfCube(const tks_info& info, std::span<const float> surface,
+                                          const std::optional<tks_window>& window) {
+  const Result<std::vector<float>> heights = surfaceOfCube(info, surface, window);
+  if (!heights.ok()) return heights.status();
+  return samplesOf(*heights, info.sample, info.scale, info.offset);
 }
 
 }  // namespace tetrakis::tools

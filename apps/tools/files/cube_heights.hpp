@@ -31,7 +31,11 @@ Result<HeightFile> onCube(const HeightFile& grid, uint32_t depth, uint32_t threa
 /// Whether the heights of a stream lie on a cube and were made of a grid.
 bool isGridOnCube(const tks_info& info);
 
-/// The samples of the grid, or of a window of it, of such a stream. surface: its cube, as heights.
+/// The heights of the grid, or of a window of it, of such a stream. surface: its cube, as heights.
+Result<std::vector<float>> surfaceOfCube(const tks_info& info, std::span<const float> surface,
+                                         const std::optional<tks_window>& window);
+
+/// The samples of the grid, or of a window of it, likewise.
 Result<std::vector<std::byte>> gridOfCube(const tks_info& info, std::span<const float> surface,
                                           const std::optional<tks_window>& window);
 

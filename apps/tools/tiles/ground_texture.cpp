@@ -9,6 +9,7 @@
 
 #include "apps/tools/files/meshes/mesh_writers.hpp"
 #include "apps/tools/tiles/longitude_trail.hpp"
+#include "apps/tools/tiles/round_place.hpp"
 #include "apps/tools/tiles/terrain_level.hpp"
 
 namespace tetrakis::tools {
@@ -65,17 +66,11 @@ class PixelMap {
   std::vector<std::array<double, 2>> pixels_;
 };
 
-/// Bilinear, colours weighted by alpha. x, y: in texels, 0 the middle of the first.
-void sample(const ImageFile& image, double x, double y, std::byte* out) {
-  const auto clamped = [](double at, uint32_t side) {
-    return std::isfinite(at) ? std::clamp(at, 0.0, side - 1.0) : 0.0;
-  };
-  x = clamped(x, image.width);
-  y = clamped(y, image.height);
-  const auto left = static_cast<uint32_t>(x), top = static_cast<uint32_t>(y);
-  const uint32_t right = std::min(left + 1, image.width - 1);
-  const uint32_t bottom = std::min(top + 1, image.height - 1);
-  const double u = x - left, v = y - top;
+/// Bilinear, colours weighted by alpha.
+void sample(const ImageFile& image, const SamplesBeside& across, const SamplesBeside& down,
+            std::byte* out) {
+  const auto [left, right, u] = across;
+  const auto [top, bottom, v] = down;
   const bool alpha = image.channels % 2 == 0;
   const uint32_t colours = image.channels - alpha;
   std::array<double, 4> sums{}, plain{};
@@ -125,6 +120,7 @@ Result<GroundTexture> GroundTexture::create(const tks_info& info) {
   Result<RasterPlace> place = RasterPlace::create(placeOf(info), crs.empty() ? info.crs : crs);
   if (!place.ok()) return place.status();
   GroundTexture texture(std::move(*place), info);
+  texture.round_ = columnsRound(texture.place_, texture.width_, texture.height_);
   const auto [x, y] = texture.place_.earthAt(texture.width_ / 2.0, texture.height_ / 2.0);
   constexpr double kNear = 1e-5;
   for (const size_t axis : {0, 1}) {
@@ -162,7 +158,10 @@ Result<GeographicBounds> GroundTexture::bounds() const {
                 std::max(bounds.east, longitude), std::max(bounds.north, latitude)};
     }
   }
-  if (apart)
+  if (round_ > 0) {
+    bounds.west = -180;
+    bounds.east = 180;
+  } else if (apart)
     return Status(TKS_USAGE,
                   "the texture lies on both sides of the antimeridian: cut it there and make tiles "
                   "of each part");
@@ -177,6 +176,12 @@ void GroundTexture::use(ImageFile mip, uint32_t level) {
   if (mip.hasFurtherColour()) mip = withoutFurtherColour(mip);
   mip_ = mip.sample == TKS_U8 ? std::move(mip) : reducedTo8Bits(mip);
   level_ = level;
+}
+
+SamplesBeside GroundTexture::columnsAt(double pixel) const {
+  const double scale = std::ldexp(1, -static_cast<int>(level_)), at = (pixel - 0.5) * scale;
+  if (round_ > 0 && std::isfinite(at)) return samplesRound(at, mip_.width, round_ * scale);
+  return samplesBeside(at, mip_.width);
 }
 
 ImageFile GroundTexture::piece(const GeographicTile& tile, const TexelGrid& grid,
@@ -195,8 +200,9 @@ ImageFile GroundTexture::piece(const GeographicTile& tile, const TexelGrid& grid
     for (uint32_t column = 0; column < grid.across; ++column) {
       const auto [x_pixel, y_pixel] = map.at(cellOf(column, grid.across), y);
       std::byte* const out = &piece.data[(size_t{row} * grid.across + column) * piece.channels];
-      sample(mip_, (x_pixel - 0.5) * scale, (y_pixel - 0.5) * scale, out);
-      const bool inside = x_pixel >= 0 && x_pixel <= width_ && y_pixel >= 0 && y_pixel <= height_;
+      sample(mip_, columnsAt(x_pixel), samplesBeside((y_pixel - 0.5) * scale, mip_.height), out);
+      const bool across = round_ > 0 || (x_pixel >= 0 && x_pixel <= width_);
+      const bool inside = across && y_pixel >= 0 && y_pixel <= height_;
       if (cut && !inside) out[piece.channels - 1] = std::byte{0};
     }
   }

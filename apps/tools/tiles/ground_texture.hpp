@@ -9,6 +9,7 @@
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/files/place/raster_place.hpp"
 #include "apps/tools/tiles/geographic_tile.hpp"
+#include "apps/tools/tiles/round_place.hpp"
 #include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.hpp"
 
@@ -46,7 +47,8 @@ class GroundTexture {
   /// Takes the decoded texture of a mip level.
   void use(ImageFile mip, uint32_t level);
 
-  /// 8 bits a channel. Beyond the texture lie the colours of its edge; cut: with alpha, which is 0
+  /// 8 bits a channel. Beyond the texture lie the colours of its edge, but where its columns go
+  /// round the Earth, those of its other end; cut: with alpha, which is 0
   /// there. Opaque pieces have no alpha.
   ImageFile piece(const GeographicTile& tile, const TexelGrid& grid, TexelPlaces places,
                   bool cut) const;
@@ -56,9 +58,12 @@ class GroundTexture {
 
  private:
   GroundTexture(RasterPlace place, const tks_info& info);
+  /// Of the mip level, on both sides of a column of the texture.
+  SamplesBeside columnsAt(double pixel) const;
 
   RasterPlace place_;
   uint32_t width_, height_, coarsest_level_;
+  uint32_t round_ = 0;  ///< columns once round the Earth; 0: it does not go round
   std::array<double, 2> density_{};
   ImageFile mip_;  ///< 8 bits
   uint32_t level_ = 0;

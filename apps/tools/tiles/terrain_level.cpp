@@ -74,11 +74,22 @@ void TerrainLevel::lift(Place v, int64_t half, bool centre) {
     if (inside(vertex)) errors_[at(vertex)] = std::max(errors_[at(vertex)], error);
 }
 
+/// What is needed at 180 degrees on one side is needed on the other: of the vertices that have not
+/// told yet what they need, from midpoints of sides of 2 half on.
+void TerrainLevel::joinEnds(int64_t half) {
+  if (!goesRound()) return;
+  for (int64_t y = 0; y < rows_; y += half) {
+    float &west = errors_[at({0, y})], &east = errors_[at({columns_ - 1, y})];
+    west = east = std::max(west, east);
+  }
+}
+
 void TerrainLevel::chooseVertices(double error, bool outline) {
   outline_ = outline;
   kept_ = error;
   errors_.assign(heights_.size(), 0);
   for (int64_t half = 1; half < kTileCells; half *= 2) {
+    joinEnds(half);
     for (int64_t y = 0; y < rows_; y += half)
       for (int64_t x = (y / half) % 2 == 0 ? half : 0; x < columns_; x += 2 * half)
         lift({x, y}, half, false);
@@ -94,6 +105,7 @@ uint32_t TerrainLevel::number(TileMesh& mesh, std::vector<uint32_t>& numbers, co
   uint32_t& known = numbers[size_t{row} * (kTileCells + 1) + column];
   if (known != 0) return known - 1;
   const auto height = [this, &v](int64_t x, int64_t y) {
+    if (goesRound()) x += x < 0 ? columns_ - 1 : x >= columns_ ? 1 - columns_ : 0;
     const Place beside{std::clamp<int64_t>(x, 0, columns_ - 1),
                        std::clamp<int64_t>(y, 0, rows_ - 1)};
     return heights_[at(outline_ && !ground_[at(beside)] ? v : beside)];

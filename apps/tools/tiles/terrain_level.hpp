@@ -58,11 +58,16 @@ class TerrainLevel {
   bool inside(const Place& place) const {
     return place.x >= 0 && place.y >= 0 && place.x < columns_ && place.y < rows_;
   }
+  /// The range goes round the Earth: its first and last columns lie at one longitude.
+  bool goesRound() const {
+    return range_.x0 == 0 && uint64_t{range_.x1} + 1 == uint64_t{2} << range_.level;
+  }
   /// The lattice repeats itself over pairs of tiles, so it is the same in all ranges.
   int64_t phaseX() const { return int64_t{range_.x0 % 2} * kTileCells; }
   int64_t phaseY() const { return int64_t{range_.y0 % 2} * kTileCells; }
 
   float sagitta(int64_t half, bool centre) const;
+  void joinEnds(int64_t half);
   void lift(Place vertex, int64_t half, bool centre);
   void split(TileMesh& mesh, std::vector<uint32_t>& numbers, const Place& origin,
              const std::array<Place, 3>& corners) const;

@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/stream.hpp"
 #include "apps/tools/report/scene.hpp"
 #include "apps/tools/tiles/ground_tileset.hpp"
 #include "apps/tools/tiles/quantized_mesh.hpp"
@@ -34,6 +36,9 @@ double levelError(uint32_t level) {
   constexpr double kEquator = 40075016.685578488;
   return std::ldexp(kEquator / (2 * kTileCells) / 4, -static_cast<int>(level));
 }
+
+/// Levels that are made of the grid of a cube, which has none itself.
+constexpr uint32_t kMostCubeLevels = 16;
 
 /// The least level whose cells are no longer than the spacing of the samples.
 uint32_t deepestLevel(double spacing) {
@@ -120,7 +125,8 @@ class TileWriter {
   Status checkMemory() {
     const tks_info& info = decoder_.info();
     const uint64_t cells = ranges_.back().count() * kTileCells * kTileCells;
-    const uint64_t samples = uint64_t{info.width} * info.height;
+    const uint64_t samples = uint64_t{info.width} * info.height +
+                             (isGridOnCube(info) ? shownHeights(info).samples() : 0);
     return decoder_
         .checkMemory(TKS_PART_HEIGHTS, nullptr, 0,
                      sizeof(float) * samples + 3 * sizeof(float) * cells)
@@ -129,14 +135,24 @@ class TileWriter {
 
   /// Mip levels follow the levels of tiles, as far as there are some.
   Status decodeFor(uint32_t level) {
-    const uint32_t mip = std::min(written_.deepest - level, decoder_.info().coarsest_level);
+    const tks_info& info = decoder_.info();
+    const bool cube = isGridOnCube(info);
+    const uint32_t mip =
+        std::min(written_.deepest - level, cube ? kMostCubeLevels : info.coarsest_level);
     if (!surface_.heights.empty() && surface_.level == mip) return {};
+    if (cube && !surface_.heights.empty()) {
+      surface_ = coarser(surface_, ground_.columnsRound() > 0);
+      return {};
+    }
     surface_.heights.clear();
-    if (Status set = decoder_.setLevels(mip, texture_ ? texture_->level() : 0); !set.ok())
+    if (Status set = decoder_.setLevels(cube ? 0 : mip, texture_ ? texture_->level() : 0);
+        !set.ok())
       return set;
     Result<std::vector<float>> heights = decoder_.surface();
-    if (!heights) return heights.status();
-    surface_ = {std::move(*heights), decoder_.info().width, decoder_.info().height, mip};
+    if (heights.ok() && cube) heights = surfaceOfCube(info, *heights, {});
+    if (!heights.ok()) return heights.status();
+    const Extent extent = shownHeights(info);
+    surface_ = {std::move(*heights), extent.width, extent.height, mip};
     return {};
   }
 
