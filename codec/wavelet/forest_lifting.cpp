@@ -42,7 +42,8 @@ ForestLifting::ForestLifting(const WaveletSpec& spec, const Pyramid& pyramid, in
 uint64_t ForestLifting::bytesOf(const Forest& forest) {
   const uint64_t width = forest.side() + 2 * kWidestMargin;
   const uint64_t around = 4 * kWidestMargin * width, shared = 4 * uint64_t{forest.side()};
-  return forest.patches() * (width * width * sizeof(int32_t) + (around + shared) * sizeof(Copy));
+  return forest.patches() *
+         (width * width * (sizeof(int32_t) + sizeof(uint16_t)) + (around + shared) * sizeof(Copy));
 }
 
 size_t ForestLifting::indexOf(uint32_t patch, int64_t x, int64_t y) const {
@@ -77,41 +78,55 @@ void ForestLifting::copyAll(const std::vector<Copy>& copies) {
   for (const auto& [to, from] : copies) patches_[to] = patches_[from];
 }
 
-void ForestLifting::hold(uint32_t patch, JointStep step, const std::vector<HeldCell>& held) {
+void ForestLifting::findNumbers() {
   const size_t log2 = static_cast<size_t>(level_ - 1), width = pyramid_.plane().width;
+  numbers_.resize(patches_.size());
+  for (uint32_t patch = 0; patch < forest_.patches(); ++patch) {
+    for (uint32_t y = 0; y <= n_; ++y) {
+      const uint16_t* const row =
+          pyramid_.held().numbers.data() + (size_t{patch} * forest_.side() + (y << log2)) * width;
+      for (uint32_t x = 0; x <= n_; ++x) numbers_[indexOf(patch, x, y)] = row[x << log2];
+    }
+  }
+  for (const auto& [to, from] : around_) numbers_[to] = numbers_[from];
+}
+
+void ForestLifting::hold(uint32_t patch, JointStep step, const std::vector<HeldCell>& held) {
   for (uint32_t y = step == JointStep::kCentres; y <= n_; y += step == JointStep::kSides ? 1 : 2) {
     const uint32_t first = step == JointStep::kSides ? 1 - y % 2 : step == JointStep::kCentres;
-    const uint16_t* const numbers =
-        pyramid_.held().numbers.data() + (size_t{patch} * forest_.side() + (y << log2)) * width;
     for (uint32_t x = first; x <= n_; x += 2) {
-      const uint16_t number = numbers[x << log2];
-      if (number == 0) continue;
-      const HeldCell& cell = held[number - 1u];
-      patches_[indexOf(patch, x, y)] = step == JointStep::kCorners ? cell.corner
-                                       : step == JointStep::kSides ? cell.side
-                                                                   : cell.centre;
+      const size_t i = indexOf(patch, x, y);
+      if (numbers_[i] == 0) continue;
+      const HeldCell& cell = held[numbers_[i] - 1u];
+      patches_[i] = step == JointStep::kCorners ? cell.corner
+                    : step == JointStep::kSides ? cell.side
+                                                : cell.centre;
     }
   }
 }
 
-void ForestLifting::lift(size_t round, const std::vector<HeldCell>* held) {
+void ForestLifting::lift(size_t round, const HeldRounds& held) {
   for (const JointStep each : JointLifting::steps(direction_))
     if (each != JointStep::kHalves) step(round, each, held);
 }
 
-void ForestLifting::step(size_t round, JointStep step, const std::vector<HeldCell>* held) {
+void ForestLifting::step(size_t round, JointStep step, const HeldRounds& held) {
   copyAll(around_);
   const size_t samples = size_t{width_} * width_;
   const bool doubled = doubled_ && round + 1 == jointRounds(id_);
+  const size_t after = direction_ == Direction::kAnalysis ? round + 1 : round;
   parallelFor(threads_, forest_.patches(), [&](size_t patch) {
-    const JointBlock block{patches_.data() + patch * samples,
-                           width_,
-                           {width_, width_},
-                           Ends::kMirrored,
-                           doubled,
-                           round};
+    JointBlock block{patches_.data() + patch * samples,
+                     width_,
+                     {width_, width_},
+                     Ends::kMirrored,
+                     doubled,
+                     round};
+    if (!held.none())
+      block.held = {numbers_.data() + patch * samples, held.raised[round].data(),
+                    held.lowered[round].data()};
     JointLifting(block, id_, direction_, wide_).run(step, margin_, margin_ + n_ + 1);
-    if (held != nullptr) hold(static_cast<uint32_t>(patch), step, *held);
+    if (!held.none()) hold(static_cast<uint32_t>(patch), step, held.cells[after]);
   });
   copyAll(shared_);
 }
@@ -137,16 +152,14 @@ void ForestLifting::run(std::span<int32_t> values, const HeldRounds& held) {
   forEachSample(values, !analyses, [](int32_t from, int32_t& to) { to = from; });
   copyAll(shared_);  // what is not owned has no coefficient
   const size_t rounds = jointRounds(id_);
-  assert(held.empty() || held.size() == rounds + 1);
-  if (!held.empty() && !analyses) {  // neither has what is held
+  assert(held.none() || held.cells.size() == rounds + 1);
+  if (!held.none()) findNumbers();
+  if (!held.none() && !analyses) {  // what is held has no coefficients
     for (uint32_t patch = 0; patch < forest_.patches(); ++patch)
       for (const JointStep step : {JointStep::kCentres, JointStep::kSides, JointStep::kCorners})
-        hold(patch, step, held.back());
+        hold(patch, step, held.cells.back());
   }
-  for (size_t i = 0; i < rounds; ++i) {
-    const size_t round = analyses ? i : rounds - 1 - i;
-    lift(round, held.empty() ? nullptr : &held[analyses ? round + 1 : round]);
-  }
+  for (size_t i = 0; i < rounds; ++i) lift(analyses ? i : rounds - 1 - i, held);
   forEachSample(values, analyses, [](int32_t& to, int32_t from) { to = from; });
 }
 

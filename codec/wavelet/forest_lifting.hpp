@@ -43,9 +43,9 @@ class ForestLifting {
   size_t indexOf(uint32_t patch, int64_t x, int64_t y) const;
   void findCopies();
   void copyAll(const std::vector<Copy>& copies);
-  /// held: what held samples become; null: nothing is held.
-  void lift(size_t round, const std::vector<HeldCell>* held);
-  void step(size_t round, JointStep step, const std::vector<HeldCell>* held);
+  void lift(size_t round, const HeldRounds& held);
+  void step(size_t round, JointStep step, const HeldRounds& held);
+  void findNumbers();
   /// Gives held samples of a patch their values, of those that a step changes.
   void hold(uint32_t patch, JointStep step, const std::vector<HeldCell>& held);
   /// Calls move(value of the raster, value here) for all samples of the patches. halved: even
@@ -62,6 +62,7 @@ class ForestLifting {
   uint32_t threads_;
   uint32_t n_, margin_, width_;  ///< of a patch, around it, and of both
   std::vector<int32_t> patches_;
+  std::vector<uint16_t> numbers_;  ///< of held samples, laid out like the patches; empty: none
   std::vector<Copy> around_, shared_;
 };
 

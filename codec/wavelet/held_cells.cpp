@@ -14,15 +14,16 @@ HeldCells::HeldCells(const WaveletSpec& spec, const Pyramid& pyramid) : spec_(sp
     const HeldRounds rounds = level(l);
     std::vector<int32_t>& low = values_.emplace_back();
     low.reserve(values.size());
-    for (const HeldCell& cell : rounds.back()) low.push_back(cell.corner);
+    for (const HeldCell& cell : rounds.cells.back()) low.push_back(cell.corner);
   }
 }
 
 HeldRounds HeldCells::level(int level) const {
   const FilterId id = spec_.filter(level);
   const size_t rounds = jointRounds(id);
-  HeldRounds all(1);
-  for (const int32_t v : values_[static_cast<size_t>(level - 1)]) all.front().push_back({v, v, v});
+  HeldRounds all{.cells = std::vector<std::vector<HeldCell>>(1), .raised = {}, .lowered = {}};
+  for (const int32_t v : values_[static_cast<size_t>(level - 1)])
+    all.cells.front().push_back({v, v, v});
   for (size_t round = 0; round < rounds; ++round) {
     // A cell that is mirrored about its sides is the whole surface.
     std::array<int32_t, 4> cell;
@@ -30,14 +31,17 @@ HeldRounds HeldCells::level(int level) const {
     const JointBlock block{cell.data(), 2, {2, 2}, Ends::kMirrored, doubled, round};
     JointLifting lifting(block, id, Direction::kAnalysis, spec_.jointlyWide(level));
     std::vector<HeldCell> after;
-    after.reserve(all.back().size());
-    for (const auto& [corner, side, centre] : all.back()) {
+    std::vector<int32_t>&raised = all.raised.emplace_back(), &lowered = all.lowered.emplace_back();
+    for (const auto& [corner, side, centre] : all.cells.back()) {
       cell = {corner, side, side, centre};
-      for (const JointStep step : {JointStep::kCentres, JointStep::kSides, JointStep::kCorners})
-        lifting.run(step, 0, 2);
+      raised.push_back(lifting.raised(1).front());
+      lifting.run(JointStep::kCentres, 0, 2);
+      lifting.run(JointStep::kSides, 0, 2);
+      lowered.push_back(lifting.lowered(0).front());
+      lifting.run(JointStep::kCorners, 0, 2);
       after.push_back({cell[0], cell[1], cell[3]});
     }
-    all.push_back(std::move(after));
+    all.cells.push_back(std::move(after));
   }
   return all;
 }

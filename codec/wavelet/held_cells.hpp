@@ -18,8 +18,14 @@ struct HeldCell {
   int32_t corner, side, centre;
 };
 
-/// [r][area]: before round r of a level's analysis, and after the last one.
-using HeldRounds = std::vector<std::vector<HeldCell>>;
+/// What a level makes of all areas. A round reads a held sample as the one of such a surface, also
+/// where it reads one that it is about to change.
+struct HeldRounds {
+  std::vector<std::vector<HeldCell>> cells;  ///< [r][area]: before round r, and after the last one
+  std::vector<std::vector<int32_t>> raised, lowered;  ///< [r][area]: as of JointHeld, in round r
+
+  bool none() const { return cells.empty(); }
+};
 
 class HeldCells {
  public:

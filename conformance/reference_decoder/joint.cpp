@@ -11,9 +11,10 @@ namespace {
 /// A value of the level at a place of its own grid.
 using ValueAt = std::function<int32_t(int64_t x, int64_t y)>;
 
-/// FORMAT 7, "Forests": a, b (and c) and d of an area that is held.
+/// FORMAT 7, "Forests": a, b (and c) and d of an area that is held, and what a round
+/// reads of it.
 struct Cell {
-  int32_t a, b, d;
+  int32_t a, b, d, raised = 0, lowered = 0;
 };
 using Cells = std::vector<Cell>;  ///< of each area
 
@@ -48,15 +49,18 @@ class Joint {
       return wrap(to + (wrap(wrap(v) + (int64_t{1} << (places - 1))) >> places));
     };
     const auto sixteen = [](int32_t z) { return int64_t{wrap(int64_t{z} * 16)}; };
-    cell.d = add(cell.d, P(4, wrap(sixteen(cell.b) + P(0, cell.a))) + P(0, cell.b), 4);
+    cell.raised = wrap(sixteen(cell.b) + P(0, cell.a));
+    cell.d = add(cell.d, P(4, cell.raised) + P(0, cell.b), 4);
     cell.b = add(cell.b, P(0, cell.a) + U(0, cell.d), 4);
-    const int64_t v = U(4, wrap(sixteen(cell.b) - U(0, cell.d))) + U(0, cell.b);
+    cell.lowered = wrap(sixteen(cell.b) - U(0, cell.d));
+    const int64_t v = U(4, cell.lowered) + U(0, cell.b);
     cell.a = doubled_ ? add(int64_t{cell.a} * 2, v, 3) : add(cell.a, v, 4);
     return cell;
   }
 
   void liftA() {
     const ValueAt lowered = [&](int64_t x, int64_t y) {
+      if (const Cell* cell = cellAt(x, y)) return cell->lowered;
       return wrap(sixteenths(x, y) - alongY(kUpdate, 0, x, y, whole_));
     };
     each(0, 0, [&](int64_t x, int64_t y) {
@@ -76,6 +80,7 @@ class Joint {
   }
   void liftD() {
     const ValueAt raised = [&](int64_t x, int64_t y) {
+      if (const Cell* cell = cellAt(x, y)) return cell->raised;
       return wrap(sixteenths(x, y) + alongY(kPredict, 0, x, y, whole_));
     };
     each(1, 1, [&](int64_t x, int64_t y) {
@@ -98,19 +103,22 @@ class Joint {
   }
   int64_t sixteenths(int64_t x, int64_t y) { return wrap(int64_t{at(x, y)} * 16); }
 
+  /// Of a held sample; null: it is not held.
+  const Cell* cellAt(int64_t x, int64_t y) const {
+    const Place place = forest_.locate({patch_, x, y}, width_ - 1, height_ - 1);
+    const uint32_t area = plane_.flat.areas.empty() ? 0 : plane_.flat.areas.at(index(place));
+    return area > 0 ? &cells_.at(area - 1) : nullptr;
+  }
   /// All owned samples of one parity in x and y; those that are held get their value instead.
   void each(int64_t first_x, int64_t first_y, const std::function<void(int64_t, int64_t)>& call) {
     for (int64_t y = first_y; y < height_; y += 2) {
       for (int64_t x = first_x; x < width_; x += 2) {
         const size_t sample = index({patch_, x, y});
         if (forest_.ownerOf(sample) != sample) continue;
-        const uint32_t area = plane_.flat.areas.empty() ? 0 : plane_.flat.areas.at(sample);
-        if (area == 0) {
+        if (const Cell* cell = cellAt(x, y))
+          at(x, y) = first_x != first_y ? cell->b : first_x == 0 ? cell->a : cell->d;
+        else
           call(x, y);
-        } else {
-          const Cell& cell = cells_.at(area - 1);
-          at(x, y) = first_x != first_y ? cell.b : first_x == 0 ? cell.a : cell.d;
-        }
       }
     }
   }
@@ -182,7 +190,11 @@ std::vector<Cells> cellsOf(const WaveletHeader& header, int level, Plane& plane)
     for (size_t step = 0; step < filterOf(header, l).steps.size(); step += 2) {
       const Joint joint(header, {l, 1 << (l - 1), 1 << (l - 1)}, step, 0, plane, rounds[0]);
       Cells after;
-      for (const Cell& cell : rounds.back()) after.push_back(joint.analysed(cell));
+      for (Cell& cell : rounds.back()) {
+        after.push_back(joint.analysed(cell));
+        cell.raised = after.back().raised;
+        cell.lowered = after.back().lowered;
+      }
       rounds.push_back(std::move(after));
     }
   }

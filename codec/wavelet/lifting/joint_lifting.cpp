@@ -62,11 +62,25 @@ void JointLifting::orderHalves(uint32_t row) {
   }
 }
 
-/// d += [Px (c + Py a) + Py b]
-void JointLifting::centres(uint32_t row) {
+std::span<const int32_t> JointLifting::raised(uint32_t row) {
   const std::span<int32_t> c = halves_.room(true, block_.extent.width);
   widen(half(row, false), kJointPlaces, c);
   addColumns({row, false, true}, Direction::kAnalysis, c);
+  hold(row, false, block_.held.raised, c);
+  return c;
+}
+
+std::span<const int32_t> JointLifting::lowered(uint32_t row) {
+  const std::span<int32_t> b = halves_.room(false, block_.extent.width);
+  widen(half(row, true), kJointPlaces, b);
+  addColumns({row, true, false}, Direction::kSynthesis, b);
+  hold(row, true, block_.held.lowered, b);
+  return b;
+}
+
+/// d += [Px (c + Py a) + Py b]
+void JointLifting::centres(uint32_t row) {
+  raised(row);
   sums_.assign(half(row, true).size(), 0);
   addRow(true, kJointPlaces);
   addColumns({row, true, true}, Direction::kAnalysis, sums_);
@@ -95,9 +109,7 @@ void JointLifting::lowerSides(uint32_t row) {
 
 /// a += [Ux (b - Uy d) + Uy c]
 void JointLifting::corners(uint32_t row) {
-  const std::span<int32_t> b = halves_.room(false, block_.extent.width);
-  widen(half(row, true), kJointPlaces, b);
-  addColumns({row, true, false}, Direction::kSynthesis, b);
+  lowered(row);
   sums_.assign(half(row, false).size(), 0);
   addRow(false, kJointPlaces);
   addColumns({row, false, false}, Direction::kAnalysis, sums_);
@@ -108,6 +120,15 @@ std::span<int32_t> JointLifting::half(uint32_t row, bool high) const {
   const uint32_t highs = block_.extent.width / 2, lows = block_.extent.width - highs;
   int32_t* const values = block_.first + row * block_.pitch;
   return high ? std::span(values + lows, highs) : std::span(values, lows);
+}
+
+void JointLifting::hold(uint32_t row, bool high, const int32_t* values,
+                        std::span<int32_t> half) const {
+  if (block_.held.numbers == nullptr) return;
+  const uint32_t lows = block_.extent.width - block_.extent.width / 2;
+  const uint16_t* const numbers = block_.held.numbers + row * block_.pitch + (high ? lows : 0);
+  for (size_t i = 0; i < half.size(); ++i)
+    if (numbers[i] != 0) half[i] = values[numbers[i] - 1];
 }
 
 LiftingRule JointLifting::ruleOf(bool predicts, int places, Direction direction) const {

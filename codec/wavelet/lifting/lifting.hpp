@@ -124,15 +124,23 @@ bool liftsJointly(FilterId id);
 /// along columns could change places, but for their roundings.
 size_t jointRounds(FilterId id);
 
+/// What is known of samples that are held (codec/wavelet/held_cells.hpp).
+struct JointHeld {
+  const uint16_t* numbers = nullptr;  ///< of each value of a block: 0, or 1 + its area
+  /// Of each area what JointLifting::raised() and lowered() are.
+  const int32_t *raised = nullptr, *lowered = nullptr;
+};
+
 /// What is split: rows at equal distances, even ones low and odd ones high. In the transform the
 /// low half of each row lies before the high half.
 struct JointBlock {
   int32_t* first;
-  size_t pitch;      ///< from one row to the next, in values
-  Extent extent;     ///< two samples or more in each direction
-  Ends ends;         ///< of the rows
-  bool doubled;      ///< a becomes 2 a + [2 (...)]: coarser levels then round half as much
-  size_t round = 0;  ///< of the filter's; a is doubled in the last one
+  size_t pitch;         ///< from one row to the next, in values
+  Extent extent;        ///< two samples or more in each direction
+  Ends ends;            ///< of the rows
+  bool doubled;         ///< a becomes 2 a + [2 (...)]: coarser levels then round half as much
+  size_t round = 0;     ///< of the filter's; a is doubled in the last one
+  JointHeld held = {};  ///< without numbers: nothing is held
 };
 
 /// What analysis does, in this order; synthesis does it backwards.
@@ -153,6 +161,11 @@ class JointLifting {
 
   static std::array<JointStep, 4> steps(Direction direction);
 
+  /// The row c + Py a that changes d, and the row b - Uy d that changes a, with kJointPlaces binary
+  /// places. Valid until another row is lifted.
+  std::span<const int32_t> raised(uint32_t row);
+  std::span<const int32_t> lowered(uint32_t row);
+
  private:
   /// The values that a step along the columns reads to change a row: at low or at high places.
   struct Columns {
@@ -167,6 +180,8 @@ class JointLifting {
   void corners(uint32_t row);
 
   std::span<int32_t> half(uint32_t row, bool high) const;
+  /// Gives the values of their areas to what is held of half a row.
+  void hold(uint32_t row, bool high, const int32_t* values, std::span<int32_t> half) const;
   LiftingRule ruleOf(bool predicts, int places, Direction direction) const;
   void addRow(bool predicts, int places);
   void addColumns(const Columns& of, Direction direction, std::span<int32_t> sums) const;
