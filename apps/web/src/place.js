@@ -3,6 +3,7 @@
 // the CRSs that web maps meet (degrees, web Mercator, UTM), for streams that take their longitudes
 // and latitudes along, and for pages that project themselves.
 import {straightAxes} from './axes.js';
+import {isForest} from './domains.js';
 import {drapedTransform, pixelsOf} from './drape.js';
 import {TksError} from './error.js';
 import {isWebMercator} from './ground.js';
@@ -239,6 +240,10 @@ function projectionFor({crs, raster}, project) {
  * northern one. `project(x, y, crs)`: longitude and latitude of coordinates of the stream's CRS.
  */
 export function placeOf(info, part, {bounds, project} = {}) {
+  if (isForest(info.domain)) {
+    throw new TksError('unsupported', 'The heights lie on patches, as those of a cube do. What is ' +
+      'cut out by longitudes and latitudes is a grid: tetrakis decode makes one of a cube.');
+  }
   const isTexture = part === 'texture';
   const width = isTexture ? info.textureWidth : info.width;
   const height = isTexture ? info.textureHeight : info.height;

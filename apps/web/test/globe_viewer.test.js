@@ -9,7 +9,7 @@ import {after, before, test} from 'node:test';
 import {chromium} from 'playwright-core';
 
 import {encode} from '../src/encode.js';
-import {earth} from './earth.js';
+import {earth, earthOnCube} from './earth.js';
 import {serve} from './server.js';
 
 const viewer = new URL('../dist/viewer/', import.meta.url).pathname;
@@ -29,6 +29,12 @@ before(async () => {
   stream = await encode({heights: earth().heights, bytes: 80000});
   await writeFile(join(folder, 'earth.tks'), stream);
   await writeFile(join(folder, 'textured.tks'), await encode({...earth(), bytes: 120000}));
+  const onCube = earthOnCube();
+  await writeFile(join(folder, 'cube.tks'), await encode({...onCube, bytes: 120000}));
+  await writeFile(join(folder, 'bare_cube.tks'),
+    await encode({heights: onCube.heights, bytes: 80000}));
+  const moon = {...earth().heights, crs: 'Moon', geoKeys: '1024=2 2057=1737400 2058=1737400'};
+  await writeFile(join(folder, 'moon.tks'), await encode({heights: moon, bytes: 40000}));
   server = await serve(folder);
 });
 after(async () => {
@@ -104,7 +110,7 @@ function radiiOf(isGround) {
 }
 
 test('after 4 kB a round globe is drawn', TIMEOUT, async () => {
-  for (const name of ['earth', 'textured']) {
+  for (const name of ['earth', 'textured', 'bare_cube', 'cube']) {
     await withPage(`tks=${name}.tks`, async (page) => {
       const isGround = await groundOf(page, `globe_first_${name}`);
       for (const [x, y] of [[3, 3], [996, 3], [3, 596], [996, 596]])
@@ -116,18 +122,20 @@ test('after 4 kB a round globe is drawn', TIMEOUT, async () => {
   }
 });
 
-test('no holes at the poles and at the date line, from 4 kB on', TIMEOUT, async () => {
-  for (const first of [true, false]) {
-    await withPage('tks=textured.tks', async (page) => {
-      for (const [place, eye] of Object.entries(PLACES)) {
-        await page.evaluate((hash) => (location.hash = hash), `eye=${eye}&target=0,0,0`);
-        await page.waitForTimeout(300);
-        const name = `globe_${place}_${first ? '4kB' : 'all'}`;
-        assertNoHole(await groundOf(page, name), 200, name);
-      }
-    }, first);
-  }
-});
+for (const stream of ['textured', 'cube']) {
+  test(`no holes at poles, date line and edges from 4 kB on: ${stream}`, TIMEOUT, async () => {
+    for (const first of [true, false]) {
+      await withPage(`tks=${stream}.tks`, async (page) => {
+        for (const [place, eye] of Object.entries(PLACES)) {
+          await page.evaluate((hash) => (location.hash = hash), `eye=${eye}&target=0,0,0`);
+          await page.waitForTimeout(300);
+          const name = `globe_${stream}_${place}_${first ? '4kB' : 'all'}`;
+          assertNoHole(await groundOf(page, name), 200, name);
+        }
+      }, first);
+    }
+  });
+}
 
 test('the wheel comes nearer, and the camera stays above the ground', TIMEOUT, async () => {
   await withPage('tks=earth.tks', async (page) => {
@@ -175,3 +183,21 @@ test('the switch and the address show it flat, and round again', TIMEOUT, async 
     assert.equal(new URL(page.url()).searchParams.get('view'), 'flat');
   });
 });
+
+test('the Moon fills the picture as the Earth does, and relief is drawn for its size', TIMEOUT,
+  async () => {
+    const seen = {};
+    for (const name of ['earth', 'moon']) {
+      await withPage(`tks=${name}.tks`, async (page) => {
+        seen[name] = radiiOf(await groundOf(page, `globe_${name}`));
+        assert.equal(await page.locator('#exaggeration-value').textContent(),
+          name === 'moon' ? '× 4.1' : '× 15');
+        await page.mouse.move(MIDDLE.x, MIDDLE.y);
+        await page.waitForFunction(() => document.getElementById('under').textContent);
+        // From where home looks.
+        assert.match(await page.locator('#under').textContent(), /m · (19|20|21)\.\d+° N 1[45]\./);
+      });
+    }
+    seen.earth.forEach((radius, i) => assert.ok(Math.abs(radius - seen.moon[i]) < 8,
+      `${seen.earth.join()} and ${seen.moon.join()}`));
+  });

@@ -260,7 +260,7 @@ async function openInput(input, name, asked, original = null) {
     const material = new MeshLambertMaterial();
     object = globeFor(terrain.info)
       ? new Globe(terrain, material) : new TksTerrain(terrain, {material});
-    object.material.wireframe = $('wireframe').checked;
+    setWireframe();
     picture.setObject(object);
     comparison.of(object.isGlobe ? null : original, terrain.info);
     $('save').hidden = true;
@@ -332,11 +332,16 @@ function exaggerate() {
   if (!object?.frame) return;
   const {tallness} = picture, usual = tallness > 1 ? 1 / (8 * tallness) : 1;
   const {value} = $('exaggeration');
-  const times = object.isGlobe ? exaggerationOf(value) : usual * 10 ** (value / 20);
+  const times = object.isGlobe ? exaggerationOf(value, terrain.info) : usual * 10 ** (value / 20);
   const text = times.toPrecision(2);
   say('exaggeration', `× ${text}`, `drawn ${text} times as high`);
   if (object.isGlobe) return setWanted();
   picture.setExaggeration(times);
+}
+
+function setWireframe() {
+  for (const material of [object?.material ?? []].flat())
+    material.wireframe = $('wireframe').checked;
 }
 
 function listenToControls() {
@@ -353,7 +358,7 @@ function listenToControls() {
     reopen();
   });
   $('wireframe').addEventListener('change', () => {
-    if (object) object.material.wireframe = $('wireframe').checked;
+    setWireframe();
     picture.draw();
   });
   $('textured').addEventListener('change', () => {
@@ -362,7 +367,7 @@ function listenToControls() {
     const {texture, surface} = object.frame ?? {};
     if ($('textured').checked && texture) object.setMap(textureOf(texture));
     else if ($('textured').checked && surface) object.setMap(textureOf(tint(surface)));
-    object.material.needsUpdate = true;
+    for (const material of [object.material].flat()) material.needsUpdate = true;
     picture.draw();
   });
   $('shaded').addEventListener('change', () => {
