@@ -2,71 +2,33 @@
 // The viewer's globe in headless Chromium: round after 4 kB, without holes at the poles and at the
 // date line, and flat where the address or the page says so.
 import assert from 'node:assert/strict';
-import {cp, mkdtemp, rm, writeFile} from 'node:fs/promises';
-import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
-import {chromium} from 'playwright-core';
 
 import {encode} from '../src/encode.js';
 import {earth, earthOnCube} from './earth.js';
-import {serve} from './server.js';
+import {MIDDLE, drawn, viewerSite} from './viewer_site.js';
 
-const viewer = new URL('../dist/viewer/', import.meta.url).pathname;
 const TIMEOUT = {timeout: 120000};
 /** The camera, 16 000 km from the centre; y points north, x to longitude 0. */
 const PLACES = {
   north: '0,1.6e7,0', south: '0,-1.6e7,0', date: '-1.6e7,0,0', greenwich: '1.6e7,0,0',
 };
-/** Where the middle of the globe is drawn, beside the panel. */
-const MIDDLE = {x: 350, y: 300};
-let browser, folder, server, stream;
+let site, stream;
 
 before(async () => {
-  browser = await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
-  folder = await mkdtemp(join(tmpdir(), 'tetrakis-'));
-  await cp(viewer, folder, {recursive: true});
   stream = await encode({heights: earth().heights, bytes: 80000});
-  await writeFile(join(folder, 'earth.tks'), stream);
-  await writeFile(join(folder, 'textured.tks'), await encode({...earth(), bytes: 120000}));
   const onCube = earthOnCube();
-  await writeFile(join(folder, 'cube.tks'), await encode({...onCube, bytes: 120000}));
-  await writeFile(join(folder, 'bare_cube.tks'),
-    await encode({heights: onCube.heights, bytes: 80000}));
   const moon = {...earth().heights, crs: 'Moon', geoKeys: '1024=2 2057=1737400 2058=1737400'};
-  await writeFile(join(folder, 'moon.tks'), await encode({heights: moon, bytes: 40000}));
-  server = await serve(folder);
+  site = await viewerSite({
+    'earth.tks': stream,
+    'textured.tks': await encode({...earth(), bytes: 120000}),
+    'cube.tks': await encode({...onCube, bytes: 120000}),
+    'bare_cube.tks': await encode({heights: onCube.heights, bytes: 80000}),
+    'moon.tks': await encode({heights: moon, bytes: 40000}),
+  });
 });
-after(async () => {
-  await browser.close();
-  await server.close();
-  await rm(folder, {recursive: true});
-});
-
-/** Opens the viewer and calls `use` once it is drawn, with all bytes or with the first ones. */
-async function withPage(query, use, firstOnly = false) {
-  const page = await browser.newPage({viewport: {width: 1000, height: 600}}), errors = [];
-  page.on('pageerror', (error) => errors.push(error.message));
-  try {
-    if (firstOnly) {
-      await page.route(({pathname}) => pathname.endsWith('.tks'), (route) =>
-        route.request().headers().range === 'bytes=0-4095' ? route.continue() : undefined);
-    }
-    await page.goto(`${server.url}index.html?${query}`);
-    await drawn(page, firstOnly);
-    await use(page);
-    assert.deepEqual(errors, []);
-  } finally {
-    await page.close();
-  }
-}
-async function drawn(page, firstOnly = false) {
-  await page.waitForFunction((first) => (first ? document.body.dataset.bytes === '4096'
-    : ['done', 'failed'].includes(document.body.dataset.state)), firstOnly);
-  assert.notEqual(await page.locator('body').getAttribute('data-state'), 'failed',
-    await page.locator('#message').textContent());
-  await page.waitForTimeout(300);
-}
+after(() => site.close());
 
 /** isGround(x, y), in pixels of the page: whether that is not what an empty page shows there. */
 async function groundOf(page, name) {
@@ -111,7 +73,7 @@ function radiiOf(isGround) {
 
 test('after 4 kB a round globe is drawn', TIMEOUT, async () => {
   for (const name of ['earth', 'textured', 'bare_cube', 'cube']) {
-    await withPage(`tks=${name}.tks`, async (page) => {
+    await site.withPage(`tks=${name}.tks`, async (page) => {
       const isGround = await groundOf(page, `globe_first_${name}`);
       for (const [x, y] of [[3, 3], [996, 3], [3, 596], [996, 596]])
         assert.ok(!isGround(x, y), `${name}: the globe does not reach ${x}, ${y}`);
@@ -125,7 +87,7 @@ test('after 4 kB a round globe is drawn', TIMEOUT, async () => {
 for (const stream of ['textured', 'cube']) {
   test(`no holes at poles, date line and edges from 4 kB on: ${stream}`, TIMEOUT, async () => {
     for (const first of [true, false]) {
-      await withPage(`tks=${stream}.tks`, async (page) => {
+      await site.withPage(`tks=${stream}.tks`, async (page) => {
         for (const [place, eye] of Object.entries(PLACES)) {
           await page.evaluate((hash) => (location.hash = hash), `eye=${eye}&target=0,0,0`);
           await page.waitForTimeout(300);
@@ -138,7 +100,7 @@ for (const stream of ['textured', 'cube']) {
 }
 
 test('the wheel comes nearer, and the camera stays above the ground', TIMEOUT, async () => {
-  await withPage('tks=earth.tks', async (page) => {
+  await site.withPage('tks=earth.tks', async (page) => {
     await page.mouse.move(MIDDLE.x, MIDDLE.y);
     for (let i = 0; i < 60; ++i) await page.mouse.wheel(0, -600);
     await page.waitForTimeout(1500);
@@ -151,7 +113,7 @@ test('the wheel comes nearer, and the camera stays above the ground', TIMEOUT, a
 });
 
 test('more bytes and the slider of heights change the picture', TIMEOUT, async () => {
-  await withPage('tks=earth.tks', async (page) => {
+  await site.withPage('tks=earth.tks', async (page) => {
     assert.equal(await page.locator('body').getAttribute('data-bytes'), String(stream.length));
     assert.equal(await page.locator('#exaggeration-value').textContent(), '× 15');
     const picture = () => page.locator('#picture').screenshot();
@@ -169,7 +131,7 @@ test('the switch and the address show it flat, and round again', TIMEOUT, async 
     const isGround = await groundOf(page, name), radii = radiiOf(isGround);
     return Math.max(...radii) > 1.3 * Math.min(...radii);
   };
-  await withPage('tks=earth.tks&view=flat', async (page) => {
+  await site.withPage('tks=earth.tks&view=flat', async (page) => {
     assert.ok(await isWide(page, 'globe_flat'));
     await page.locator('#globe').click();
     await page.waitForFunction(() => document.body.dataset.state !== 'done');
@@ -188,7 +150,7 @@ test('the Moon fills the picture as the Earth does, and relief is drawn for its 
   async () => {
     const seen = {};
     for (const name of ['earth', 'moon']) {
-      await withPage(`tks=${name}.tks`, async (page) => {
+      await site.withPage(`tks=${name}.tks`, async (page) => {
         seen[name] = radiiOf(await groundOf(page, `globe_${name}`));
         assert.equal(await page.locator('#exaggeration-value').textContent(),
           name === 'moon' ? '× 4.1' : '× 15');

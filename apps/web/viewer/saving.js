@@ -2,7 +2,7 @@
 // Files of what is shown, for other programs: a mesh (.glb), heights (.tif), a texture (.png).
 import {isForest} from '../src/domains.js';
 import {glbOf} from './glb.js';
-import {tell} from './page.js';
+import {$, tell} from './page.js';
 import {geoTiffOf} from './tiff.js';
 
 /** Along a side: what a canvas and the memory of a page take. */
@@ -69,4 +69,12 @@ export function listenToSaves(shown) {
     }
   };
   for (const button of document.querySelectorAll('.saves')) button.addEventListener('click', save);
+}
+
+/** What was coded can be kept. */
+export function offer(file) {
+  URL.revokeObjectURL($('save').href);
+  $('save').href = URL.createObjectURL(file);
+  $('save').download = file.name;
+  $('save').hidden = false;
 }
