@@ -49,7 +49,7 @@ function pointOnCube(patch, a, b) {
   return [x, y, z].map((part) => Math.round((1e9 * part) / Math.hypot(1, a, b)) / 1e9);
 }
 
-/** The point of the unit sphere at a sample of a cube's raster, whose columns are at equal angles. */
+/** The point of the unit sphere at a sample of a cube's raster: columns are at equal angles. */
 export function pointOfSample(column, row, side) {
   const away = (place) => (place === 0 ? -1 : place === side - 1 ? 1
     : Math.tan((Math.PI / 2) * (place / (side - 1) - 0.5)));

@@ -45,7 +45,7 @@ export class Journey {
     this.camera = camera;
     this.orbit = orbit;
   }
-  /** `ms`: how long it takes, by default as long as the way says; 0: the camera is there at once. */
+  /** `ms`: how long it takes, by default what the way says; 0: the camera is there at once. */
   begin(way, ms = way.ms) {
     this.#way = {...way, ms};
     this.#begun = performance.now();

@@ -8,10 +8,11 @@ import {formatBytes} from './read_out.js';
 
 export class Refiner {
   #picture;
-  #told;
+  #show;
+  #fail;
+  #signal;
   #terrain = null;
   #object = null;
-  #signal = null;
   #first = null;  // a promise of the first frame, where that is being made already
   #wanted = {};
   #isPumping = false;
@@ -19,16 +20,16 @@ export class Refiner {
    * has all texels. */
   shown = {};
 
-  /** Calls show(frame) with each frame, and fail(error) if one cannot be made. */
-  constructor(picture, {show, fail}) {
+  /** Calls show(frame) with each frame, and fail(error) if one cannot be made. signal(): ends what
+   * is being made once something else is opened; where that fails, another one has come. */
+  constructor(picture, {show, fail, signal}) {
     this.#picture = picture;
-    this.#told = {show, fail};
+    [this.#show, this.#fail, this.#signal] = [show, fail, signal];
   }
   /** `object` is what draws frames of `terrain`. */
-  begin({terrain, object, signal, first = null}) {
+  begin({terrain, object, first = null}) {
     this.shown = {};
-    [this.#terrain, this.#object] = [terrain, object];
-    [this.#signal, this.#first] = [signal, first];
+    [this.#terrain, this.#object, this.#first] = [terrain, object, first];
   }
   /** {bytes, triangles, height}: as the sliders say. */
   want(wanted) {
@@ -57,7 +58,7 @@ export class Refiner {
   async pump() {
     if (this.#isPumping || !this.#terrain) return;
     this.#isPumping = true;
-    const current = this.#terrain, signal = this.#signal;
+    const current = this.#terrain, signal = this.#signal();
     document.body.dataset.state = 'refining';
     try {
       while (current === this.#terrain && !this.isShown) {
@@ -67,7 +68,7 @@ export class Refiner {
       }
       document.body.dataset.state = 'done';
     } catch (error) {
-      if (current === this.#terrain && !signal.aborted) this.#told.fail(error);
+      if (current === this.#terrain && !signal.aborted) this.#fail(error);
     } finally {
       this.#isPumping = false;
       if (current !== this.#terrain) this.pump();
@@ -79,7 +80,7 @@ export class Refiner {
     const {info} = this.#terrain, {capabilities} = this.#picture.renderer;
     return {
       triangles, normals: true, surface: !info.hasTexture, samples: 1024,
-      texels: Math.min(4096, capabilities.maxTextureSize), signal: this.#signal,
+      texels: Math.min(4096, capabilities.maxTextureSize), signal: this.#signal(),
       globe: globeFor(info, Number(this.#wanted.height)),
     };
   }
@@ -95,7 +96,7 @@ export class Refiner {
     await this.#picture.sized();
     if (current !== this.#terrain) return;
     this.#first = null;
-    this.#told.show(frame);
+    this.#show(frame);
     const isWhole = Math.max(info.textureWidth, info.textureHeight) <= texels;
     this.shown = {bytes: frame.bytes, triangles, height: wanted.height, isWhole};
   }
@@ -106,7 +107,7 @@ export class Refiner {
     const options = this.#options(goal.triangles), after = this.shown.bytes;
     for await (const frame of current.refine({...options, bytes: goal.bytes, after, view})) {
       if (current !== this.#terrain) return;
-      this.#told.show(frame);
+      this.#show(frame);
       this.shown = {...goal, bytes: frame.bytes, isWhole: true};
       if (goal !== this.#wanted) return;
     }
@@ -126,7 +127,7 @@ export class Refiner {
     const here = Math.min(bytes, current.loaded.bytes);
     const frame = await current.decode({...this.#options(triangles), bytes: here, ...kept});
     if (current !== this.#terrain) return;
-    this.#told.show(frame);
+    this.#show(frame);
     this.shown = {...wanted, isWhole: true};
   }
 }

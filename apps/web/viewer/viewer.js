@@ -33,7 +33,7 @@ const STILL = matchMedia('(prefers-reduced-motion: reduce)');
 
 const picture = new Picture($('picture'), freeArea);
 const comparison = new Comparison(picture);
-const refiner = new Refiner(picture, {show, fail});
+const refiner = new Refiner(picture, {show, fail, signal: () => opening.signal});
 const visits = new Visits(picture, () => (object?.frame ? {object, info: terrain.info} : null));
 const map = new FetchMap($('fetched'), $('ground'));
 
@@ -149,7 +149,7 @@ async function openInput(input, name, asked, original = null) {
     comparison.of(object.isGlobe ? null : original, terrain.info);
     $('save').hidden = true;
     prepareControls(terrain.info);
-    refiner.begin({terrain, object, signal, first: asked?.first});
+    refiner.begin({terrain, object, first: asked?.first});
     reopen = () => openInput(input, name, null, original);
     called = {name, title, size: sizeOf(terrain.info)};
     entitle(called);
