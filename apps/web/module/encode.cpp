@@ -2,9 +2,11 @@
 // What JavaScript calls to encode: tks_encode, whose structs come as one list of numbers and one of
 // texts, so that the loader (apps/web/src/encoder.js) knows neither their layout nor numbers of 64
 // bits.
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
+#include "apps/web/module/domains.hpp"
 #include "tetrakis/tetrakis.h"
 
 /// The page's: told how much is done, from 0 to 1.
@@ -33,6 +35,15 @@ int tellProgress(void*, double done) {
   return 0;
 }
 
+/// Of heights or texels whose domain JavaScript calls a cube; tks_encode checks their size.
+template <class Raster>
+void placeOnCube(Raster& raster) {
+  if (raster.domain != kCube) return;
+  raster.domain = TKS_DOMAIN_FOREST;
+  const auto depth = static_cast<uint32_t>(std::bit_width(raster.width)) - 1;
+  raster.forest = {depth, kCubePatches, tks_cube_sides()};
+}
+
 tks_heights heightsOf(Numbers& numbers, const char* const* texts, const void* data) {
   tks_heights h{};
   h.size = sizeof h;
@@ -51,6 +62,7 @@ tks_heights heightsOf(Numbers& numbers, const char* const* texts, const void* da
   numbers.take(h.geotransform);
   numbers.take(h.registration);
   numbers.take(h.domain);
+  placeOnCube(h);
   h.unit = texts[0];
   h.vertical_datum = texts[1];
   h.crs = texts[2];
@@ -84,6 +96,7 @@ tks_image imageOf(Numbers& numbers, const char* const* texts, const void* data) 
   numbers.take(image.geotransform);
   numbers.take(image.registration);
   numbers.take(image.domain);
+  placeOnCube(image);
   numbers.take(image.opaque);
   numbers.take(image.white_level);
   image.crs = texts[5];

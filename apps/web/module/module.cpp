@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "apps/web/module/domains.hpp"
 #include "base/samples.hpp"
 #include "tetrakis/tetrakis.h"
 
@@ -91,6 +92,8 @@ tks_status web_numbers(const tks_decoder* decoder, double* out) {
   tks_info info{};
   info.size = sizeof info;
   if (const tks_status status = tks_get_info(decoder, &info); status != TKS_OK) return status;
+  if (isCube(info.forest)) info.domain = kCube;
+  if (isCube(info.texture_forest)) info.texture_domain = kCube;
 #define TKS_VALUE(name, field) *out++ = static_cast<double>(info.field);
   TKS_WEB_NUMBERS(TKS_VALUE)
 #undef TKS_VALUE

@@ -2,6 +2,7 @@
 // Which way the rows and columns of the heights run on the ground. Most begin in the north-west;
 // others are south-up (their first row is the southern one), mirrored, turned or sheared. The rule
 // is that of the command line (apps/tools/files/place/ground_axes.hpp).
+import {isForest} from './domains.js';
 import {metresPerUnit} from './ground.js';
 
 /** Of the angle between rows and columns: below it a transform has no inverse. */
@@ -11,11 +12,12 @@ const sineOf = ({along, down}) => along[0] * down[1] - along[1] * down[0];
 
 /**
  * Directions of length 1, each as its part to the east and its part to the south: `along` a row,
- * from its first sample on, and `down` a column. Where nothing says them, rows run east.
+ * from its first sample on, and `down` a column. Where nothing says them, and on forests, rows run
+ * east.
  */
 export function groundAxes(info) {
   const unknown = {along: [1, 0], down: [0, 1]};
-  if (!info.hasGeotransform) return unknown;
+  if (!info.hasGeotransform || isForest(info.domain)) return unknown;
   const [metresEast, metresNorth] = metresPerUnit(info), [, a, b, , c, d] = info.geotransform;
   const direction = (east, north) => {
     const x = east * metresEast, y = north * metresNorth, length = Math.hypot(x, y);

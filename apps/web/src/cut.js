@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cuts tiles out of a stream: heights or texels at a grid of longitudes and latitudes, by the mip
 // level that suits their distance, for renderers that ask for tiles.
+import {Columns} from './columns.js';
 import {filled} from './fill.js';
 import {groundScale} from './index.js';
 import {GROWTH} from './pace.js';
@@ -10,11 +11,11 @@ import {Scan} from './scan.js';
 /** Of columns and rows that are interpolated, in samples. */
 const TOLERANCE = 0.02;
 
-/** Height at (x, y): of the samples around that are no voids; NaN where all are. */
-function heightAt({data, width, height}, x, y) {
-  const left = Math.floor(x), above = Math.floor(y), u = x - left, v = y - above;
-  const across = left + 1 < width ? 1 : 0, i = above * width + left;
-  const j = above + 1 < height ? i + width : i;
+/** Height between two columns, at row y: of the samples around that are no voids; NaN where all
+ * are. */
+function heightAt({data, width, height}, {left, right, share: u}, y) {
+  const above = Math.floor(y), v = y - above, across = right - left;
+  const i = above * width + left, j = above + 1 < height ? i + width : i;
   let sum = 0, weight = 0;
   const nw = data[i], ne = data[i + across], sw = data[j], se = data[j + across];
   if (nw === nw) [sum, weight] = [(1 - u) * (1 - v) * nw, (1 - u) * (1 - v)];
@@ -24,10 +25,10 @@ function heightAt({data, width, height}, x, y) {
   return sum / weight;
 }
 
-/** Writes the four channels at (x, y) to out[at] and on. */
-function putTexel({data, width, height}, x, y, out, at) {
-  const left = Math.floor(x), above = Math.floor(y), u = x - left, v = y - above;
-  const across = left + 1 < width ? 4 : 0, i = 4 * (above * width + left);
+/** Writes the four channels there to out[at] and on. */
+function putTexel({data, width, height}, {left, right, share: u}, y, out, at) {
+  const above = Math.floor(y), v = y - above, across = 4 * (right - left);
+  const i = 4 * (above * width + left);
   const j = above + 1 < height ? i + 4 * width : i;
   for (let c = 0; c < 4; ++c) {
     out[at + c] = (1 - v) * ((1 - u) * data[i + c] + u * data[i + across + c]) +
@@ -122,21 +123,22 @@ export class Cutter {
     return isTexture ? frame.texture : frame.surface;
   }
 
-  /** Calls put(i, raster, x, y), at sample (x, y) of a mip level, for places on the part; `around`:
-   * for those beside it as well, at its border. */
+  /** Calls put(i, raster, columns, y), between two columns at row y of a mip level, for places on
+   * the part; `around`: for those beside it as well, at its border. */
   async #each(part, {longitudes, latitudes, around = false}, put) {
     const {info} = this.#terrain, place = this.#places[part];
     const step = (longitudes.at(-1) - longitudes[0]) / (longitudes.length - 1);
     const coarsest = part === 'texture' ? info.textureCoarsestLevel : info.coarsestLevel;
     const level = Math.min(coarsest, this.finest(part, step)), side = 2 ** level;
     const raster = await this.#raster(part, level, around);
-    const isOn = (column, row) =>
-      column >= 0 && row >= 0 && column <= place.width && row <= place.height;
+    const columns = new Columns(raster.width, place.goesRound ? place.width / side : 0);
+    const isOn = (column, row) => row >= 0 && row <= place.height &&
+      (place.goesRound || (column >= 0 && column <= place.width));
     // Sample (x, y) of a mip level lies on sample (x 2^level, y 2^level), not on a cell of them.
     const putPlace = (i, column, row) => {
       if (around ? !isFinite(column + row) : !isOn(column, row)) return;
-      put(i, raster, within((column - 0.5) / side, 0, raster.width - 1),
-        within((row - 0.5) / side, 0, raster.height - 1));
+      columns.find((column - 0.5) / side);
+      put(i, raster, columns, within((row - 0.5) / side, 0, raster.height - 1));
     };
     const scan = around ? scanAll : scanPlace;
     scan(place, {longitudes, latitudes}, TOLERANCE * side, putPlace);
@@ -147,14 +149,14 @@ export class Cutter {
     const heights = new Float32Array(longitudes.length * latitudes.length).fill(NaN);
     const metres = groundScale(this.#terrain.info).height;
     await this.#each('heights', {longitudes, latitudes, around},
-      (i, raster, x, y) => (heights[i] = metres * heightAt(raster, x, y)));
+      (i, raster, columns, y) => (heights[i] = metres * heightAt(raster, columns, y)));
     return heights;
   }
   /** RGBA likewise; transparent outside. */
   async texels(longitudes, latitudes) {
     const rgba = new Uint8ClampedArray(4 * longitudes.length * latitudes.length);
     await this.#each('texture', {longitudes, latitudes},
-      (i, raster, x, y) => putTexel(raster, x, y, rgba, 4 * i));
+      (i, raster, columns, y) => putTexel(raster, columns, y, rgba, 4 * i));
     return rgba;
   }
 

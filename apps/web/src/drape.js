@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a texture lies on the heights.
+import {isForest} from './domains.js';
 
 /** From places on the ground to columns and rows of a raster with this geotransform. */
 export function pixelsOf([x0, a, b, y0, c, d]) {
@@ -25,9 +26,20 @@ function plainCrs(crs) {
   return /^(\w+:\w+)(\+\w+)?$/.exec(crs)?.[1].toUpperCase() ?? crs;
 }
 
+/** On a forest, whose patches are squares of the heights' and of the texture's width each. */
+function drapeOfForest({width, textureWidth, textureHeight}) {
+  const scale = (textureWidth - 1) / (width - 1);
+  return (column, row) => {
+    const patch = Math.floor((row + 0.5) / width), down = row - patch * width;
+    const texel = patch * textureWidth + scale * down;
+    return [(scale * column + 0.5) / textureWidth, (texel + 0.5) / textureHeight];
+  };
+}
+
 /** From (column, row) of a sample to its place on the texture, from 0 to 1 each. */
 export function drapeOf(info) {
   const {width, height} = info;
+  if (isForest(info.textureDomain)) return drapeOfForest(info);
   const isPlaced = info.hasGeotransform && info.textureHasGeotransform;
   if (!isPlaced || plainCrs(info.crs) !== plainCrs(info.textureCrs)) {
     return (column, row) => [column / (width - 1), row / (height - 1)];

@@ -26,8 +26,8 @@ export interface HeightsInput {
   /** As GDAL's. */
   geotransform?: ArrayLike<number>;
   registration?: Registration;
-  /** Default: "plane". */
-  domain?: Domain;
+  /** Default: "plane". Samples that patches of a cube share are equal. */
+  domain?: Exclude<Domain, 'forest'>;
   verticalDatum?: string;
   description?: string;
   geoKeys?: string;
@@ -48,7 +48,7 @@ export interface TextureInput {
   geotransform?: ArrayLike<number>;
   registration?: Registration;
   /** Default: "plane". */
-  domain?: Domain;
+  domain?: Exclude<Domain, 'forest'>;
   geoKeys?: string;
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Calls the encoder's WebAssembly module. Nothing here waits: it runs in a worker as well.
 import {TksError} from './error.js';
-import {DOMAINS, Instance, MESSAGE_BYTES, SAMPLES, failureOf} from './instance.js';
+import {DOMAINS} from './domains.js';
+import {Instance, MESSAGE_BYTES, SAMPLES, failureOf} from './instance.js';
 
 export const EXHAUSTED = 'The encoder ran out of memory: a page has 4 GB at most.';
 
 const REGISTRATIONS = ['unknown', 'area', 'point'];
+/** Of a forest the encoder would have to be told how its patches are glued. */
+const ENCODED = DOMAINS.filter((name) => name !== 'forest');
 const WEIGHTS = ['psnr', 'visual'];
 const INDEXES = [false, true, 'windows'];
 /** The module counts by integers of 64 and of 32 bits. */
@@ -16,6 +19,8 @@ function oneOf(names, name, what) {
   if (number < 0) throw new TksError('usage', `${what} is one of ${names.join(', ')}.`);
   return number;
 }
+
+const domainOf = ({domain}) => DOMAINS.indexOf(ENCODED[oneOf(ENCODED, domain, 'domain')]);
 
 /** The number of tks_sample that arrays of this type are. */
 function sampleOf(data, what) {
@@ -65,7 +70,7 @@ function heightsFields(heights) {
     width, height, sample, scale, offset, step, spacingX, spacingY,
     ...nodataFields(nodata),
     registration: oneOf(REGISTRATIONS, heights.registration, 'registration'),
-    domain: oneOf(DOMAINS, heights.domain, 'domain'),
+    domain: domainOf(heights),
     ...placed(heights.geotransform, 'hasGeotransform', 'g'),
   };
 }
@@ -94,7 +99,7 @@ function textureFields(texture) {
     textureOpaque: Number(texture.opaque ?? false),
     textureWhiteLevel: whiteLevelOf(texture),
     textureRegistration: oneOf(REGISTRATIONS, texture.registration, 'registration'),
-    textureDomain: oneOf(DOMAINS, texture.domain, 'domain'),
+    textureDomain: domainOf(texture),
     ...placed(texture.geotransform, 'textureHasGeotransform', 't'),
   };
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a frame is made of: a mesh with normals, a surface, a texture, each at the level that suits.
+import {bodyOf} from './body.js';
 import {normalsOfGlobe} from './globe.js';
 import {groundScale} from './ground.js';
 import {PARTS} from './parts.js';
@@ -59,11 +60,18 @@ function trianglesFor({triangles}, opened, info) {
     : Math.min(triangles, Math.max(2, TRIANGLES_OF_BYTE * info.geometryBytes));
 }
 
+/** What was asked for, on the ellipsoid of the stream unless the caller gives another. */
+function globeOf({globe}, info) {
+  const body = bodyOf(info);
+  const {exaggeration = 1, semiMajor = body.semiMajor, semiMinor = body.semiMinor} = globe;
+  return {exaggeration, semiMajor, semiMinor};
+}
+
 /** Makes the parts of a frame that `request` asks for, one at each step; returns them all. */
 export function* partsOf(opened, info, request) {
   const parts = {}, {textureLevel, surfaceLevel} = levelsOf(opened, info, request);
   if (request.mesh && request.globe && info.hasHeights) {
-    parts.globe = opened.globe(trianglesFor(request, opened, info), request.globe);
+    parts.globe = opened.globe(trianglesFor(request, opened, info), globeOf(request, info));
     yield;
     if (request.normals) parts.globe.normals = normalsOfGlobe(parts.globe);
     yield;

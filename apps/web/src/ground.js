@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Metres on the ground: as a stream states them, or as its place tells. Encoders that know no CRS
 // state a place alone.
+import {EARTH, bodyOf, eccentricityOf, keysOf} from './body.js';
 
 /** Of lengths by their names, those of base/coordinates.cpp: lower case, words apart by blanks. */
 const METRES = new Map([
@@ -12,8 +13,6 @@ const METRES = new Map([
   [1200 / 3937, 'us-ft ftus foot_us us_survey_foot us_survey_feet'],
 ].flatMap(([metres, names]) =>
   names.split(' ').map((name) => [name.replaceAll('_', ' '), metres])));
-/** Of WGS 84: half of its long axis, and the square of its eccentricity. */
-const AXIS = 6378137, ECCENTRICITY = 0.00669437999014;
 const RADIANS = Math.PI / 180;
 
 /** WKT says what a CRS is first, or behind the name of the compound that it is a part of. */
@@ -26,7 +25,7 @@ const WEB_MERCATOR =
   /^(EPSG|ESRI):(3857|3785|900913|102100|102113)(\D|$)|Pseudo[- ]Mercator|Auxiliary_Sphere/i;
 export const isWebMercator = (crs) => WEB_MERCATOR.test(crs);
 /** Metres on the ground of one of web Mercator's, so far north on its plane: cos(latitude). */
-export const mercatorMetre = (north) => 1 / Math.cosh(north / AXIS);
+export const mercatorMetre = (north) => 1 / Math.cosh(north / EARTH.semiMajor);
 
 /** Of a unit of coordinates; 0: it is no length, or unknown. */
 const lengthOf = (metres) => (metres > 0 && Math.abs(metres / RADIANS - 1) > 1e-9 ? metres : 0);
@@ -39,9 +38,7 @@ const LINEAR = {9001: 1, 9002: 0.3048, 9003: 1200 / 3937};
  * section 2); 0: they do not, or not for coordinates of this kind.
  */
 function unitOfKeys(text) {
-  const pairs = text.matchAll(/(\d+)=("(?:[^"]|"")*"|[^ ]*)/g);
-  const keys = Object.fromEntries(Array.from(pairs, ([, id, value]) => [id, value]));
-  const {1024: model, 2054: angular = '9102', 3076: linear = '32767', 3077: size} = keys;
+  const {1024: model, 2054: angular = '9102', 3076: linear = '32767', 3077: size} = keysOf(text);
   if (model === '2') return angular === '9102' ? 'degree' : 0;
   if (model === '3') return 0;
   return linear === '32767' ? lengthOf(Number(size)) : LINEAR[linear] ?? 0;
@@ -68,12 +65,13 @@ function isInDegrees({geotransform: [x0, a, b, y0, c, d], crs, width, height}) {
 }
 
 /** Of a degree to the east and to the north: radii of curvature times a degree; 0: no latitude. */
-export function metresPerDegree(latitude) {
+export function metresPerDegree(latitude, body = EARTH) {
   if (!(Math.abs(latitude) < 90)) return [0, 0];
-  const bend = 1 - ECCENTRICITY * Math.sin(latitude * RADIANS) ** 2;
+  const eccentricity = eccentricityOf(body), degree = body.semiMajor * RADIANS;
+  const bend = 1 - eccentricity * Math.sin(latitude * RADIANS) ** 2;
   return [
-    (AXIS * RADIANS * Math.cos(latitude * RADIANS)) / Math.sqrt(bend),
-    (AXIS * RADIANS * (1 - ECCENTRICITY)) / bend ** 1.5,
+    (degree * Math.cos(latitude * RADIANS)) / Math.sqrt(bend),
+    (degree * (1 - eccentricity)) / bend ** 1.5,
   ];
 }
 
@@ -90,7 +88,7 @@ export function unitOfPlace(info) {
 export function metresPerUnit(info) {
   const {geotransform: [, , , north, c, d], crs, width, height} = info;
   const middle = north + (width * c + height * d) / 2, unit = unitOfPlace(info);
-  if (unit === 'degree') return metresPerDegree(middle);
+  if (unit === 'degree') return metresPerDegree(middle, bodyOf(info));
   const metre = isWebMercator(crs) ? unit * mercatorMetre(unit * middle) : unit;
   return [metre, metre];
 }

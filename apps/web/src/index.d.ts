@@ -82,7 +82,8 @@ export interface FrameOptions {
 export interface GlobeOptions {
   /** What heights are multiplied by. Default 1. */
   exaggeration?: number;
-  /** Of the ellipsoid, in metres. Default: those of WGS 84. */
+  /** Of the ellipsoid, in metres. Default: those that the stream's keys or CRS state or name (the
+   * Moon, Mars), else those of WGS 84. */
   semiMajor?: number;
   semiMinor?: number;
 }
@@ -94,8 +95,9 @@ export interface RefineOptions extends FrameOptions {
   after?: number;
 }
 
-/** Of a cylinder the last column lies beside the first one, as on a globe. */
-export type Domain = 'plane' | 'cylinder';
+/** Of a cylinder the last column lies beside the first one, as on a globe. A forest has square
+ * patches one below the other; a cube is one of six patches round a globe (tks_cube_sides). */
+export type Domain = 'plane' | 'cylinder' | 'forest' | 'cube';
 
 export interface TerrainInfo {
   formatVersion: number;
@@ -133,7 +135,8 @@ export interface TerrainInfo {
   /** False: bytes of the mask of voids are missing, and some voids may be shown as ground. */
   voidsKnown: boolean;
   hasGeotransform: boolean;
-  /** As GDAL's; of the texture where textureHasGeotransform. */
+  /** As GDAL's, on a forest that of the grid that was resampled; of the texture where
+   * textureHasGeotransform. */
   geotransform: number[];
   textureHasGeotransform: boolean;
   textureGeotransform: number[];

@@ -7,8 +7,6 @@ import {TksError} from './error.js';
 export const SAMPLES = [
   Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, Float32Array,
 ];
-/** By their numbers (tks_domain). */
-export const DOMAINS = ['plane', 'cylinder'];
 export const MESSAGE_BYTES = 400;
 /** A module counts its memory by 32 bits: of more bytes malloc would see the lower bits only. */
 const ADDRESSES = 2 ** 32;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stream that the decoder's module has open: what it holds, and the calls that decode its parts.
+import {DOMAINS} from './domains.js';
 import {TksError} from './error.js';
-import {DOMAINS, MESSAGE_BYTES, SAMPLES} from './instance.js';
+import {MESSAGE_BYTES, SAMPLES} from './instance.js';
 
 /** Magic, version, profile, level and a varint: these tell how many bytes the header takes. */
 const MOST_BEFORE_BODY = 17;
@@ -188,8 +189,8 @@ export class Opened {
     return rgba;
   }
 
-  /** A mesh round a globe {exaggeration, semiMajor, semiMinor}; default: WGS 84. */
-  globe(triangles, {exaggeration = 1, semiMajor = 6378137, semiMinor = 6356752.314245}) {
+  /** A mesh round a globe {exaggeration, semiMajor, semiMinor}. */
+  globe(triangles, {exaggeration, semiMajor, semiMinor}) {
     const {instance, decoder} = this, {calls} = instance;
     if (!calls.tks_decode_globe) throw new TksError('usage', 'This module makes no meshes.');
     return instance.with(GLOBE_BYTES + 24, (globe) => {

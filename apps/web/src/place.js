@@ -3,6 +3,7 @@
 // the CRSs that web maps meet (degrees, web Mercator, UTM), for streams that take their longitudes
 // and latitudes along, and for pages that project themselves.
 import {straightAxes} from './axes.js';
+import {isForest} from './domains.js';
 import {drapedTransform, pixelsOf} from './drape.js';
 import {TksError} from './error.js';
 import {isWebMercator} from './ground.js';
@@ -12,6 +13,8 @@ const RADIANS = Math.PI / 180;
 const MERCATOR_RADIUS = 6378137;
 /** Once around the Earth, in degrees. */
 const TURN = 360;
+/** Of a column, by which those that go round miss the first one. */
+const TOLERANCE = 0.01;
 /** A millimetre or so, by which places that end at 180° miss it. */
 const NEAR = 1e-8;
 
@@ -174,8 +177,9 @@ export function turnsTo([west, , east], longitudes) {
 }
 
 /**
- * A grid whose longitudes begin between -180 and 180, with its bounds. Across 180° they go on, to
- * 190 and further: only so a place is one piece.
+ * A grid whose longitudes begin between -180 and 180, with its bounds, and whether its last column
+ * lies beside its first one. Across 180° longitudes go on, to 190 and further: only so a place is
+ * one piece.
  */
 function turnedGrid({pixels, degrees, holdsPoles}, width, height) {
   const [west, south, east, north] = holdsPoles
@@ -192,6 +196,7 @@ function turnedGrid({pixels, degrees, holdsPoles}, width, height) {
       return [longitude - turn, latitude];
     },
     bounds: [west - turn, Math.max(south, -90), east - turn, Math.min(north, 90)],
+    goesRound: !holdsPoles && Math.abs((east - west) / TURN - 1) * width < TOLERANCE,
   };
 }
 
@@ -232,13 +237,18 @@ function projectionFor({crs, raster}, project) {
 }
 
 /**
- * Where a part of a stream, 'heights' or 'texture', lies: {width, height, pixels, degrees, bounds}.
+ * Where a part of a stream, 'heights' or 'texture', lies: {width, height, pixels, degrees, bounds,
+ * goesRound}.
  * A texture without a place of its own is draped over the heights. Longitudes of its bounds, and of
  * what it gives and takes, go on behind 180 where it goes across that. `bounds`: west, south, east,
  * north of both parts in degrees, in place of what the stream says; it still says which row is the
  * northern one. `project(x, y, crs)`: longitude and latitude of coordinates of the stream's CRS.
  */
 export function placeOf(info, part, {bounds, project} = {}) {
+  if (isForest(info.domain)) {
+    throw new TksError('unsupported', 'The heights lie on patches, as those of a cube do. Places ' +
+      'are found on a grid: tetrakis decode makes one of a cube.');
+  }
   const isTexture = part === 'texture';
   const width = isTexture ? info.textureWidth : info.width;
   const height = isTexture ? info.textureHeight : info.height;

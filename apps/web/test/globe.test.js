@@ -3,16 +3,18 @@
 import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
 
+import {drapeOf} from '../src/drape.js';
 import {encode} from '../src/encode.js';
 import {goesRound, open} from '../src/index.js';
-import {earth} from './earth.js';
+import {earth, colourAt, earthOnCube, pointOfSample} from './earth.js';
 import {terrainOf} from './terrain.js';
 
 const TIMEOUT = {timeout: 60000};
-let stream;
+let stream, cube;
 
 before(async () => {
   stream = await encode({heights: earth().heights, bytes: 60000});
+  cube = await encode({...earthOnCube(), bytes: 60000});
 });
 
 /** For each vertex the number of its position. */
@@ -25,8 +27,8 @@ function welded({positions}) {
   });
 }
 
-test('at any prefix each edge has two triangles, and the globe is a sphere', TIMEOUT, async () => {
-  const terrain = await open(stream);
+/** Each edge has two triangles, and the globe is a sphere. */
+async function assertClosed(terrain) {
   assert.ok(goesRound(terrain.info));
   for (const bytes of [0, 1000, 4096, 20000, Infinity]) {
     const {globe, mesh} = await terrain.decode({bytes, triangles: 5000, globe: {}});
@@ -42,7 +44,14 @@ test('at any prefix each edge has two triangles, and the globe is a sphere', TIM
     const euler = new Set(vertex).size - edges.size / 2 + triangles.length / 3;
     assert.equal(euler, 2, `${bytes} bytes`);
   }
-  terrain.dispose();
+}
+
+test('at any prefix a globe is closed, on a cylinder and on a cube', TIMEOUT, async () => {
+  for (const input of [stream, cube]) {
+    const terrain = await open(input);
+    await assertClosed(terrain);
+    terrain.dispose();
+  }
 });
 
 test('vertices lie on the ellipsoid, where their pixels are, as high as asked', TIMEOUT,
@@ -64,6 +73,29 @@ test('vertices lie on the ellipsoid, where their pixels are, as high as asked', 
     }
     terrain.dispose();
   });
+
+test('vertices of a cube lie where their samples do, with their heights', TIMEOUT, async () => {
+  const input = earthOnCube(4), terrain = await open(await encode(input));
+  assert.equal(terrain.info.domain, 'cube');
+  assert.equal(terrain.info.textureDomain, 'cube');
+  const sphere = {semiMajor: 1e6, semiMinor: 1e6, exaggeration: 10};
+  const {globe, texture} = await terrain.decode({globe: sphere});
+  const {width} = input.heights, drape = drapeOf(terrain.info);
+  globe.heights.forEach((height, v) => {
+    const [column, row] = globe.pixels.subarray(2 * v, 2 * v + 2).map((place) => place - 0.5);
+    assert.equal(height, input.heights.data[row * width + column]);
+    const point = pointOfSample(column, row, width);
+    const [x, y, z] = globe.positions.subarray(3 * v, 3 * v + 3);
+    const away = Math.hypot(...[x, y, z].map((part, i) => part - point[i] * (1e6 + 10 * height)));
+    assert.ok(away < 0.01, `${row}, ${column}: ${away} m`);
+    const [u, w] = drape(column, row), {width: texels, height: rows, data} = texture;
+    const texel = [u * texels - 0.5, w * rows - 0.5].map((place) => Number(place.toFixed(9)));
+    assert.deepEqual([...data.subarray(4 * (texel[1] * texels + texel[0])).subarray(0, 3)],
+      colourAt(point));
+  });
+  await assert.rejects(encode({heights: {...input.heights, height: 85}}), {code: 'usage'});
+  terrain.dispose();
+});
 
 test('normals are of length 1, point outwards, and are equal at one position', TIMEOUT,
   async () => {

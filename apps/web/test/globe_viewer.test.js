@@ -2,65 +2,33 @@
 // The viewer's globe in headless Chromium: round after 4 kB, without holes at the poles and at the
 // date line, and flat where the address or the page says so.
 import assert from 'node:assert/strict';
-import {cp, mkdtemp, rm, writeFile} from 'node:fs/promises';
-import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
-import {chromium} from 'playwright-core';
 
 import {encode} from '../src/encode.js';
-import {earth} from './earth.js';
-import {serve} from './server.js';
+import {earth, earthOnCube} from './earth.js';
+import {MIDDLE, drawn, viewerSite} from './viewer_site.js';
 
-const viewer = new URL('../dist/viewer/', import.meta.url).pathname;
 const TIMEOUT = {timeout: 120000};
 /** The camera, 16 000 km from the centre; y points north, x to longitude 0. */
 const PLACES = {
   north: '0,1.6e7,0', south: '0,-1.6e7,0', date: '-1.6e7,0,0', greenwich: '1.6e7,0,0',
 };
-/** Where the middle of the globe is drawn, beside the panel. */
-const MIDDLE = {x: 350, y: 300};
-let browser, folder, server, stream;
+let site, stream;
 
 before(async () => {
-  browser = await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
-  folder = await mkdtemp(join(tmpdir(), 'tetrakis-'));
-  await cp(viewer, folder, {recursive: true});
   stream = await encode({heights: earth().heights, bytes: 80000});
-  await writeFile(join(folder, 'earth.tks'), stream);
-  await writeFile(join(folder, 'textured.tks'), await encode({...earth(), bytes: 120000}));
-  server = await serve(folder);
+  const onCube = earthOnCube();
+  const moon = {...earth().heights, crs: 'Moon', geoKeys: '1024=2 2057=1737400 2058=1737400'};
+  site = await viewerSite({
+    'earth.tks': stream,
+    'textured.tks': await encode({...earth(), bytes: 120000}),
+    'cube.tks': await encode({...onCube, bytes: 120000}),
+    'bare_cube.tks': await encode({heights: onCube.heights, bytes: 80000}),
+    'moon.tks': await encode({heights: moon, bytes: 40000}),
+  });
 });
-after(async () => {
-  await browser.close();
-  await server.close();
-  await rm(folder, {recursive: true});
-});
-
-/** Opens the viewer and calls `use` once it is drawn, with all bytes or with the first ones. */
-async function withPage(query, use, firstOnly = false) {
-  const page = await browser.newPage({viewport: {width: 1000, height: 600}}), errors = [];
-  page.on('pageerror', (error) => errors.push(error.message));
-  try {
-    if (firstOnly) {
-      await page.route(({pathname}) => pathname.endsWith('.tks'), (route) =>
-        route.request().headers().range === 'bytes=0-4095' ? route.continue() : undefined);
-    }
-    await page.goto(`${server.url}index.html?${query}`);
-    await drawn(page, firstOnly);
-    await use(page);
-    assert.deepEqual(errors, []);
-  } finally {
-    await page.close();
-  }
-}
-async function drawn(page, firstOnly = false) {
-  await page.waitForFunction((first) => (first ? document.body.dataset.bytes === '4096'
-    : ['done', 'failed'].includes(document.body.dataset.state)), firstOnly);
-  assert.notEqual(await page.locator('body').getAttribute('data-state'), 'failed',
-    await page.locator('#message').textContent());
-  await page.waitForTimeout(300);
-}
+after(() => site.close());
 
 /** isGround(x, y), in pixels of the page: whether that is not what an empty page shows there. */
 async function groundOf(page, name) {
@@ -103,9 +71,9 @@ function radiiOf(isGround) {
   });
 }
 
-test('after 4 kB a round globe is drawn', TIMEOUT, async () => {
-  for (const name of ['earth', 'textured']) {
-    await withPage(`tks=${name}.tks`, async (page) => {
+for (const name of ['earth', 'textured', 'bare_cube', 'cube']) {
+  test(`after 4 kB a round globe is drawn: ${name}`, TIMEOUT, async () => {
+    await site.withPage(`tks=${name}.tks`, async (page) => {
       const isGround = await groundOf(page, `globe_first_${name}`);
       for (const [x, y] of [[3, 3], [996, 3], [3, 596], [996, 596]])
         assert.ok(!isGround(x, y), `${name}: the globe does not reach ${x}, ${y}`);
@@ -113,24 +81,25 @@ test('after 4 kB a round globe is drawn', TIMEOUT, async () => {
       assert.ok(Math.min(...radii) > 100 && Math.max(...radii) < 1.15 * Math.min(...radii),
         `${name}: ${radii.join()}`);
     }, true);
-  }
-});
+  });
+}
 
-test('no holes at the poles and at the date line, from 4 kB on', TIMEOUT, async () => {
-  for (const first of [true, false]) {
-    await withPage('tks=textured.tks', async (page) => {
+for (const [stream, bytes] of [['textured', '4kB'], ['textured', 'all'], ['cube', '4kB'],
+  ['cube', 'all']]) {
+  test(`no holes at poles, date line and edges: ${stream}, ${bytes}`, TIMEOUT, async () => {
+    await site.withPage(`tks=${stream}.tks`, async (page) => {
       for (const [place, eye] of Object.entries(PLACES)) {
         await page.evaluate((hash) => (location.hash = hash), `eye=${eye}&target=0,0,0`);
         await page.waitForTimeout(300);
-        const name = `globe_${place}_${first ? '4kB' : 'all'}`;
+        const name = `globe_${stream}_${place}_${bytes}`;
         assertNoHole(await groundOf(page, name), 200, name);
       }
-    }, first);
-  }
-});
+    }, bytes === '4kB');
+  });
+}
 
 test('the wheel comes nearer, and the camera stays above the ground', TIMEOUT, async () => {
-  await withPage('tks=earth.tks', async (page) => {
+  await site.withPage('tks=earth.tks', async (page) => {
     await page.mouse.move(MIDDLE.x, MIDDLE.y);
     for (let i = 0; i < 60; ++i) await page.mouse.wheel(0, -600);
     await page.waitForTimeout(1500);
@@ -143,7 +112,7 @@ test('the wheel comes nearer, and the camera stays above the ground', TIMEOUT, a
 });
 
 test('more bytes and the slider of heights change the picture', TIMEOUT, async () => {
-  await withPage('tks=earth.tks', async (page) => {
+  await site.withPage('tks=earth.tks', async (page) => {
     assert.equal(await page.locator('body').getAttribute('data-bytes'), String(stream.length));
     assert.equal(await page.locator('#exaggeration-value').textContent(), '× 15');
     const picture = () => page.locator('#picture').screenshot();
@@ -161,7 +130,7 @@ test('the switch and the address show it flat, and round again', TIMEOUT, async 
     const isGround = await groundOf(page, name), radii = radiiOf(isGround);
     return Math.max(...radii) > 1.3 * Math.min(...radii);
   };
-  await withPage('tks=earth.tks&view=flat', async (page) => {
+  await site.withPage('tks=earth.tks&view=flat', async (page) => {
     assert.ok(await isWide(page, 'globe_flat'));
     await page.locator('#globe').click();
     await page.waitForFunction(() => document.body.dataset.state !== 'done');
@@ -175,3 +144,21 @@ test('the switch and the address show it flat, and round again', TIMEOUT, async 
     assert.equal(new URL(page.url()).searchParams.get('view'), 'flat');
   });
 });
+
+test('the Moon fills the picture as the Earth does, and relief is drawn for its size', TIMEOUT,
+  async () => {
+    const seen = {};
+    for (const name of ['earth', 'moon']) {
+      await site.withPage(`tks=${name}.tks`, async (page) => {
+        seen[name] = radiiOf(await groundOf(page, `globe_${name}`));
+        assert.equal(await page.locator('#exaggeration-value').textContent(),
+          name === 'moon' ? '× 4.1' : '× 15');
+        await page.mouse.move(MIDDLE.x, MIDDLE.y);
+        await page.waitForFunction(() => document.getElementById('under').textContent);
+        // From where home looks.
+        assert.match(await page.locator('#under').textContent(), /m · (19|20|21)\.\d+° N 1[45]\./);
+      });
+    }
+    seen.earth.forEach((radius, i) => assert.ok(Math.abs(radius - seen.moon[i]) < 8,
+      `${seen.earth.join()} and ${seen.moon.join()}`));
+  });

@@ -3,8 +3,10 @@
 // the north pole is up (y), longitude 0 at x.
 import {BufferAttribute, BufferGeometry, Mesh, RepeatWrapping} from 'three';
 
+import {isForest} from '../src/domains.js';
 import {drapeOf} from '../src/drape.js';
 import {textureOf} from '../src/three.js';
+import {PATCHES, groupByPatches, texturesOfPatches} from './cube.js';
 
 /** Of vectors whose z points to the north pole. */
 function upright(vectors) {
@@ -20,7 +22,7 @@ function upright(vectors) {
 /** Places on the texture. One without a place of its own covers the whole raster, as tints do. */
 function placesOf(info, pixels) {
   const {width, height, hasTexture, textureHasGeotransform} = info, drape = drapeOf(info);
-  const isPlaced = hasTexture && textureHasGeotransform;
+  const isPlaced = hasTexture && (textureHasGeotransform || isForest(info.textureDomain));
   const places = new Float32Array(pixels.length);
   for (let i = 0; i < pixels.length; i += 2) {
     const [column, row] = [pixels[i], pixels[i + 1]];
@@ -36,6 +38,7 @@ function geometryOf({info, globe}) {
   geometry.setAttribute('uv', new BufferAttribute(placesOf(info, globe.pixels), 2));
   geometry.setAttribute('tall', new BufferAttribute(globe.heights, 1));
   geometry.setIndex(new BufferAttribute(globe.triangles, 1));
+  if (info.domain === 'cube') groupByPatches(geometry, info, globe.pixels);
   return geometry;
 }
 
@@ -47,9 +50,11 @@ export class Globe extends Mesh {
 
   /** `terrain`: of open(). It is disposed with this object, as its material is. */
   constructor(terrain, material) {
-    super(new BufferGeometry(), material);
+    const {domain, hasTexture, textureOpaque} = terrain.info;
+    if (hasTexture && !textureOpaque) material.alphaTest = 0.5;
+    super(new BufferGeometry(), domain !== 'cube' ? material
+      : Array.from({length: PATCHES}, () => material.clone()));
     this.terrain = terrain;
-    if (terrain.info.hasTexture && !terrain.info.textureOpaque) material.alphaTest = 0.5;
   }
 
   /** Draws a frame of `terrain`. Parts that it lacks stay as they are. */
@@ -70,11 +75,18 @@ export class Globe extends Mesh {
     this.radius = most || 1;
   }
 
+  get #materials() {
+    return [this.material].flat();
+  }
   setMap(texture) {
-    this.material.map?.dispose();
-    if (texture) texture.wrapS = RepeatWrapping;  // on behind the seam
-    if (!this.material.map) this.material.needsUpdate = true;
-    this.material.map = texture;
+    const isCube = this.#materials.length > 1;
+    if (texture && !isCube) texture.wrapS = RepeatWrapping;  // on behind the seam
+    const textures = texture && isCube ? texturesOfPatches(texture) : [texture];
+    this.#materials.forEach((material, i) => {
+      material.map?.dispose();
+      if (!material.map) material.needsUpdate = true;
+      material.map = textures[i] ?? null;
+    });
   }
   /** It does not: meshes of globes come one after the other. */
   glide() {
@@ -82,8 +94,8 @@ export class Globe extends Mesh {
   }
   dispose() {
     this.geometry.dispose();
-    this.material.map?.dispose();
-    this.material.dispose();
+    this.setMap(null);
+    for (const material of this.#materials) material.dispose();
     this.terrain.dispose();
   }
 }

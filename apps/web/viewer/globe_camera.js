@@ -2,6 +2,8 @@
 // The camera of a globe: it goes round the centre, and stays above the ground.
 import {MathUtils, Vector3} from 'three';
 
+import {wayRound} from './journey.js';
+
 /** What an orbit may do, flat and round. */
 const FLAT = {
   maxPolarAngle: 1.53, enablePan: true, zoomToCursor: true, rotateSpeed: 1, zoomSpeed: 1,
@@ -11,6 +13,8 @@ const ROUND = {maxPolarAngle: Math.PI, enablePan: false, zoomToCursor: false};
 const NEAREST = 1.003, FARTHEST = 12;
 /** From where home looks: longitude and latitude. */
 const HOME = [15, 20].map(MathUtils.degToRad);
+/** What a visit leaves of the way to the ground, and how far above it, in radii, it ends. */
+const NEARER = 0.4, NEAR = 0.05;
 /** Of what is free that the globe fills. */
 const SHARE = 0.92;
 
@@ -44,6 +48,13 @@ export class GlobeCamera {
       -Math.sin(longitude) * Math.cos(latitude)).multiplyScalar(radius / Math.sin(half));
     this.#orbit.target.set(0, 0, 0);
     this.#orbit.update();
+  }
+  /** To what lies below a point: nearer, but not so near that the globe is out of sight. */
+  wayTo({x, y, z}) {
+    const from = this.#camera.position, above = from.length() / this.#radius - 1;
+    const away = 1 + Math.min(above, Math.max(above * NEARER, NEAR));
+    const to = new Vector3(x, y, z).setLength(away * this.#radius);
+    return wayRound(from.clone(), to, this.#radius);
   }
   /** The radius of the highest ground. */
   keepAbove(radius) {

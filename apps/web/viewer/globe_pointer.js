@@ -2,10 +2,9 @@
 // What lies under the pointer on a globe.
 import {MathUtils, Raycaster, Vector2} from 'three';
 
+import {bodyOf, eccentricityOf} from '../src/body.js';
 import {degreesText} from './pointer.js';
 
-/** Of WGS 84: the square of its eccentricity. */
-const ECCENTRICITY = 0.00669437999014;
 const ray = new Raycaster();
 
 /** The point at a place of the page, {x, y, z, height}; null: none. */
@@ -20,9 +19,10 @@ export function placeOnGlobe(globe, camera, x, y) {
 }
 
 /** Gives the text of such a point. */
-export function globeDescriber({unit}) {
+export function globeDescriber(info) {
+  const {unit} = info, eccentricity = eccentricityOf(bodyOf(info));
   return ({x, y, z, height}) => {
-    const latitude = Math.atan2(y, Math.hypot(x, z) * (1 - ECCENTRICITY));
+    const latitude = Math.atan2(y, Math.hypot(x, z) * (1 - eccentricity));
     const degrees = [Math.atan2(-z, x), latitude].map(MathUtils.radToDeg);
     return `${height.toFixed(0)} ${unit}`.trim() + ` · ${degreesText(degrees)}`;
   };

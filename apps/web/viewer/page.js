@@ -39,6 +39,7 @@ export function explainMoves(isFlying) {
     ? ['One finger looks around, a second one goes ahead.',
       'A drag looks around. W A S D or arrows go, Q and E sink and rise, Shift hurries.']
     : ['One finger turns, two move and zoom.',
-      'A drag turns, with Shift it moves; the wheel zooms. Keys: arrows, + −, Home.'];
+      'A drag turns, with Shift it moves; the wheel zooms, a double click goes there. ' +
+        'Keys: arrows, + −, Home.'];
   $('help').textContent = matchMedia('(hover: none)').matches ? touched : byHand;
 }

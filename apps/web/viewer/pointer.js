@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lies under the pointer: its height, and its place on Earth as far as that is known.
 import {groundAxes, unplacedOn} from '../src/axes.js';
+import {isForest} from '../src/domains.js';
 import {groundScale} from '../src/ground.js';
 import {isPlaced, placeOf} from '../src/place.js';
 import {$} from './page.js';
@@ -17,7 +18,7 @@ export function degreesText([longitude, latitude]) {
 /** From column and row to the text of a place: degrees, or coordinates of an unknown CRS. */
 function placeText(info) {
   const part = info.hasHeights ? 'heights' : 'texture';
-  if (!isPlaced(info)) return () => '';
+  if (!isPlaced(info) || isForest(info.domain)) return () => '';
   try {
     const {degrees} = placeOf(info, part);
     return (column, row) => degreesText(degrees(column, row));

@@ -61,3 +61,11 @@ export function emptiness({info, mesh, globe, texture, complete}) {
   for (let i = 3; i < texture.data.length; i += 4) if (texture.data[i] > 0) return '';
   return 'The cut-out of this stream hides all texels';
 }
+
+/** How large a stream is, in words. */
+export function sizeOf(info) {
+  const sizes = [];
+  if (info.hasHeights) sizes.push(`${info.width} × ${info.height} heights`);
+  if (info.hasTexture) sizes.push(`${info.textureWidth} × ${info.textureHeight} texels`);
+  return sizes.join(' · ');
+}

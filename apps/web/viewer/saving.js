@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of what is shown, for other programs: a mesh (.glb), heights (.tif), a texture (.png).
+import {isForest} from '../src/domains.js';
 import {glbOf} from './glb.js';
-import {tell} from './page.js';
+import {$, tell} from './page.js';
 import {geoTiffOf} from './tiff.js';
 
 /** Along a side: what a canvas and the memory of a page take. */
@@ -32,7 +33,9 @@ async function meshFile({geometry: {attributes, index}, frame}) {
 async function heightsFile(terrain, bytes) {
   const {surface, info} = await terrain.decode(
     {bytes, mesh: false, texture: false, surface: true, samples: MOST_SAMPLES});
-  const placed = {...info, geotransform: surface.geotransform};
+  // That of a forest is the place of the grid that it was made of.
+  const hasGeotransform = info.hasGeotransform && !isForest(info.domain);
+  const placed = {...info, hasGeotransform, geotransform: surface.geotransform};
   return new Blob([geoTiffOf(surface, placed)], {type: 'image/tiff'});
 }
 
@@ -66,4 +69,12 @@ export function listenToSaves(shown) {
     }
   };
   for (const button of document.querySelectorAll('.saves')) button.addEventListener('click', save);
+}
+
+/** What was coded can be kept. */
+export function offer(file) {
+  URL.revokeObjectURL($('save').href);
+  $('save').href = URL.createObjectURL(file);
+  $('save').download = file.name;
+  $('save').hidden = false;
 }

@@ -1,44 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is drawn and from where: light, camera, and the two ways to move it. Pictures are drawn
 // when something has changed, not all the time.
-import {
-  AmbientLight, Box3, DirectionalLight, MathUtils, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
-} from 'three';
+import {Box3, MathUtils, PerspectiveCamera, Scene, Vector3, WebGLRenderer} from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
-import {placeFor} from '../src/fit.js';
 import {Fly} from './fly.js';
 import {GlobeCamera} from './globe_camera.js';
 import {placeOnGlobe} from './globe_pointer.js';
+import {lookAtAll} from './home.js';
+import {Journey, wayAcross} from './journey.js';
+import {moveByKey} from './keys.js';
+import {Light} from './light.js';
 import {NARROW} from './page.js';
 import {pointOn} from './ray.js';
 
 const REST = 150;  // ms
 const PANEL_SHIFT = 150;  // pixels, by which a panel beside the terrain moves its middle
-const TURN = 0.08, NEARER = 0.9;
-/** Shares of the light: together they show white as white, and no more. */
-const AMBIENT = 0.45, SUN = 1 - AMBIENT;
-/** Keys of the picture while nobody flies. */
-const KEYS = {
-  'ArrowLeft': (orbit) => orbit.rotateLeft(-TURN),
-  'ArrowRight': (orbit) => orbit.rotateLeft(TURN),
-  'ArrowUp': (orbit) => orbit.rotateUp(-TURN),
-  'ArrowDown': (orbit) => orbit.rotateUp(TURN),
-  '+': (orbit) => orbit.dollyIn(1 / NEARER),
-  '=': (orbit) => orbit.dollyIn(1 / NEARER),
-  '-': (orbit) => orbit.dollyOut(1 / NEARER),
-};
 
 export class Picture {
   #scene = new Scene();
-  #ambient = new AmbientLight(0xffffff);
-  #sun = new DirectionalLight(0xffffff);
   #object = null;
   #original = null;
   #edge = 0.5;  // of the picture's width, left of which the stream is drawn
   #pending = false;
   #last = 0;
-  #sunAt = new Vector3();  // as on a map that is looked down on
   #radius = 1;
   #middle = new Vector3();
   #times = 1;
@@ -63,14 +48,17 @@ export class Picture {
     this.orbit.screenSpacePanning = false;
     this.orbit.zoomToCursor = true;
     this.orbit.addEventListener('change', () => this.#moved());
-    this.orbit.addEventListener('start', () => (this.isMoved = true));
+    this.orbit.addEventListener('start', () => {
+      this.isMoved = true;
+      this.journey.end();
+    });
     this.fly = new Fly(this.camera, canvas, () => {
       this.isMoved ||= this.fly.enabled;
       this.#moved();
     });
     this.globe = new GlobeCamera(this.camera, this.orbit);
-    this.#scene.add(this.#ambient, this.#sun);
-    this.setShaded(true);
+    this.light = new Light(this.#scene);
+    this.journey = new Journey(this.camera, this.orbit);
     canvas.addEventListener('webglcontextrestored', () => this.draw());
     canvas.addEventListener('keydown', (event) => this.#pressed(event));
     addEventListener('resize', () => this.resize());
@@ -106,9 +94,9 @@ export class Picture {
   }
   #pressed(event) {
     if (event.key === 'Home') this.home();
-    else if (!this.fly.enabled && KEYS[event.key]) {
+    else if (!this.fly.enabled && moveByKey(event.key, this.orbit)) {
       this.isMoved = true;
-      KEYS[event.key](this.orbit);
+      this.journey.end();
     } else return;
     event.preventDefault();
   }
@@ -127,14 +115,15 @@ export class Picture {
       const seconds = Math.min(0.1, (now - this.#last) / 1000);
       this.#last = now;
       const moving = this.fly.update(seconds, 0.25 * this.#radius);
+      const travelling = this.journey.step(now);
       if (!this.fly.enabled) this.orbit.update();
       const gliding = this.#object?.glide();
       this.#fitDepth();
-      this.#placeSun();
+      this.light.place(this.globe);
       this.#render();
       this.ondraw();
       if (moving) this.#moved();
-      else if (gliding) this.draw();
+      else if (gliding || travelling) this.draw();
     });
   }
   /** The stream, and right of the edge its original. */
@@ -166,6 +155,7 @@ export class Picture {
       this.#object.dispose();
     }
     this.#object = object;
+    this.journey.end();
     this.globe.isOn = object?.isGlobe ?? false;
     if (object) this.#scene.add(object);
     this.draw();
@@ -196,6 +186,7 @@ export class Picture {
   /** Turns the camera around what it looks at until north is above. */
   faceNorth() {
     if (this.globe.isOn) return;  // it is there
+    this.journey.end();
     const {target} = this.orbit, {x, y, z} = this.camera.position.clone().sub(target);
     this.camera.position.copy(target).add(new Vector3(0, y, Math.hypot(x, z)));
     this.isMoved = true;
@@ -234,6 +225,7 @@ export class Picture {
   home() {
     if (!this.#object) return;
     this.isMoved = false;
+    this.journey.end();
     if (this.globe.isOn) return this.#globeHome();
     const box = this.#bounds();
     box.getCenter(this.#middle);
@@ -242,7 +234,7 @@ export class Picture {
     this.#radius = Math.max(size.x, size.y * this.#times, size.z) / 2;
     this.orbit.minDistance = this.#radius / 100;
     this.orbit.maxDistance = this.#radius * 12;
-    this.#lookAtAll(box);
+    lookAtAll(this, this.#object, {middle: this.#middle, far: box.max.x * 4});
     this.orbit.update();
     this.draw();
   }
@@ -252,62 +244,42 @@ export class Picture {
     this.globe.home(this.#radius, this.free());
     this.draw();
   }
-  #lookAtAll(box) {
-    const {left, right, top, bottom} = this.free();
-    // A tall page shows more of what is seen from further above.
-    const steepness = MathUtils.clamp((0.9 * (bottom - top)) / (right - left), 0.62, 1.8);
-    const ahead = new Vector3(-0.35, -steepness, -1).normalize();
-    const across = new Vector3().crossVectors(ahead, this.camera.up).normalize();
-    const pixel = Math.tan(MathUtils.degToRad(this.camera.fov) / 2) / (innerHeight / 2);
-    const {offsetX, offsetY} = this.camera.view;
-    const window = {
-      left: (left - innerWidth / 2 + offsetX) * pixel,
-      right: (right - innerWidth / 2 + offsetX) * pixel,
-      low: (innerHeight / 2 - offsetY - bottom) * pixel,
-      high: (innerHeight / 2 - offsetY - top) * pixel,
-    };
-    const axes = {ahead, right: across, up: new Vector3().crossVectors(across, ahead)};
-    const {matrixWorld, geometry} = this.#object, places = geometry.getAttribute('position');
-    const point = new Vector3();
-    const place = placeFor(axes, window, (take) => {
-      for (let i = 0; i < places.count; ++i) {
-        take(point.fromBufferAttribute(places, i).applyMatrix4(matrixWorld));
-      }
-    });
-    if (!isFinite(place.length())) place.copy(this.#middle).addScaledVector(ahead, -box.max.x * 4);
-    this.camera.position.copy(place);
-    // What orbits turn around lies at the middle height.
-    this.orbit.target.copy(place).addScaledVector(ahead, (this.#middle.y - place.y) / ahead.y);
+  /** Glides to a point of the ground in the coordinates of the object, of a globe above it;
+   * `isStill`: is there at once. */
+  visit(point, isStill) {
+    this.isMoved = true;
+    this.journey.begin(this.globe.isOn ? this.globe.wayTo(point)
+      : this.#wayTo(this.#object.localToWorld(new Vector3(point.x, point.y, point.z))),
+    isStill ? 0 : undefined);
+    this.draw();
   }
-
+  /** Half as far from another point of the ground, in the same direction. */
+  #wayTo(target) {
+    const {position: eye} = this.camera, {target: from, minDistance} = this.orbit;
+    const away = eye.clone().sub(from), distance = Math.max(away.length() / 2, minDistance);
+    return wayAcross({eye: eye.clone(), target: from.clone()},
+      {eye: away.setLength(distance).add(target), target});
+  }
   /** From a place in metres around the middle of the terrain, towards another. */
   look(eye, target) {
+    this.journey.end();
     this.camera.position.set(...eye);
     this.orbit.target.set(...target);
     this.orbit.update();
     this.draw();
   }
 
-  /** Without light a texture is seen as it is. */
   setShaded(shaded) {
-    this.#ambient.intensity = Math.PI * (shaded ? AMBIENT : 1);
-    this.#sun.intensity = Math.PI * (shaded ? SUN : 0);
+    this.light.setShaded(shaded);
     this.draw();
   }
-  /** Where the sun stands, in degrees: clockwise from north, and above the horizon. */
   setSun(azimuth, elevation) {
-    const [turn, rise] = [azimuth, elevation].map(MathUtils.degToRad);
-    this.#sunAt.set(
-      Math.sin(turn) * Math.cos(rise), Math.sin(rise), -Math.cos(turn) * Math.cos(rise));
+    this.light.setSun(azimuth, elevation);
     this.draw();
-  }
-  /** Over a globe the sun goes along with the camera, so that there is light where it looks. */
-  #placeSun() {
-    this.#sun.position.copy(this.#sunAt);
-    if (this.globe.isOn) this.globe.turnOverhead(this.#sun.position);
   }
 
   setFlying(flying) {
+    this.journey.end();
     this.fly.enabled = flying;
     this.orbit.enabled = !flying;
     if (!flying) {

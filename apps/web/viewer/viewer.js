@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens a stream (of start.js, a drop, a file), refines it, and lets its bytes and triangles be
-// chosen.
+// Opens a stream (of start.js, a drop, a file), has it refined, and listens to the panel.
 import {MeshLambertMaterial} from 'three';
 
 import {goesRound, open} from '../src/index.js';
-import {FIRST_FRAME, TksTerrain, textureOf} from '../src/three.js';
+import {TksTerrain, textureOf} from '../src/three.js';
 import {nameOf} from './address.js';
 import {drawBearings} from './bearings.js';
 import {givenHeight, keep, place} from './camera_link.js';
@@ -16,44 +15,36 @@ import {listenToFiles} from './files.js';
 import {Globe} from './globe.js';
 import {globeDescriber} from './globe_pointer.js';
 import {exaggerationOf, globeFor, keepFlat} from './globe_view.js';
+import {listenToLooks, setWireframe} from './looks.js';
 import {originalInLink} from './original_link.js';
 import {$, entitle, explainMoves, freeArea, isSmallScreen, tell} from './page.js';
 import {describer, listenToPointer} from './pointer.js';
-import {emptiness, formatBytes, formatCount, readOut} from './read_out.js';
-import {listenToSaves} from './saving.js';
+import {emptiness, readOut, sizeOf} from './read_out.js';
+import {Refiner} from './refiner.js';
+import {listenToSaves, offer} from './saving.js';
 import {Picture} from './scene.js';
+import {readSliders, setSliders} from './sliders.js';
 import {listenToSun} from './sun.js';
 import {tint} from './tint.js';
 import {say} from './values.js';
+import {Visits} from './visits.js';
 
 const STILL = matchMedia('(prefers-reduced-motion: reduce)');
-/** What is fetched without being asked for. */
-const FREE_BYTES = 8 << 20;
-const LEAST_TRIANGLES = 100, MOST_TRIANGLES = 1e6, USUAL_TRIANGLES = 50000;
 
 const picture = new Picture($('picture'), freeArea);
 const comparison = new Comparison(picture);
+const refiner = new Refiner(picture, {show, fail, signal: () => opening.signal});
+const visits = new Visits(picture, () => (object?.frame ? {object, info: terrain.info} : null));
 const map = new FetchMap($('fetched'), $('ground'));
 
 let terrain = null, object = null;
-let wanted = {};
-/** Bytes and triangles of the frame that is shown, of a globe its exaggeration, and whether it has
- * all texels. */
-let shown = {};
-/** A promise of the first frame, where that is being made already. */
-let begun = null;
 let opening = new AbortController();
-let pumping = false;
 /** What the page calls the terrain that it shows: {name, title, size}. */
 let called = null;
 /** Opens the terrain that is shown once more. */
 let reopen = () => {};
 /** The text of a point of the terrain. */
 let describe = () => '';
-
-/** Sliders are logarithmic: 0 to 1000 for `least` to `most`. */
-const fromSlider = (slider, least, most) => least * (most / least) ** (slider.value / 1000);
-const toSlider = (value, least, most) => (1000 * Math.log(value / least)) / Math.log(most / least);
 
 function show(frame) {
   const first = object.frame === null;
@@ -64,7 +55,7 @@ function show(frame) {
     exaggerate();
     picture.home();
     $('bearings').hidden = false;
-    followLink();
+    if (!followLink()) visits.follow();
   }
   const empty = emptiness(frame);
   if (empty) tell(`${empty}: there is nothing to draw.`, true);
@@ -73,87 +64,6 @@ function show(frame) {
   map.draw();
   document.body.dataset.bytes = frame.bytes;
   picture.draw();
-}
-
-/** Of streams with an index bytes come for what is looked at, on flat ground. */
-const isPlanned = () => terrain.info.hasIndex && object.frame !== null && !object.isGlobe;
-
-/** What frames are made of, but for bytes. */
-function frameOptions(triangles) {
-  return {
-    triangles, normals: true, surface: !terrain.info.hasTexture, samples: 1024,
-    texels: Math.min(4096, picture.renderer.capabilities.maxTextureSize), signal: opening.signal,
-    globe: globeFor(terrain.info, Number($('exaggeration').value)),
-  };
-}
-
-const isShown = () => shown.isWhole && shown.bytes === wanted.bytes &&
-  shown.triangles === wanted.triangles && shown.height === wanted.height;
-
-/** Shows what opening brought, roughly; other bytes come meanwhile. */
-async function drawFirst(current) {
-  const {info} = current, {texels} = FIRST_FRAME, {height} = wanted;
-  const bytes = Math.min(wanted.bytes, current.loaded.bytes);
-  const triangles = Math.min(wanted.triangles, FIRST_FRAME.triangles);
-  const options = frameOptions(triangles);
-  if (!info.hasIndex) current.load(wanted.bytes, options).catch(() => {});
-  const frame = await (begun ?? current.decode({...options, texels, bytes}));
-  await picture.sized();  // the camera is placed for its size, and for what is seen bytes come
-  if (current !== terrain) return;
-  begun = null;
-  show(frame);
-  const isWhole = Math.max(info.textureWidth, info.textureHeight) <= texels;
-  shown = {bytes: frame.bytes, triangles, height, isWhole};
-}
-
-/** Frames of more bytes, until others are wanted. */
-async function refine(current) {
-  const goal = wanted, view = isPlanned() ? object.viewOf(picture.camera, picture.pixels) : null;
-  const options = {...frameOptions(goal.triangles), bytes: goal.bytes, after: shown.bytes, view};
-  for await (const frame of current.refine(options)) {
-    if (current !== terrain) return;
-    show(frame);
-    shown = {...goal, bytes: frame.bytes, isWhole: true};
-    if (goal !== wanted) return;
-  }
-  const {fileBytes, truncated, info} = current;
-  if (truncated && goal.bytes > fileBytes) {
-    goal.bytes = fileBytes;
-    tell(`The file is cut short: ${formatBytes(fileBytes)} of ` +
-      `${formatBytes(info.streamBytes)} are there.`, true);
-  }
-  shown.bytes = goal.bytes;  // this view needs no more
-}
-
-/** One frame of bytes that are here. */
-async function redraw(current) {
-  const {bytes, triangles, height} = wanted, here = Math.min(bytes, current.loaded.bytes);
-  const kept = bytes === shown.bytes && shown.isWhole ? {texture: false, surface: false} : {};
-  const frame = await current.decode({...frameOptions(triangles), bytes: here, ...kept});
-  if (current !== terrain) return;
-  show(frame);
-  shown = {bytes, triangles, height, isWhole: true};
-}
-
-/** Draws until what is shown is what is wanted, or all that this view needs. */
-async function pump() {
-  if (pumping || !terrain) return;
-  pumping = true;
-  const current = terrain, {signal} = opening;
-  document.body.dataset.state = 'refining';
-  try {
-    while (current === terrain && !isShown()) {
-      if (!shown.bytes) await drawFirst(current);
-      else if (wanted.bytes > shown.bytes) await refine(current);
-      else await redraw(current);
-    }
-    document.body.dataset.state = 'done';
-  } catch (error) {
-    if (current === terrain && !signal.aborted) fail(error);
-  } finally {
-    pumping = false;
-    if (current !== terrain) pump();
-  }
 }
 
 function fail(error) {
@@ -170,25 +80,20 @@ function failToOpen(error) {
   if (called) entitle(called);
   else $('size').textContent = '';
   fail(error);
-  if (terrain && !isShown()) pump();
+  if (terrain && !refiner.isShown) refiner.pump();
 }
 
-/** Looks from where the address says, if it does. */
+/** Looks from where the address says; false: it does not. */
 function followLink() {
-  if (!object?.frame || !place('eye') || !place('target')) return;
+  if (!object?.frame || !place('eye') || !place('target')) return false;
   picture.look(place('eye'), place('target'));
+  return true;
 }
 
 function setWanted() {
   if (!terrain) return;
-  wanted = {
-    bytes: Math.round(fromSlider($('bytes'), leastBytes(), terrain.info.streamBytes)),
-    triangles: Math.round(fromSlider($('triangles'), LEAST_TRIANGLES, mostTriangles())),
-    height: object.isGlobe ? $('exaggeration').value : 0,  // flat ground is stretched as it is
-  };
-  say('bytes', formatBytes(wanted.bytes));
-  say('triangles', formatCount(wanted.triangles));
-  pump();
+  const height = object.isGlobe ? $('exaggeration').value : 0;  // flat ground is stretched as it is
+  refiner.want({...readSliders(terrain.info), height});
 }
 /** Where the camera rests, the address keeps it, and other bytes may help. */
 function rest() {
@@ -197,42 +102,23 @@ function rest() {
     keep(picture.isMoved
       ? {eye: position, target, height: Number($('exaggeration').value)} : null);
   }
-  replan();
-}
-function replan() {
-  if (!terrain || !shown.bytes || !isPlanned() || terrain.loaded.bytes >= wanted.bytes) return;
-  shown.bytes = terrain.loaded.bytes;
-  pump();
+  refiner.replan();
 }
 /** Whether a metre on the ground is known. */
 const isMeasured = (info) => info.hasHeights && (info.spacingX > 0 || info.hasGeotransform);
-/** Of the header alone there is a surface too. */
-const leastBytes = () => Math.min(terrain.info.headerBytes, terrain.info.streamBytes - 1);
-const mostTriangles = () => {
-  const {width, height} = terrain.info;
-  return Math.max(2 * LEAST_TRIANGLES, Math.min(MOST_TRIANGLES, 2 * width * height));
-};
 
 /** Sliders and switches for what was opened. */
 function prepareControls(info) {
   $('panel').hidden = false;
   picture.resize();
-  $('bytes').value =
-    toSlider(Math.min(info.streamBytes, FREE_BYTES), leastBytes(), info.streamBytes);
-  $('triangles').value = toSlider(Math.min(USUAL_TRIANGLES, mostTriangles()), LEAST_TRIANGLES,
-    mostTriangles());
+  setSliders(info);
   for (const control of document.querySelectorAll('.of-heights')) control.hidden = !info.hasHeights;
   for (const control of document.querySelectorAll('.of-texture')) control.hidden = !info.hasTexture;
   $('round').hidden = !goesRound(info);
   $('globe').checked = $('fly').parentElement.hidden = object.isGlobe ?? false;
   if (object.isGlobe && $('fly').checked) $('fly').click();
   $('textured-name').textContent = info.hasTexture ? 'Texture' : 'Colours';
-}
-function sizeOf(info) {
-  const sizes = [];
-  if (info.hasHeights) sizes.push(`${info.width} × ${info.height} heights`);
-  if (info.hasTexture) sizes.push(`${info.textureWidth} × ${info.textureHeight} texels`);
-  return sizes.join(' · ');
+  visits.prepare(object, info);
 }
 
 /** Ends what was being opened, for something else. */
@@ -255,16 +141,15 @@ async function openInput(input, name, asked, original = null) {
     if (signal.aborted) return opened.dispose();
     terrain = opened;
     map.show(terrain);
-    shown = {};
-    begun = asked?.first ?? null;
     const material = new MeshLambertMaterial();
     object = globeFor(terrain.info)
       ? new Globe(terrain, material) : new TksTerrain(terrain, {material});
-    object.material.wireframe = $('wireframe').checked;
+    setWireframe(object);
     picture.setObject(object);
     comparison.of(object.isGlobe ? null : original, terrain.info);
     $('save').hidden = true;
     prepareControls(terrain.info);
+    refiner.begin({terrain, object, first: asked?.first});
     reopen = () => openInput(input, name, null, original);
     called = {name, title, size: sizeOf(terrain.info)};
     entitle(called);
@@ -307,14 +192,6 @@ async function openSources(files) {
   }
 }
 
-/** What was coded can be kept. */
-function offer(file) {
-  URL.revokeObjectURL($('save').href);
-  $('save').href = URL.createObjectURL(file);
-  $('save').download = file.name;
-  $('save').hidden = false;
-}
-
 /** A stream, or what can be coded into one. */
 async function openFiles(files) {
   const streams = [];
@@ -332,7 +209,7 @@ function exaggerate() {
   if (!object?.frame) return;
   const {tallness} = picture, usual = tallness > 1 ? 1 / (8 * tallness) : 1;
   const {value} = $('exaggeration');
-  const times = object.isGlobe ? exaggerationOf(value) : usual * 10 ** (value / 20);
+  const times = object.isGlobe ? exaggerationOf(value, terrain.info) : usual * 10 ** (value / 20);
   const text = times.toPrecision(2);
   say('exaggeration', `× ${text}`, `drawn ${text} times as high`);
   if (object.isGlobe) return setWanted();
@@ -347,32 +224,10 @@ function listenToControls() {
     rest();
   });
   $('north').addEventListener('click', () => object && picture.faceNorth());
-  listenToSaves(() => ({object, terrain, bytes: shown.bytes, name: called.name}));
+  listenToSaves(() => ({object, terrain, bytes: refiner.shown.bytes, name: called.name}));
   $('globe').addEventListener('change', () => {
     keepFlat(!$('globe').checked);
     reopen();
-  });
-  $('wireframe').addEventListener('change', () => {
-    if (object) object.material.wireframe = $('wireframe').checked;
-    picture.draw();
-  });
-  $('textured').addEventListener('change', () => {
-    if (!object) return;
-    object.setMap(null);
-    const {texture, surface} = object.frame ?? {};
-    if ($('textured').checked && texture) object.setMap(textureOf(texture));
-    else if ($('textured').checked && surface) object.setMap(textureOf(tint(surface)));
-    object.material.needsUpdate = true;
-    picture.draw();
-  });
-  $('shaded').addEventListener('change', () => {
-    for (const part of document.querySelectorAll('.of-light')) part.hidden = !$('shaded').checked;
-    picture.setShaded($('shaded').checked);
-  });
-  $('fly').addEventListener('change', () => {
-    picture.setFlying($('fly').checked);
-    explainMoves($('fly').checked);
-    $('picture').focus();
   });
   $('home').addEventListener('click', () => object && picture.home());
   $('fold').addEventListener('click', () => {
@@ -395,6 +250,7 @@ export function begin(asked) {
   addEventListener('hashchange', followLink);
   listenToPointer(picture, (point) => describe(point));
   listenToControls();
+  listenToLooks(picture, () => object);
   listenToFiles(openFiles, (address) => openInput(address, nameOf(address)));
   explainMoves($('fly').checked);
   if (isSmallScreen()) $('fold').click();

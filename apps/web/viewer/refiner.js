@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws a stream: a rough first frame, then what more bytes bring, until what is shown is what is
+// wanted, or all that this view needs.
+import {FIRST_FRAME} from '../src/three.js';
+import {globeFor} from './globe_view.js';
+import {tell} from './page.js';
+import {formatBytes} from './read_out.js';
+
+export class Refiner {
+  #picture;
+  #show;
+  #fail;
+  #signal;
+  #terrain = null;
+  #object = null;
+  #first = null;  // a promise of the first frame, where that is being made already
+  #wanted = {};
+  #isPumping = false;
+  /** Bytes and triangles of the frame that is shown, of a globe its exaggeration, and whether it
+   * has all texels. */
+  shown = {};
+
+  /** Calls show(frame) with each frame, and fail(error) if one cannot be made. signal(): ends what
+   * is being made once something else is opened; where that fails, another one has come. */
+  constructor(picture, {show, fail, signal}) {
+    this.#picture = picture;
+    [this.#show, this.#fail, this.#signal] = [show, fail, signal];
+  }
+  /** `object` is what draws frames of `terrain`. */
+  begin({terrain, object, first = null}) {
+    this.shown = {};
+    [this.#terrain, this.#object, this.#first] = [terrain, object, first];
+  }
+  /** {bytes, triangles, height}: as the sliders say. */
+  want(wanted) {
+    this.#wanted = wanted;
+    this.pump();
+  }
+  /** For another view other bytes may help. */
+  replan() {
+    const {bytes} = this.#terrain?.loaded ?? {};
+    if (!this.shown.bytes || !this.#isPlanned || bytes >= this.#wanted.bytes) return;
+    this.shown.bytes = bytes;
+    this.pump();
+  }
+  /** Of streams with an index bytes come for what is looked at, on flat ground. */
+  get #isPlanned() {
+    const {frame, isGlobe} = this.#object;
+    return this.#terrain.info.hasIndex && frame !== null && !isGlobe;
+  }
+  /** Whether it is what is wanted. */
+  get isShown() {
+    const {shown} = this, wanted = this.#wanted;
+    return shown.isWhole && shown.bytes === wanted.bytes &&
+      shown.triangles === wanted.triangles && shown.height === wanted.height;
+  }
+
+  async pump() {
+    if (this.#isPumping || !this.#terrain) return;
+    this.#isPumping = true;
+    const current = this.#terrain, signal = this.#signal();
+    document.body.dataset.state = 'refining';
+    try {
+      while (current === this.#terrain && !this.isShown) {
+        if (!this.shown.bytes) await this.#drawFirst(current);
+        else if (this.#wanted.bytes > this.shown.bytes) await this.#refine(current);
+        else await this.#redraw(current);
+      }
+      document.body.dataset.state = 'done';
+    } catch (error) {
+      if (current === this.#terrain && !signal.aborted) this.#fail(error);
+    } finally {
+      this.#isPumping = false;
+      if (current !== this.#terrain) this.pump();
+    }
+  }
+
+  /** What frames are made of, but for bytes. */
+  #options(triangles) {
+    const {info} = this.#terrain, {capabilities} = this.#picture.renderer;
+    return {
+      triangles, normals: true, surface: !info.hasTexture, samples: 1024,
+      texels: Math.min(4096, capabilities.maxTextureSize), signal: this.#signal(),
+      globe: globeFor(info, Number(this.#wanted.height)),
+    };
+  }
+  /** Shows what opening brought, roughly; other bytes come meanwhile. */
+  async #drawFirst(current) {
+    const {info} = current, {texels} = FIRST_FRAME, wanted = this.#wanted;
+    const bytes = Math.min(wanted.bytes, current.loaded.bytes);
+    const triangles = Math.min(wanted.triangles, FIRST_FRAME.triangles);
+    const options = this.#options(triangles);
+    if (!info.hasIndex) current.load(wanted.bytes, options).catch(() => {});
+    const frame = await (this.#first ?? current.decode({...options, texels, bytes}));
+    // The camera is placed for its size, and for what is seen bytes come.
+    await this.#picture.sized();
+    if (current !== this.#terrain) return;
+    this.#first = null;
+    this.#show(frame);
+    const isWhole = Math.max(info.textureWidth, info.textureHeight) <= texels;
+    this.shown = {bytes: frame.bytes, triangles, height: wanted.height, isWhole};
+  }
+  /** Frames of more bytes, until others are wanted. */
+  async #refine(current) {
+    const goal = this.#wanted, {camera, pixels} = this.#picture;
+    const view = this.#isPlanned ? this.#object.viewOf(camera, pixels) : null;
+    const options = this.#options(goal.triangles), after = this.shown.bytes;
+    for await (const frame of current.refine({...options, bytes: goal.bytes, after, view})) {
+      if (current !== this.#terrain) return;
+      this.#show(frame);
+      this.shown = {...goal, bytes: frame.bytes, isWhole: true};
+      if (goal !== this.#wanted) return;
+    }
+    const {fileBytes, truncated, info} = current;
+    if (truncated && goal.bytes > fileBytes) {
+      goal.bytes = fileBytes;
+      tell(`The file is cut short: ${formatBytes(fileBytes)} of ` +
+        `${formatBytes(info.streamBytes)} are there.`, true);
+    }
+    this.shown.bytes = goal.bytes;  // this view needs no more
+  }
+  /** One frame of bytes that are here. */
+  async #redraw(current) {
+    const wanted = this.#wanted, {bytes, triangles} = wanted;
+    const kept = bytes === this.shown.bytes && this.shown.isWhole
+      ? {texture: false, surface: false} : {};
+    const here = Math.min(bytes, current.loaded.bytes);
+    const frame = await current.decode({...this.#options(triangles), bytes: here, ...kept});
+    if (current !== this.#terrain) return;
+    this.#show(frame);
+    this.shown = {...wanted, isWhole: true};
+  }
+}
