@@ -176,10 +176,15 @@ class FlatTrials {
   }
 
   /// Early doubling is cheap where levels are lifted jointly. Beside held samples levels are not,
-  /// but on forests.
+  /// but on forests. There a filter of four steps lifts in two rounds, whose first one reads held
+  /// samples as the second one has not changed them yet: at shores its errors grow.
   WaveletHeader waveletBeside(const FlatAreas& areas) const {
     WaveletHeader header = chooseWavelet(heights_, areas.held(), purpose_.range_bits,
                                          purpose_.purpose, rateOf(heights_, purpose_));
+    for (uint8_t& filter : header.filters) {
+      if (purpose_.forest != nullptr && !liftsJointly(static_cast<FilterId>(filter)))
+        filter = static_cast<uint8_t>(FilterId::kLong);
+    }
     if (header.first_doubled > 0 && purpose_.forest == nullptr)
       header.first_doubled = static_cast<uint8_t>(WaveletSpec().first_doubled);
     return header;
