@@ -3,6 +3,7 @@
 // checksum.
 #include "bitstream/stream/header.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -128,6 +129,11 @@ Status checkPriorities(const StreamHeader& header) {
   return {TKS_CORRUPT, "Corrupt stream: its map of priorities has more than 65536 tiles."};
 }
 
+/// docs/FORMAT.md, section 7, "Filters".
+bool hasTwoSteps(uint8_t filter) {
+  return filter != 2 && filter != 5;
+}
+
 /// The tools that may stand on a forest (docs/FORMAT.md, section 2).
 Status checkForests(const StreamHeader& header) {
   const auto sound = [](const auto& c) {
@@ -138,7 +144,9 @@ Status checkForests(const StreamHeader& header) {
   bool all = sound(header.geometry) && sound(header.texture);
   if (header.geometry && header.geometry->wavelet.forest != nullptr) {
     const bool lifts_all = layers.late_mask && layers.lifted_bytes == 0;
-    all &= layers.bridge == 0 &&
+    const auto& filters = header.geometry->wavelet.filters;
+    const bool joint = std::all_of(filters.begin(), filters.end(), hasTwoSteps);
+    all &= layers.bridge == 0 && (layers.flat_bytes == 0 || joint) &&
            (layers.validity_bytes == 0 || header.geometry->direct() || lifts_all);
   }
   if (header.texture && header.texture->wavelet.forest != nullptr)
@@ -146,7 +154,8 @@ Status checkForests(const StreamHeader& header) {
            header.texture->bridge == 0;
   if (all) return {};
   return {TKS_CORRUPT,
-          "Corrupt stream: a forest has regions, repeated lines or voids that are not lifted."};
+          "Corrupt stream: a forest has regions, repeated lines, voids that are not lifted or flat "
+          "areas beside a filter of four steps."};
 }
 
 /// A decoder may lack what it takes for the components of a later version.

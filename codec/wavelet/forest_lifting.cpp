@@ -105,16 +105,17 @@ void ForestLifting::hold(uint32_t patch, JointStep step, const std::vector<HeldC
   }
 }
 
-void ForestLifting::lift(size_t round, const HeldRounds& held) {
+void ForestLifting::lift(size_t round, const HeldCellsOfLevel& held) {
   for (const JointStep each : JointLifting::steps(direction_))
     if (each != JointStep::kHalves) step(round, each, held);
 }
 
-void ForestLifting::step(size_t round, JointStep step, const HeldRounds& held) {
+void ForestLifting::step(size_t round, JointStep step, const HeldCellsOfLevel& held) {
   copyAll(around_);
   const size_t samples = size_t{width_} * width_;
   const bool doubled = doubled_ && round + 1 == jointRounds(id_);
-  const size_t after = direction_ == Direction::kAnalysis ? round + 1 : round;
+  const std::vector<HeldCell>& cells =
+      direction_ == Direction::kAnalysis ? held.after : held.before;
   parallelFor(threads_, forest_.patches(), [&](size_t patch) {
     JointBlock block{patches_.data() + patch * samples,
                      width_,
@@ -123,10 +124,9 @@ void ForestLifting::step(size_t round, JointStep step, const HeldRounds& held) {
                      doubled,
                      round};
     if (!held.none())
-      block.held = {numbers_.data() + patch * samples, held.raised[round].data(),
-                    held.lowered[round].data()};
+      block.held = {numbers_.data() + patch * samples, held.raised.data(), held.lowered.data()};
     JointLifting(block, id_, direction_, wide_).run(step, margin_, margin_ + n_ + 1);
-    if (!held.none()) hold(static_cast<uint32_t>(patch), step, held.cells[after]);
+    if (!held.none()) hold(static_cast<uint32_t>(patch), step, cells);
   });
   copyAll(shared_);
 }
@@ -146,18 +146,18 @@ void ForestLifting::forEachSample(std::span<int32_t> values, bool halved, const 
   }
 }
 
-void ForestLifting::run(std::span<int32_t> values, const HeldRounds& held) {
+void ForestLifting::run(std::span<int32_t> values, const HeldCellsOfLevel& held) {
   assert(values.size() == pyramid_.plane().samples());
   const bool analyses = direction_ == Direction::kAnalysis;
   forEachSample(values, !analyses, [](int32_t from, int32_t& to) { to = from; });
   copyAll(shared_);  // what is not owned has no coefficient
   const size_t rounds = jointRounds(id_);
-  assert(held.none() || held.cells.size() == rounds + 1);
+  assert(held.none() || rounds == 1);
   if (!held.none()) findNumbers();
   if (!held.none() && !analyses) {  // what is held has no coefficients
     for (uint32_t patch = 0; patch < forest_.patches(); ++patch)
       for (const JointStep step : {JointStep::kCentres, JointStep::kSides, JointStep::kCorners})
-        hold(patch, step, held.cells.back());
+        hold(patch, step, held.after);
   }
   for (size_t i = 0; i < rounds; ++i) lift(analyses ? i : rounds - 1 - i, held);
   forEachSample(values, analyses, [](int32_t& to, int32_t from) { to = from; });

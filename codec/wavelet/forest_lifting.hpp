@@ -28,7 +28,7 @@ class ForestLifting {
 
   /// Turns the samples of the level into coefficients, or back, in place. values: of the raster.
   /// held: what the level makes of the areas that are held; empty: nothing is held.
-  void run(std::span<int32_t> values, const HeldRounds& held = {});
+  void run(std::span<int32_t> values, const HeldCellsOfLevel& held = {});
 
   /// The bytes that the largest level takes.
   static uint64_t bytesOf(const Forest& forest);
@@ -43,8 +43,8 @@ class ForestLifting {
   size_t indexOf(uint32_t patch, int64_t x, int64_t y) const;
   void findCopies();
   void copyAll(const std::vector<Copy>& copies);
-  void lift(size_t round, const HeldRounds& held);
-  void step(size_t round, JointStep step, const HeldRounds& held);
+  void lift(size_t round, const HeldCellsOfLevel& held);
+  void step(size_t round, JointStep step, const HeldCellsOfLevel& held);
   void findNumbers();
   /// Gives held samples of a patch their values, of those that a step changes.
   void hold(uint32_t patch, JointStep step, const std::vector<HeldCell>& held);

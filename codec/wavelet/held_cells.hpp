@@ -18,22 +18,24 @@ struct HeldCell {
   int32_t corner, side, centre;
 };
 
-/// What a level makes of all areas. A round reads a held sample as the one of such a surface, also
+/// What a level makes of all areas. A step reads a held sample as the one of such a surface, also
 /// where it reads one that it is about to change.
-struct HeldRounds {
-  std::vector<std::vector<HeldCell>> cells;  ///< [r][area]: before round r, and after the last one
-  std::vector<std::vector<int32_t>> raised, lowered;  ///< [r][area]: as of JointHeld, in round r
+struct HeldCellsOfLevel {
+  std::vector<HeldCell> before, after;   ///< of the analysis; of each area
+  std::vector<int32_t> raised, lowered;  ///< as of JointHeld
 
-  bool none() const { return cells.empty(); }
+  bool none() const { return before.empty(); }
 };
 
 class HeldCells {
  public:
-  /// Of areas that have these values in the plane.
+  /// Of the areas that the pyramid of a forest holds. The filters have two steps: of the rounds of
+  /// a longer filter the first would read what the second has not changed yet, and at shores its
+  /// errors would grow.
   HeldCells(const WaveletSpec& spec, const Pyramid& pyramid);
 
   /// level: from 1 on.
-  HeldRounds level(int level) const;
+  HeldCellsOfLevel level(int level) const;
 
  private:
   WaveletSpec spec_;

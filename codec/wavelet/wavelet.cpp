@@ -59,7 +59,7 @@ void runForest(const WaveletSpec& spec, const Pyramid& pyramid, Direction direct
   for (int done = 0; done < pyramid.levels(); ++done) {
     const int level = direction == Direction::kAnalysis ? done + 1 : pyramid.levels() - done;
     ForestLifting(spec, pyramid, level, direction, threads)
-        .run(values, held ? held->level(level) : HeldRounds());
+        .run(values, held ? held->level(level) : HeldCellsOfLevel());
   }
 }
 

@@ -175,6 +175,8 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
      "corrections of steps, forest of heights, fraction bits, heights by wavelet"},
     {"forest_star_17x85", "doubled low bands, forest of heights, heights by wavelet"},
     {"forest_smallest_3x18", "doubled low bands, forest of heights, heights by wavelet"},
+    {"forest_water_33x198", "doubled low bands, flat areas, forest of heights, heights by wavelet"},
+    {"forest_lake_65x130", "flat areas, forest of heights, fraction bits, heights by wavelet"},
     {"forest_texture_33x66",
      "doubled low bands, forest of texels, levels of several filters, shears of coefficients, "
      "texture by wavelet"},

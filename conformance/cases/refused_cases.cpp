@@ -344,9 +344,10 @@ const Refusal kRefusals[] = {
        plant(h, 20);
        h.geometry->regions.side_log2 = 4;
      }},
-    {"forest_flat", "a forest with flat areas",
+    {"forest_flat", "a forest with flat areas beside a filter of four steps",
      [](StreamHeader& h) {
        plant(h, 2);
+       h.geometry->wavelet.filters[1] = 5;
        h.layers.flat_bytes = 5;
        h.layers.flat_areas = 1;
      }},

@@ -123,6 +123,12 @@ std::vector<VectorCase> forestCases() {
                            {Pattern::kRidges, 17, 85, 1, TKS_U8}, lossless())),
       on(cube, heightsCase("forest_smallest_3x18", "patches of nine samples",
                            {Pattern::kRidges, 3, 18, 1, TKS_I16}, lossless())),
+      on(cube, withWater(heightsCase("forest_water_33x198", "a cube with flat areas across sides",
+                                     {Pattern::kRidges, 33, 198, 1, TKS_I16}, lossless()),
+                         samples::VoidShape::kCoast)),
+      on(octahedron, withWater(heightsCase("forest_lake_65x130", "flat areas; fraction bits",
+                                           {Pattern::kRidges, 65, 130, 1, TKS_I16}, budget(3000)),
+                               samples::VoidShape::kCoast)),
       on(octahedron, textureCase("forest_texture_33x66", "a forest of a texture alone",
                                  {Pattern::kRidges, 33, 66, 3, TKS_U8, 7}, lossless())),
       on(cube, joint)};

@@ -62,8 +62,12 @@ bool suits(const GeometryHeader& geometry, const Layers& layers) {
   if (hasTooManyTiles(geometry)) return false;
   const bool all_lifted = layers.lateMask && layers.liftedBytes == 0;
   const bool holes = !direct && layers.validityBytes > 0 && !all_lifted;
+  const auto& filters = geometry.wavelet.filters;
+  const bool long_filter = std::any_of(std::begin(filters), std::end(filters),
+                                       [](int filter) { return filter == 2 || filter == 5; });
   if (!geometry.wavelet.domain.forest.isGrid() &&
-      (holes || layers.bridge > 0 || !suitsForest(geometry)))
+      (holes || layers.bridge > 0 || !suitsForest(geometry) ||
+       (layers.flatBytes > 0 && long_filter)))
     return false;
   const bool others = layers.flatBytes > 0 || ground || geometry.regions.log2 > 0 ||
                       geometry.priorities.tileLog2 > 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference decoder: lifting of rows and columns in one go (docs/FORMAT.md, section 7, "Joint
 // lifting").
+#include <array>
 #include <functional>
 
 #include "conformance/reference_decoder/wavelet.hpp"
@@ -11,8 +12,8 @@ namespace {
 /// A value of the level at a place of its own grid.
 using ValueAt = std::function<int32_t(int64_t x, int64_t y)>;
 
-/// FORMAT 7, "Forests": a, b (and c) and d of an area that is held, and what a round
-/// reads of it.
+/// FORMAT 7, "Forests": a, b (and c) and d of an area that is held, and what the
+/// analysis reads of it.
 struct Cell {
   int32_t a, b, d, raised = 0, lowered = 0;
 };
@@ -41,19 +42,20 @@ class Joint {
   void hold() {
     for (const int corner : {0, 1, 2, 3}) each(corner % 2, corner / 2, [](int64_t, int64_t) {});
   }
-  /// What the analysis makes of a surface of one value.
-  Cell analysed(Cell cell) const {
+  /// What the analysis makes of a surface of one value, and reads of it.
+  Cell analysed(Cell& before) const {
     const auto P = [&](int k, int32_t z) { return productOf(kPredict, k, z); };
     const auto U = [&](int k, int32_t z) { return productOf(kUpdate, k, z); };
     const auto add = [](int64_t to, int64_t v, int places) {
       return wrap(to + (wrap(wrap(v) + (int64_t{1} << (places - 1))) >> places));
     };
     const auto sixteen = [](int32_t z) { return int64_t{wrap(int64_t{z} * 16)}; };
-    cell.raised = wrap(sixteen(cell.b) + P(0, cell.a));
-    cell.d = add(cell.d, P(4, cell.raised) + P(0, cell.b), 4);
+    Cell cell = before;
+    before.raised = wrap(sixteen(cell.b) + P(0, cell.a));
+    cell.d = add(cell.d, P(4, before.raised) + P(0, cell.b), 4);
     cell.b = add(cell.b, P(0, cell.a) + U(0, cell.d), 4);
-    cell.lowered = wrap(sixteen(cell.b) - U(0, cell.d));
-    const int64_t v = U(4, cell.lowered) + U(0, cell.b);
+    before.lowered = wrap(sixteen(cell.b) - U(0, cell.d));
+    const int64_t v = U(4, before.lowered) + U(0, cell.b);
     cell.a = doubled_ ? add(int64_t{cell.a} * 2, v, 3) : add(cell.a, v, 4);
     return cell;
   }
@@ -178,40 +180,30 @@ bool liftsJointly(const WaveletHeader& header, int level, const Plane& plane) {
 
 namespace {
 
-/// The cells before each round of the analysis of a level, and after the last one.
-std::vector<Cells> cellsOf(const WaveletHeader& header, int level, Plane& plane) {
-  std::vector<Cells> rounds(1);
-  for (const int32_t value : plane.flat.heights) rounds[0].push_back({value, value, value});
+/// The cells before the analysis of a level, and after it.
+std::array<Cells, 2> cellsOf(const WaveletHeader& header, int level, Plane& plane) {
+  std::array<Cells, 2> cells;
+  auto& [before, after] = cells;
+  for (const int32_t value : plane.flat.heights) after.push_back({value, value, value});
   for (int l = 1; l <= level; ++l) {
-    if (l > 1) {
-      rounds = {rounds.back()};
-      for (Cell& cell : rounds[0]) cell = {cell.a, cell.a, cell.a};
-    }
-    for (size_t step = 0; step < filterOf(header, l).steps.size(); step += 2) {
-      const Joint joint(header, {l, 1 << (l - 1), 1 << (l - 1)}, step, 0, plane, rounds[0]);
-      Cells after;
-      for (Cell& cell : rounds.back()) {
-        after.push_back(joint.analysed(cell));
-        cell.raised = after.back().raised;
-        cell.lowered = after.back().lowered;
-      }
-      rounds.push_back(std::move(after));
-    }
+    before.clear();
+    for (const Cell& cell : after) before.push_back({cell.a, cell.a, cell.a});
+    const Joint joint(header, {l, 1 << (l - 1), 1 << (l - 1)}, 0, 0, plane, before);
+    for (size_t i = 0; i < after.size(); ++i) after[i] = joint.analysed(before[i]);
   }
-  return rounds;
+  return cells;
 }
 
 }  // namespace
 
 void synthesiseJointly(const WaveletHeader& header, const JointLevel& of, Plane& plane) {
   const int patches = header.domain.forest.patches();
-  const std::vector<Cells> cells = cellsOf(header, of.level, plane);
-  for (int patch = 0; patch < patches; ++patch)
-    Joint(header, of, 0, patch, plane, cells.back()).hold();
-  for (size_t round = cells.size() - 1; round-- > 0;) {
+  const auto [before, after] = cellsOf(header, of.level, plane);
+  for (int patch = 0; patch < patches; ++patch) Joint(header, of, 0, patch, plane, after).hold();
+  for (size_t steps = filterOf(header, of.level).steps.size(); steps > 0; steps -= 2) {
     for (const auto& lift : {&Joint::liftA, &Joint::liftBC, &Joint::liftD}) {
       for (int patch = 0; patch < patches; ++patch)
-        (Joint(header, of, 2 * round, patch, plane, cells[round]).*lift)();
+        (Joint(header, of, steps - 2, patch, plane, before).*lift)();
     }
   }
 }

@@ -176,8 +176,7 @@ class FlatTrials {
   }
 
   /// Early doubling is cheap where levels are lifted jointly. Beside held samples levels are not,
-  /// but on forests. There a filter of four steps lifts in two rounds, whose first one reads held
-  /// samples as the second one has not changed them yet: at shores its errors grow.
+  /// but on forests. There filters have two steps (codec/wavelet/held_cells.hpp).
   WaveletHeader waveletBeside(const FlatAreas& areas) const {
     WaveletHeader header = chooseWavelet(heights_, areas.held(), purpose_.range_bits,
                                          purpose_.purpose, rateOf(heights_, purpose_));
