@@ -7,6 +7,7 @@
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "conformance/samples/terrain_samples.hpp"
 #include "conformance/samples/void_masks.hpp"
+#include "tests/support/forest_shapes.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
 
@@ -64,6 +65,46 @@ TEST(FlatAreas, ComeBackAndNoPrefixShowsOthers) {
         }
       }
     }
+  }
+}
+
+/// Areas of random heights of few values on forests: they go on across sides, are alike where
+/// patches share a sample, and come back from the mask of what is owned.
+TEST(FlatAreas, OfForestsGoOnAcrossSides) {
+  Random random(4);
+  for (const ForestShape& shape : forestShapes()) {
+    for (const int depth : {1, 2, 3}) {
+      const Forest forest(depth, shape.sides);
+      const Extent raster = forest.raster();
+      Plane heights = randomPlane(random, raster.samples(), 0, 2);
+      shareOwned(forest, std::span(heights), forest.side() - 1);
+      const FlatFinder finder({heights, raster}, &forest);
+      const FlatAreas areas = finder.areas({1}, {0, 0, raster.width, raster.height});
+      if (areas.empty()) continue;
+      std::vector<uint16_t> shared = areas.numbers;
+      shareOwned(forest, std::span(shared), forest.side() - 1);
+      ASSERT_EQ(shared, areas.numbers) << shape.name << depth;
+      for (size_t i = 0; i < shared.size(); ++i) {
+        if (shared[i] != 0) {
+          ASSERT_EQ(areas.heights[shared[i] - 1u], heights[i]) << shape.name << depth;
+        }
+      }
+      const SharedBits owned = tetrakis::shared(ownedSamples(forest));
+      const std::vector<uint8_t> codeword = encodeFlatAreas(areas, raster, owned->bytes());
+      const FlatAreas decoded = decodeFlatAreas(
+          codeword, raster, owned, static_cast<uint32_t>(areas.heights.size()), &forest);
+      ASSERT_EQ(decoded.numbers, areas.numbers) << shape.name << depth;
+      ASSERT_EQ(decoded.heights, areas.heights) << shape.name << depth;
+    }
+  }
+}
+
+TEST(FlatAreas, OfOneHeightAreOneOnAForest) {
+  for (const ForestShape& shape : forestShapes()) {
+    const Forest forest(2, shape.sides);
+    const std::vector<uint8_t> flat(forest.raster().samples(), 1);
+    EXPECT_EQ(numberAreas(PlaneView<const uint8_t>(flat, forest.raster()), &forest).count, 1u)
+        << shape.name;
   }
 }
 

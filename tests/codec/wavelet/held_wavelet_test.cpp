@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "codec/wavelet/synthesis/view_synthesis.hpp"
 #include "conformance/samples/void_masks.hpp"
+#include "tests/support/forest_shapes.hpp"
 #include "tests/support/random_planes.hpp"
 #include "tests/support/wavelet_cases.hpp"
 
@@ -137,6 +139,62 @@ TEST(HeldWavelet, WindowsAreThoseOfThePlane) {
           if (numbers[i] == 0) continue;
           ASSERT_EQ(shown[i], plane.levels[numbers[i] - 1u]) << spec;
         }
+      }
+    }
+  }
+}
+
+/// Samples that patches share are held alike.
+HeldPlane sharedBy(const Forest& forest, HeldPlane plane) {
+  shareOwned(forest, std::span(plane.samples), forest.side() - 1);
+  shareOwned(forest, std::span(plane.numbers), forest.side() - 1);
+  return plane;
+}
+
+TEST(HeldWavelet, OfForestsIsReversibleFromFreeCoefficients) {
+  Random random(3);
+  for (const ForestShape& shape : forestShapes()) {
+    for (const int depth : {1, 2, 4}) {
+      const auto forest = std::make_shared<const Forest>(depth, shape.sides);
+      const Extent raster = forest->raster();
+      const Size size{raster.width, raster.height};
+      for (const FilterId id : kTwoStepFilters) {
+        for (const VoidShape voids : kVoidShapes) {
+          const HeldPlane plane =
+              sharedBy(*forest, HeldPlane(randomPlane(random, size.count(), -(1 << 20), 1 << 20),
+                                          size, voids, {-123456, 765432}));
+          const Pyramid pyramid(*forest, plane.held());
+          WaveletSpec spec = withBits(uniform(id, true), kWideBits);
+          spec.forest = forest;
+          Plane decoded = coded(spec, pyramid, plane);
+          inverseWavelet(spec, pyramid, decoded, {.threads = 2});
+          for (size_t i = 0; i < decoded.size() && pyramid.levels() == 0; ++i) {
+            if (plane.numbers[i] != 0) decoded[i] = plane.samples[i];
+          }
+          ASSERT_EQ(decoded, plane.samples) << shape.name << depth << ", " << voids;
+        }
+      }
+    }
+  }
+}
+
+/// A forest of one height, half of it held, has no coefficient but those of its lowest bands.
+TEST(HeldWavelet, OfForestsLeavesNoDetailInConstants) {
+  const auto forest = std::make_shared<const Forest>(4, cubeShape().sides);
+  const Size size{forest->raster().width, forest->raster().height};
+  for (const FilterId id : kTwoStepFilters) {
+    const HeldPlane plane =
+        sharedBy(*forest, HeldPlane(Plane(size.count(), 777), size, VoidShape::kCoast, {777, 777}));
+    const Pyramid pyramid(*forest, plane.held());
+    WaveletSpec spec = uniform(id, true);
+    spec.forest = forest;
+    Plane coefficients = plane.samples;
+    forwardWavelet(spec, pyramid, coefficients);
+    for (const Subband& band : pyramid.subbands()) {
+      if (band.orientation == Orientation::kLL) continue;
+      for (uint32_t row = 0; row < band.height; ++row) {
+        for (uint32_t x = 0; x < band.width; ++x)
+          ASSERT_EQ(coefficients[pyramid.indexOf(band, row) + x], 0);
       }
     }
   }
