@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // HeldCells says what joint lifting makes of held samples on a forest (held_lifting.hpp is about
 // those of planes, which are lifted along rows and along columns). A step gives a held sample what
-// it makes of a surface that has its value everywhere. Such a surface keeps one value at all corners
-// of its cells, one at all sides and one at all centres (lifting/lifting.hpp).
+// it makes of a surface that has its value everywhere. Such a surface keeps one value at all
+// corners of its cells, one at all sides and one at all centres (lifting/lifting.hpp).
 #pragma once
 
 #include <cstdint>

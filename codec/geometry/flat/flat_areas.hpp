@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Flat areas hold exactly one height each: the sea, lakes, rivers between their weirs. A mask says
 // which samples are flat. Flat samples that touch each other along a row or a column, on a forest
-// across sides of patches too, are one area, and areas are numbered in the order of their first samples, row by row; so neither side sends
-// which sample is of which area.
+// across the sides of patches too, are one area, and areas are numbered in the order of their first
+// samples, row by row; so neither side sends which sample is of which area.
 #pragma once
 
 #include <cstddef>
