@@ -54,7 +54,7 @@ uint32_t SharedSamples::rootOf(uint32_t sample) const {
 
 /// The lower one is the root, so that it is the first of all.
 void SharedSamples::join(uint32_t a, uint32_t b) {
-  const auto [low, high] = std::minmax(rootOf(a), rootOf(b));
+  const auto [low, high] = std::minmax({rootOf(a), rootOf(b)});
   firsts_[high] = low;
 }
 
