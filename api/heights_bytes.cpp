@@ -160,16 +160,18 @@ uint64_t HeightsBytes::flatBytes() const {
   return flat_ ? area(header_) * sizeof(uint16_t) + layers_.flat_areas * kArea : 0;
 }
 
-/// Masks, the numbers of areas, and a label for at most every other sample and for those at the
-/// sides of patches.
+/// Masks, the numbers of areas, and a label for at most every other sample. Of a forest, labels of
+/// the samples at the sides of patches, and which samples are owned.
 uint64_t HeightsBytes::flatOpeningBytes() const {
   constexpr uint64_t kSample = 1 + sizeof(uint32_t) / 2 + sizeof(uint16_t);
   const SharedForest& forest = header_.wavelet.forest;
-  const uint64_t sides =
-      forest != nullptr ? uint64_t{Forest::kSides} * forest->patches() * forest->side() : 0;
-  return flat_ ? area(header_) * kSample + sides * sizeof(uint32_t) +
-                     validityBytes(header_.extent()) + wholeMasks()
-               : 0;
+  uint64_t of_forest = 0;
+  if (forest != nullptr)
+    of_forest = Forest::kSides * uint64_t{forest->patches()} * forest->side() * sizeof(uint32_t) +
+                BitPlane::bytesOf(header_.extent());
+  return flat_
+             ? area(header_) * kSample + of_forest + validityBytes(header_.extent()) + wholeMasks()
+             : 0;
 }
 
 uint64_t HeightsBytes::low() const {
