@@ -16,6 +16,7 @@
 #include "bitstream/stream/scattered_packets.hpp"
 #include "codec/geometry/heights_decoder.hpp"
 #include "codec/wavelet/pyramid.hpp"
+#include "codec/basemesh/base_mesh.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis::inline api {
@@ -33,6 +34,7 @@ struct tks_decoder {
   std::span<const uint8_t> data;  ///< the stream up to its first missing byte: the caller's, ...
   tetrakis::Pieces pieces;        ///< ... or, once there came more, of these
   tetrakis::ParsedHeader parsed;
+  std::optional<tetrakis::BaseMesh> base_mesh;
   tks_index index = TKS_INDEX_NONE;
   tetrakis::TakenPackets packets;
   std::optional<tetrakis::ScatteredPackets> scattered;  ///< once bytes left a gap

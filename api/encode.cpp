@@ -92,6 +92,30 @@ Status checkForest(const std::string& whose, const Raster& raster, size_t bytes)
   return {};
 }
 
+Status checkBaseMesh(const tks_heights& h) {
+  static_assert(BaseMeshHeader::kMostDepth == TKS_MOST_OBJECT_DEPTH);
+  const tks_base_mesh& mesh = h.base_mesh;
+  if (mesh.position_bits == 0) return {};
+  if (h.domain != TKS_DOMAIN_FOREST || h.forest.depth > TKS_MOST_OBJECT_DEPTH)
+    return misuse("A base mesh has a forest of depth 1 to 8.");
+  if (mesh.position_bits > BaseMeshHeader::kMostBits || mesh.corners == nullptr)
+    return misuse("A base mesh has corners of 1 to 20 bits a coordinate.");
+  const auto finite = [](double value) { return std::isfinite(value); };
+  if (!(mesh.cell > 0) || !finite(mesh.cell) ||
+      !std::all_of(mesh.origin, mesh.origin + 3, finite))
+    return misuse("The cell of a base mesh is above 0, and its origin finite.");
+  const BaseMesh base = baseMeshOf(h);
+  const std::vector<uint32_t> owners = cornerOwners(*base.forest);
+  for (size_t corner = 0; corner < owners.size(); ++corner) {
+    if (base.corners[corner] != base.corners[owners[corner]])
+      return misuse("The quads of a base mesh have different corners where they share one.");
+    const auto inside = [&](int32_t x) { return x >= 0 && x < 1 << mesh.position_bits; };
+    if (!std::all_of(base.corners[corner].begin(), base.corners[corner].end(), inside))
+      return misuse("A corner of the base mesh lies outside of its grid.");
+  }
+  return {};
+}
+
 Status checkHeights(const tks_heights& h) {
   if (h.data == nullptr) return misuse("The heights have no samples.");
   if (tks_sample_bytes(h.sample) == 0) return misuse("The heights have an unknown sample type.");
@@ -111,6 +135,7 @@ Status checkHeights(const tks_heights& h) {
   if (Status place = checkPlace("heights", h); !place.ok()) return place;
   const Status forest = checkForest("plane of heights", h, tks_sample_bytes(h.sample));
   if (!forest.ok()) return forest;
+  if (Status base = checkBaseMesh(h); !base.ok()) return base;
   if (h.grid_width > kMaxSide || h.grid_height > kMaxSide ||
       (h.grid_width > 0) != (h.grid_height > 0) ||
       (h.grid_width > 0 && h.domain != TKS_DOMAIN_FOREST))

@@ -151,6 +151,13 @@ tks_forest forestOf(const SharedForest& forest) {
   return {static_cast<uint32_t>(forest->depth()), forest->patches(), forest->sides().data()};
 }
 
+tks_base_mesh baseMeshOf(const BaseMesh& mesh) {
+  static_assert(sizeof(Cell) == 3 * sizeof(int32_t));
+  tks_base_mesh out = {static_cast<uint32_t>(mesh.bits), mesh.cell, {}, mesh.corners[0].data()};
+  std::copy(mesh.origin.begin(), mesh.origin.end(), out.origin);
+  return out;
+}
+
 void fillHeights(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
   info.max_error = -1;
@@ -175,6 +182,7 @@ void fillHeights(const tks_decoder& decoder, tks_info& info) {
   info.grid_width = header.grid.width;
   info.grid_height = header.grid.height;
   info.forest = forestOf(geometry.wavelet.forest);
+  if (decoder.base_mesh) info.base_mesh = baseMeshOf(*decoder.base_mesh);
 }
 
 void fillTexture(const tks_decoder& decoder, tks_info& info) {

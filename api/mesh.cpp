@@ -198,19 +198,19 @@ void copyMesh(const LatticeMesh& mesh, std::span<const float> heights, tks_mesh&
   copy(mesh.triangles, out.triangles);
 }
 
-namespace {
-
 /// The vertices of a mesh of heights on a forest.
 std::vector<ForestVertex> chosenVertices(const ForestLattice& lattice,
                                          const DecodedGeometry& geometry,
-                                         const ForestMeshing& meshing) {
+                                         const ForestMeshing& meshing, Coordinates coordinates) {
   if (meshing.kind == TKS_MESH_CODED) return closureOfMarks(lattice, geometry.significant);
   if (meshing.max_triangles > 0)
-    return forestBudgetVertices(lattice, geometry.heights, meshing.max_triangles);
+    return forestBudgetVertices(lattice, coordinates, meshing.max_triangles);
   std::vector<ForestVertex> all(lattice.vertexCount());
   std::iota(all.begin(), all.end(), 0u);
   return all;
 }
+
+namespace {
 
 /// These vertices, and all vertices with numbers below `first`.
 std::vector<ForestVertex> withAllBefore(ForestVertex first, std::vector<ForestVertex> vertices) {
@@ -223,18 +223,24 @@ std::vector<ForestVertex> withAllBefore(ForestVertex first, std::vector<ForestVe
 
 }  // namespace
 
-Result<ForestSurface> forestSurface(tks_decoder& decoder, const ForestMeshing& meshing,
-                                    uint64_t beside) {
+Result<const DecodedHeights*> heightsForMesh(tks_decoder& decoder, const ForestMeshing& meshing,
+                                             uint64_t beside) {
   const bool coded = meshing.kind == TKS_MESH_CODED;
   if (!coded && meshing.kind != TKS_MESH_BUDGET) return Status(TKS_USAGE, "Unknown kind of mesh.");
   const tks_part part = coded ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH;
   if (Status s = checkMemory(decoder, {part, {}, meshing.max_triangles}, beside); !s.ok()) return s;
-  const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
+  return decodedHeights(decoder);
+}
+
+Result<ForestSurface> forestSurface(tks_decoder& decoder, const ForestMeshing& meshing,
+                                    uint64_t beside) {
+  const Result<const DecodedHeights*> decoded = heightsForMesh(decoder, meshing, beside);
   if (!decoded.ok()) return decoded.status();
   const ForestLattice lattice(*decoder.parsed.header.geometry->wavelet.forest);
+  const std::span<const int32_t> heights = (*decoded)->geometry.heights;
   const std::vector<ForestVertex> vertices =
       withAllBefore(lattice.firstOf(meshing.first_chosen_level),
-                    chosenVertices(lattice, (*decoded)->geometry, meshing));
+                    chosenVertices(lattice, (*decoded)->geometry, meshing, {&heights, 1}));
   ForestSurface surface{meshing.apart ? patchesOf(lattice, vertices) : meshOf(lattice, vertices),
                         {}};
   surface.heights = surfaceAtVertices(decoder, **decoded, surface.mesh);

@@ -75,6 +75,8 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
   decoder.parsed = std::move(*parsed);
   const StreamHeader& header = decoder.parsed.header;
   if (Status status = checkSizes(header, known); !status.ok()) return status;
+  if (header.geometry && !header.geometry->base_mesh.none())
+    decoder.base_mesh = decodeBaseMesh(header.geometry->base_mesh, header.geometry->wavelet.forest);
   decoder.index = indexOf(header);
   decoder.max_memory = limitOf(known.max_memory, kDefaultMemory, kMostMemory);
   Result<TakenPackets> taken = takePackets(decoder);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "api/decoder.hpp"
+#include "codec/mesh/forest/forest_mesh.hpp"
 #include "base/samples.hpp"
 #include "codec/mesh/topology/lattice.hpp"
 #include "codec/mesh/topology/lattice_mesh.hpp"
@@ -67,9 +68,19 @@ struct ForestMeshing {
   bool apart = false;
 };
 
+/// The heights of a mesh on a forest. TKS_USAGE: an unknown kind of mesh, or no heights. TKS_LIMIT
+/// if the mesh and `beside` further bytes take more memory than the decoder may.
+Result<const DecodedHeights*> heightsForMesh(tks_decoder& decoder, const ForestMeshing& meshing,
+                                             uint64_t beside);
+
 /// TKS_LIMIT if the mesh and `beside` further bytes take more memory than the decoder may.
 Result<ForestSurface> forestSurface(tks_decoder& decoder, const ForestMeshing& meshing,
                                     uint64_t beside = 0);
+
+/// The vertices of a mesh of heights on a forest, chosen by their coordinates.
+std::vector<ForestVertex> chosenVertices(const ForestLattice& lattice,
+                                         const DecodedGeometry& geometry,
+                                         const ForestMeshing& meshing, Coordinates coordinates);
 
 /// The float that is nearest to a height, and finite: what is decoded or fitted may lie beyond all
 /// samples.

@@ -22,8 +22,8 @@ tks_wall(tks_synthesis "lattice" "geometry" "mesh" "texture" "ratecontrol" "tetr
 tks_wall(tks_geometry "texture" "mesh" "ratecontrol" "tetrakis" "::")
 tks_wall(tks_quadtree "track" "geometry" "texture" "ratecontrol" "tetrakis" "::")
 tks_wall(tks_texture "geometry" "mesh" "ratecontrol" "tetrakis" "::")
-tks_wall(tks_encoder_ways "texture" "mesh" "tetrakis" "::")
-tks_wall(tks_encoder_textures "geometry" "mesh" "heights$" "tetrakis" "::")
+tks_wall(tks_encoder_ways "texture" "tks_mesh" "tetrakis" "::")
+tks_wall(tks_encoder_textures "geometry" "tks_mesh" "heights$" "tetrakis" "::")
 tks_wall(tks_encoder "tetrakis" "::")
 if(TARGET tks_reference)
   tks_wall(tks_reference

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/forest.hpp"
+#include "bitstream/stream/glue.hpp"
 #include "bitstream/stream/header.hpp"
 
 namespace tetrakis::inline stream {
@@ -66,35 +67,57 @@ inline Component roleOf(const ListedComponent& one, const StreamHeader& before) 
   return Component::kOther;
 }
 
-/// Each side names the one that it is glued to, unless that has named it before.
+/// A forest of the list whose sides are glued as those of a domain.
+inline std::vector<Domain>::const_iterator gluedAlike(const std::vector<Domain>& known,
+                                                      const Domain& domain) {
+  return std::find_if(known.begin(), known.end(), [&](const Domain& other) {
+    return other.forest != nullptr && other.forest->sides() == domain.forest->sides();
+  });
+}
+
+/// most: patches.
 template <class V>
-void visitForest(V& v, Domain& domain) {
-  uint64_t depth = 0, patches = 0;
+void visitGlue(V& v, uint64_t most, std::vector<uint32_t>& sides) {
+  uint64_t patches = sides.size() / Forest::kSides;
+  v.varint("patches", patches, 1, most);
+  std::string glue;
+  if constexpr (!V::kReads) glue = encodeGlue(sides);
+  v.text("glue", glue);
+  if constexpr (V::kReads) {
+    if (!v.ok()) return;
+    auto read = decodeGlue(glue, static_cast<uint32_t>(patches));
+    v.require("glue", read.has_value());
+    if (read) sides = std::move(*read);
+  }
+}
+
+/// known: the domains of the components before. A forest whose sides are glued as those of one of
+/// them says no more than which it is.
+template <class V>
+void visitForest(V& v, const std::vector<Domain>& known, Domain& domain, uint8_t kind) {
+  uint64_t depth = 0, alike = 0;
   std::vector<uint32_t> sides;
   if constexpr (!V::kReads) {
     depth = static_cast<uint64_t>(domain.forest->depth());
-    patches = domain.forest->patches();
     sides = domain.forest->sides();
+    alike = static_cast<uint64_t>(gluedAlike(known, domain) - known.begin());
   }
   v.u8("depth", depth, 1, Forest::kMostDepth);
   if (!v.ok()) return;
-  v.varint("patches", patches, 1, Forest::mostPatches(static_cast<int>(depth)));
-  if (!v.ok()) return;
-  const auto count = static_cast<uint32_t>(Forest::kSides * patches);
-  if constexpr (V::kReads) sides.assign(count, Forest::kBorder);
-  for (uint32_t i = 0; i < count && v.ok(); ++i) {
-    if (sides[i] < i) continue;
-    uint32_t glue = sides[i] == Forest::kBorder ? 0 : sides[i] - i;
-    v.varint("glue", glue, 0, count - 1u - i);
-    if (!v.ok() || glue == 0) continue;
+  const uint64_t most = Forest::mostPatches(static_cast<int>(depth));
+  if (kind == Domain::kForestAlike) {
+    v.varint("alike", alike, 0, UINT64_MAX);
+    v.require("alike", V::kReads ? alike < known.size() && known[alike].forest != nullptr : true);
     if constexpr (V::kReads) {
-      v.require("glue", sides[i + glue] == Forest::kBorder);
-      sides[i] = i + glue;
-      sides[i + glue] = i;
+      if (v.ok()) sides = known[alike].forest->sides();
     }
+  } else {
+    visitGlue(v, most, sides);
   }
+  v.require("patches", !v.ok() || sides.size() <= Forest::kSides * most);
   if constexpr (V::kReads) {
     if (!v.ok()) return;
+    domain.kind = Domain::kForest;
     domain.forest = std::make_shared<const Forest>(static_cast<int>(depth), std::move(sides));
     domain.grid = domain.forest->raster();
   }
@@ -111,9 +134,15 @@ void visitDomain(V& v, std::vector<Domain>& known, Domain& domain) {
     domain = known[number];
     return;
   }
-  v.u8("domain_kind", domain.kind, 0, UINT8_MAX);
-  if (domain.kind == Domain::kForest) {
-    visitForest(v, domain);
+  uint8_t kind = domain.kind;
+  if constexpr (!V::kReads) {
+    if (kind == Domain::kForest && gluedAlike(known, domain) != known.end())
+      kind = Domain::kForestAlike;
+  }
+  v.u8("domain_kind", kind, 0, UINT8_MAX);
+  domain.kind = kind;
+  if (kind == Domain::kForest || kind == Domain::kForestAlike) {
+    visitForest(v, known, domain, kind);
     if (!v.ok()) return;
   } else if (domain.isKnown()) {
     v.varint("width", domain.grid.width, 1, kMaxSide);
@@ -136,6 +165,7 @@ void visitKnown(V& v, StreamHeader& header, const ListedComponent& one) {
     takeDomain(header.geometry->wavelet);
     header.geometry->visit(v, one.domain.grid);
     header.layers.visit(v);
+    header.geometry->visitBaseMesh(v);
     header.geometry->visitBound(v);
     v.endParts(header.geometry->later_parts);
   } else {

@@ -10,6 +10,7 @@
 
 #include "base/plane.hpp"
 #include "base/view.hpp"
+#include "bitstream/stream/base_mesh_header.hpp"
 #include "bitstream/stream/coding_headers.hpp"
 #include "bitstream/stream/line_repeats.hpp"
 #include "bitstream/track/track.hpp"
@@ -43,6 +44,7 @@ struct GeometryHeader {
   WaveletHeader wavelet;
   PriorityHeader priorities;
   RegionHeader regions;
+  BaseMeshHeader base_mesh;  ///< of heights on a forest that count along the normals of a surface
   std::string later_parts;  ///< of kinds that are not known and inform, as they were read
 
   /// domain: the lines that are shown.
@@ -62,7 +64,12 @@ struct GeometryHeader {
     height = coded.height;
     v.part(PartKind::kPriorities, !priorities.none(), [&](auto& part) { priorities.visit(part); });
   }
-  /// What informs: behind the layers.
+  /// Behind the layers.
+  template <class V>
+  void visitBaseMesh(V& v) {
+    v.part(PartKind::kBaseMesh, !base_mesh.none(), [&](auto& part) { base_mesh.visit(part); });
+  }
+  /// What informs.
   template <class V>
   void visitBound(V& v) {
     v.part(PartKind::kBound, exact > 0 || max_error >= 0, [&](auto& part) {

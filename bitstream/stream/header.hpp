@@ -59,6 +59,8 @@ struct Domain {
   static constexpr uint8_t kGrid = 0;
   static constexpr uint8_t kCylinder = 1;  ///< a grid whose last column lies beside its first one
   static constexpr uint8_t kForest = 2;    ///< patches, in a raster one below the other
+  /// In streams alone: a forest whose sides are glued as those of a domain before it.
+  static constexpr uint8_t kForestAlike = 3;
 
   uint8_t kind = kGrid;      ///< others are not known: components on them are passed over
   Extent grid = {0, 0};      ///< of those that are known: columns and rows

@@ -158,6 +158,14 @@ Status checkForests(const StreamHeader& header) {
           "areas beside a filter of four steps."};
 }
 
+/// A base mesh has a quad for each patch of a forest.
+Status checkBaseMesh(const StreamHeader& header) {
+  if (!header.geometry || header.geometry->base_mesh.none()) return {};
+  const SharedForest& forest = header.geometry->wavelet.forest;
+  if (forest != nullptr && forest->depth() <= BaseMeshHeader::kMostDepth) return {};
+  return {TKS_CORRUPT, "Corrupt stream: a base mesh has no forest of patches up to 257 x 257."};
+}
+
 /// A decoder may lack what it takes for the components of a later version.
 Status checkComponents(const StreamHeader& header) {
   if (header.geometry || header.texture) return {};
@@ -174,6 +182,7 @@ Status checkMeaning(const StreamHeader& header) {
   if (Status components = checkComponents(header); !components.ok()) return components;
   if (Status layers = checkLayers(header); !layers.ok()) return layers;
   if (Status forests = checkForests(header); !forests.ok()) return forests;
+  if (Status base = checkBaseMesh(header); !base.ok()) return base;
   if (Status direct = checkDirect(header); !direct.ok()) return direct;
   if (Status priorities = checkPriorities(header); !priorities.ok()) return priorities;
   return checkTexture(header);

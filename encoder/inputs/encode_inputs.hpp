@@ -11,6 +11,7 @@
 
 #include "base/plane.hpp"
 #include "bitstream/stream/line_repeats.hpp"
+#include "codec/basemesh/base_mesh.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
 #include "codec/wavelet/priority_map.hpp"
 #include "encoder/plans/plan.hpp"
@@ -122,6 +123,17 @@ SharedForest forestOf(const Raster& raster) {
   return std::make_shared<const Forest>(
       static_cast<int>(given.depth),
       std::vector<uint32_t>(given.sides, given.sides + size_t{Forest::kSides} * given.patches));
+}
+
+/// The base mesh of heights that have one, which lie on a forest.
+inline BaseMesh baseMeshOf(const tks_heights& heights) {
+  const tks_base_mesh& given = heights.base_mesh;
+  BaseMesh mesh{forestOf(heights), static_cast<int>(given.position_bits), {}, {}, given.cell};
+  std::copy_n(given.origin, mesh.origin.size(), mesh.origin.begin());
+  const size_t corners = size_t{Forest::kSides} * heights.forest.patches;
+  for (const int32_t* at = given.corners; mesh.corners.size() < corners; at += 3)
+    mesh.corners.push_back({at[0], at[1], at[2]});
+  return mesh;
 }
 
 /// The purpose of a component that has no reason for another one.

@@ -107,6 +107,8 @@ StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
     header.layers = selection.heights->layers;
     if (inputs.lines != nullptr) header.geometry->repeats = inputs.lines->repeats;
     header.metadata = metadataOf(*inputs.allHeights());
+    if (inputs.allHeights()->base_mesh.position_bits > 0)
+      header.geometry->base_mesh = encodeBaseMesh(baseMeshOf(*inputs.allHeights()));
   }
   if (selection.texture) {
     header.texture = selection.texture->header;

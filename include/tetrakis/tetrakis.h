@@ -113,6 +113,21 @@ typedef struct tks_forest {
   const uint32_t* sides; /* 4 * patches: for each side the one that it is glued to, or TKS_BORDER */
 } tks_forest;
 
+/* The base mesh of an object: a quad for each patch of a forest. Heights of the forest then count
+ * along the normals of the quads, which are bent by the normals at their corners, and make the
+ * surface of the object (tks_decode_object). Corners are places in a grid of cubic cells: corner
+ * (x, y, z) lies at origin + cell * (x, y, z), in the unit of the heights. */
+#define TKS_MOST_OBJECT_DEPTH 8
+typedef struct tks_base_mesh {
+  uint32_t position_bits; /* coordinates of corners are below 2^position_bits, 1 to 20; 0: there is
+                             no base mesh */
+  double cell;            /* above 0 */
+  double origin[3];
+  const int32_t* corners; /* 12 for each patch: x, y, z of its corners with the first row and column,
+                             the first row and last column, the last of both, the last row and first
+                             column. What sides share is the same */
+} tks_base_mesh;
+
 /* The sides of a cube for tks_forest, 24 numbers. With them a forest is the globe: patches 0 to 3
  * go eastwards round the equator, with longitudes 0, 90, 180 and -90 in their middles and north up;
  * patch 4 has the north pole in its middle and longitude 0 below, patch 5 the south pole and
@@ -180,6 +195,7 @@ typedef struct tks_heights {
   uint32_t grid_width, grid_height; /* heights on a forest that were resampled from a grid: columns
                                      and rows of the grid, whose place the georeference is then;
                                      0: none */
+  tks_base_mesh base_mesh; /* with TKS_DOMAIN_FOREST, of TKS_MOST_OBJECT_DEPTH at most */
 } tks_heights;
 
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed.
@@ -553,6 +569,7 @@ typedef struct tks_info {
   tks_forest forest;                /* with TKS_DOMAIN_FOREST; owned by the decoder */
   tks_forest texture_forest;        /* likewise */
   uint32_t grid_width, grid_height; /* as in tks_heights */
+  tks_base_mesh base_mesh;          /* likewise; owned by the decoder */
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
@@ -774,6 +791,23 @@ typedef struct tks_globe_mesh {
 tks_status tks_decode_globe(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
                             const tks_globe* globe, tks_globe_mesh* out);
 void tks_free_globe_mesh(tks_globe_mesh* mesh);
+
+/* The mesh of an object, whose heights lie over a base mesh (tks_base_mesh). Vertex i lies at the
+ * point position[3 i], in `unit`, and on sample pixel[2 i], pixel[2 i + 1] of the raster of the
+ * forest, counted as in tks_pixel. Without a texture each sample is one vertex; beside a texture
+ * vertices on sides come once for each patch, with the same position to the last bit, so that the
+ * texture can be laid over the mesh. Taken for one where they are equal, vertices leave no edge
+ * open but at borders of the forest. Triangles are counter-clockwise seen from outside. */
+typedef tks_globe_mesh tks_object_mesh;
+
+/* The surface of an object as a mesh. TKS_MESH_BUDGET: the best mesh of at most max_triangles
+ * triangles, by the squared distance between surfaces; 0: of every sample; no fewer than two for
+ * each patch. TKS_MESH_CODED: the vertices whose heights the stream tells. Positions have the same
+ * bits on every machine. TKS_USAGE: there are no heights, or they have no base mesh. TKS_LIMIT: as
+ * tks_decode_mesh, with 100 bytes more a sample. */
+tks_status tks_decode_object(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
+                             tks_object_mesh* out);
+void tks_free_object_mesh(tks_object_mesh* mesh);
 
 /* A camera that a mesh is made for, as a renderer has it (tks_camera: as people place it). */
 typedef struct tks_screen_camera {

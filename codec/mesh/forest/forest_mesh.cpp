@@ -80,31 +80,37 @@ std::vector<ForestVertex> withinBudget(const ForestLattice& lattice, const Closu
 
 }  // namespace
 
-std::vector<double> forestGains(const ForestLattice& lattice, std::span<const int32_t> heights) {
+std::vector<double> forestGains(const ForestLattice& lattice, Coordinates coordinates) {
   const Forest& forest = lattice.forest();
   const uint32_t side = forest.side();
   const size_t samples = size_t{side} * side;
   std::vector<double> gains(lattice.vertexCount());
   for (uint32_t patch = 0; patch < forest.patches(); ++patch) {
     const std::vector<float> weights = sideWeights(forest, patch);
-    const std::vector<double> own = vertexGains(
-        lattice.patch(), {side, side, heights.subspan(patch * samples, samples), weights});
-    for (VertexId v = 0; v < own.size(); ++v) gains[lattice.vertex(patch, v)] += own[v];
+    for (const std::span<const int32_t> raster : coordinates) {
+      const std::vector<double> own = vertexGains(
+          lattice.patch(), {side, side, raster.subspan(patch * samples, samples), weights});
+      for (VertexId v = 0; v < own.size(); ++v) gains[lattice.vertex(patch, v)] += own[v];
+    }
   }
   return gains;
 }
 
 std::vector<ForestVertex> forestBudgetVertices(const ForestLattice& lattice,
-                                               std::span<const int32_t> heights,
+                                               Coordinates coordinates,
                                                uint32_t max_triangles) {
   if (max_triangles <= lattice.baseTriangles()) return {};
   const Forest& forest = lattice.forest();
   const int skipped = spareLevels(forest, max_triangles);
   if (skipped == 0)
-    return withinBudget(lattice, lattice.graph(), forestGains(lattice, heights), max_triangles);
+    return withinBudget(lattice, lattice.graph(), forestGains(lattice, coordinates), max_triangles);
   const Forest coarse_forest(forest.depth() - skipped, forest.sides());
   const ForestLattice coarse(coarse_forest);
-  const std::vector<double> gains = forestGains(coarse, everyOther(forest, heights, skipped));
+  std::vector<std::vector<int32_t>> every_other;
+  for (const std::span<const int32_t> raster : coordinates)
+    every_other.push_back(everyOther(forest, raster, skipped));
+  const std::vector<std::span<const int32_t>> spans(every_other.begin(), every_other.end());
+  const std::vector<double> gains = forestGains(coarse, spans);
   // Coarse levels come first, in the same order.
   return withinBudget(coarse, coarse.graph(), gains, max_triangles);
 }

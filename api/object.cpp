@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes of objects through the C interface: heights along the normals of a base mesh.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "api/guarded.hpp"
+#include "api/memory.hpp"
+#include "api/written.hpp"
+#include "codec/basemesh/base_mesh.hpp"
+#include "codec/basemesh/bent_base.hpp"
+
+namespace tetrakis::inline api {
+namespace {
+
+/// Where the samples of the raster lie, once as numbers and once in units of a place of the base,
+/// by which vertices are chosen.
+struct ObjectPlaces {
+  std::vector<std::array<double, 3>> places;
+  std::array<std::vector<int32_t>, 3> units;
+};
+
+ObjectPlaces placesOf(const BaseMesh& mesh, std::span<const float> heights) {
+  const BentBase base(mesh);
+  const double unit = mesh.cell / (1 << BentBase::kPlaceBits);
+  ObjectPlaces all;
+  all.places.reserve(heights.size());
+  const auto unitsOf = [&](double from_origin) {
+    constexpr double kMost = 1 << 30;
+    return static_cast<int32_t>(std::floor(std::clamp(from_origin / unit, -kMost, kMost) + 0.5));
+  };
+  for (uint32_t patch = 0; patch < mesh.forest->patches(); ++patch) {
+    for (const BasePoint& point : base.patch(patch)) {
+      const float height = heights[all.places.size()];
+      const auto place = placeOf(mesh, point, std::isnan(height) ? 0 : double{height});
+      for (size_t axis = 0; axis < 3; ++axis)
+        all.units[axis].push_back(unitsOf(place[axis] - mesh.origin[axis]));
+      all.places.push_back(place);
+    }
+  }
+  return all;
+}
+
+void copyObject(const Forest& forest, const ForestSurface& surface, const ObjectPlaces& places,
+                tks_object_mesh& out) {
+  const auto& vertices = surface.mesh.vertices;
+  out.vertex_count = static_cast<uint32_t>(vertices.size());
+  out.triangle_count = static_cast<uint32_t>(surface.mesh.triangleCount());
+  out.position = allocate<double>(3 * vertices.size());
+  out.pixel = allocate<double>(2 * vertices.size());
+  out.height = allocate<float>(vertices.size());
+  out.triangles = allocate<uint32_t>(surface.mesh.triangles.size());
+  for (size_t v = 0; v < vertices.size(); ++v) {
+    std::copy_n(places.places[vertices[v]].begin(), 3, out.position + 3 * v);
+    out.pixel[2 * v] = vertices[v] % forest.side() + 0.5;
+    out.pixel[2 * v + 1] = static_cast<double>(vertices[v] / forest.side()) + 0.5;
+  }
+  std::copy(surface.heights.begin(), surface.heights.end(), out.height);
+  std::copy(surface.mesh.triangles.begin(), surface.mesh.triangles.end(), out.triangles);
+}
+
+Status decodeObject(tks_decoder& decoder, const ForestMeshing& meshing, tks_object_mesh& out) {
+  const StreamHeader& header = decoder.parsed.header;
+  if (!header.geometry) return noHeights();
+  if (!decoder.base_mesh) return {TKS_USAGE, "The heights of the stream have no base mesh."};
+  constexpr uint64_t kSample = 100;
+  const BaseMesh& base = *decoder.base_mesh;
+  const Result<const DecodedHeights*> decoded =
+      heightsForMesh(decoder, meshing, kSample * base.forest->raster().samples());
+  if (!decoded.ok()) return decoded.status();
+  std::vector<float> heights(base.forest->raster().samples());
+  writeSurface(decoder, **decoded, heights.data());
+  const ObjectPlaces places = placesOf(base, heights);
+  const ForestLattice lattice(*base.forest);
+  const std::vector<std::span<const int32_t>> coordinates(places.units.begin(), places.units.end());
+  const std::vector<ForestVertex> vertices =
+      chosenVertices(lattice, (*decoded)->geometry, meshing, coordinates);
+  ForestSurface surface{meshing.apart ? patchesOf(lattice, vertices) : meshOf(lattice, vertices),
+                        {}};
+  for (const uint32_t sample : surface.mesh.vertices) surface.heights.push_back(heights[sample]);
+  leaveOutVoids(surface.mesh, surface.heights);
+  copyObject(*base.forest, surface, places, out);
+  return {};
+}
+
+}  // namespace
+}  // namespace tetrakis::inline api
+
+tks_status tks_decode_object(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
+                             tks_object_mesh* out) {
+  if (out == nullptr) return tetrakis::keeping(decoder, tetrakis::outputMissing);
+  if (decoder == nullptr) return TKS_USAGE;
+  *out = {};
+  const bool apart = decoder->parsed.header.texture.has_value();
+  const tks_status status = tetrakis::keeping(decoder, [&] {
+    return tetrakis::decodeObject(*decoder, {kind, max_triangles, 0, apart}, *out);
+  });
+  if (status != TKS_OK) tks_free_object_mesh(out);
+  return status;
+}
+
+void tks_free_object_mesh(tks_object_mesh* mesh) {
+  tks_free_globe_mesh(mesh);
+}
