@@ -8,8 +8,8 @@
 namespace tetrakis::inline remesh {
 namespace {
 
-constexpr uint32_t kLeaf = 4;  ///< triangles at most
-constexpr size_t kBins = 16;
+constexpr uint32_t kLeaf = 8;  ///< triangles at most
+constexpr size_t kBins = 8;
 constexpr uint32_t kFreeDepth = 60;  ///< below it nodes are halved, so that stacks have an end
 constexpr size_t kStack = kFreeDepth + 36;
 
