@@ -18,6 +18,10 @@ inline double uniform(std::mt19937& random) {
   return static_cast<double>(random()) / 4294967296.0;
 }
 
+inline uint32_t below(std::mt19937& random, uint32_t end) {
+  return static_cast<uint32_t>(random() % end);
+}
+
 inline Point randomPoint(std::mt19937& random) {
   Point point;
   for (double& coordinate : point) coordinate = 2 * uniform(random) - 1;
