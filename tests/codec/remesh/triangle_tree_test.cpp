@@ -21,7 +21,7 @@ std::optional<NearPlace> closestOfAll(const TriangleMesh& mesh, const Point& poi
   return best;
 }
 
-std::vector<TriangleMesh> meshes() {
+std::vector<TriangleMesh> searchedMeshes() {
   return {{},
           soup(1, 1),
           soup(2, 2),
@@ -33,7 +33,7 @@ std::vector<TriangleMesh> meshes() {
 
 TEST(TriangleTrees, FindTheClosestPlace) {
   std::mt19937 random(7);
-  for (const TriangleMesh& mesh : meshes()) {
+  for (const TriangleMesh& mesh : searchedMeshes()) {
     const TriangleTree tree(mesh);
     for (int i = 0; i < 200; ++i) {
       const Point point = (i % 3 + 0.1) * randomPoint(random);
@@ -67,7 +67,7 @@ TEST(TriangleTrees, NoPlaceOfATriangleIsNearerThanTheNearest) {
 
 TEST(TriangleTrees, FindAllCrossings) {
   std::mt19937 random(10);
-  for (const TriangleMesh& mesh : meshes()) {
+  for (const TriangleMesh& mesh : searchedMeshes()) {
     const TriangleTree tree(mesh);
     for (int i = 0; i < 200; ++i) {
       Line line{randomPoint(random), randomPoint(random), -1, 2};
