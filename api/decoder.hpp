@@ -14,9 +14,9 @@
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/stream/pieces.hpp"
 #include "bitstream/stream/scattered_packets.hpp"
+#include "codec/basemesh/base_mesh.hpp"
 #include "codec/geometry/heights_decoder.hpp"
 #include "codec/wavelet/pyramid.hpp"
-#include "codec/basemesh/base_mesh.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 
 namespace tetrakis::inline api {

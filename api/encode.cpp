@@ -101,8 +101,7 @@ Status checkBaseMesh(const tks_heights& h) {
   if (mesh.position_bits > BaseMeshHeader::kMostBits || mesh.corners == nullptr)
     return misuse("A base mesh has corners of 1 to 20 bits a coordinate.");
   const auto finite = [](double value) { return std::isfinite(value); };
-  if (!(mesh.cell > 0) || !finite(mesh.cell) ||
-      !std::all_of(mesh.origin, mesh.origin + 3, finite))
+  if (!(mesh.cell > 0) || !finite(mesh.cell) || !std::all_of(mesh.origin, mesh.origin + 3, finite))
     return misuse("The cell of a base mesh is above 0, and its origin finite.");
   const BaseMesh base = baseMeshOf(h);
   const std::vector<uint32_t> owners = cornerOwners(*base.forest);

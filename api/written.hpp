@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "api/decoder.hpp"
-#include "codec/mesh/forest/forest_mesh.hpp"
 #include "base/samples.hpp"
+#include "codec/mesh/forest/forest_mesh.hpp"
 #include "codec/mesh/topology/lattice.hpp"
 #include "codec/mesh/topology/lattice_mesh.hpp"
 

@@ -24,9 +24,9 @@ enum class Coding : uint8_t { kStored = 0, kDrawn = 1, kWavelet = 2 };
 struct PartKind {
   static constexpr uint64_t kRepeatedLines = 1, kPriorities = 2, kValidity = 3, kBridges = 4,
                             kLateMask = 5, kNodata = 6, kValueTable = 7, kFlatAreas = 8,
-                            kCorrections = 9, kBaseMesh = 10, kCutOut = 16, kOverlay = 17, kColours = 18,
-                            kFurtherColour = 19, kChannelTables = 20, kWhiteLevel = 21,
-                            kBandWeights = 22, kBound = 64;
+                            kCorrections = 9, kBaseMesh = 10, kCutOut = 16, kOverlay = 17,
+                            kColours = 18, kFurtherColour = 19, kChannelTables = 20,
+                            kWhiteLevel = 21, kBandWeights = 22, kBound = 64;
 };
 
 /// Which wavelet: codec/wavelet/wavelet.hpp.

@@ -45,7 +45,7 @@ struct GeometryHeader {
   PriorityHeader priorities;
   RegionHeader regions;
   BaseMeshHeader base_mesh;  ///< of heights on a forest that count along the normals of a surface
-  std::string later_parts;  ///< of kinds that are not known and inform, as they were read
+  std::string later_parts;   ///< of kinds that are not known and inform, as they were read
 
   /// domain: the lines that are shown.
   template <class V>

@@ -12,14 +12,14 @@
 
 namespace tetrakis::inline stream {
 
-/// sides: of a sound forest.
+/// (Encoder) sides: of a sound forest.
 std::string encodeGlue(const std::vector<uint32_t>& sides);
 
 /// Sides that are sound (Forest::isSound()), or nothing where the codeword breaks a rule or ends
 /// early. patches: at least 1. Takes some twenty decisions a patch.
 std::optional<std::vector<uint32_t>> decodeGlue(std::string_view codeword, uint32_t patches);
 
-/// Where a ForestWalk meets the patches of a forest, and by which side it enters them: numbered
+/// (Encoder) where a ForestWalk meets the patches of a forest, and by which side it enters them: numbered
 /// and turned like this they take the fewest bits.
 struct MetPatch {
   uint32_t patch = 0;

@@ -114,8 +114,8 @@ struct StreamHeader {
 /// Components and their tracks; see demultiplex().
 TrackCounts trackCounts(const StreamHeader& header);
 
-/// Magic, version, profile, level, size of the body, body, CRC-32 of everything before it. A long
-/// index may make more than kMaxHeaderBytes, which no decoder reads; encoders refuse it.
+/// (Encoder) magic, version, profile, level, size of the body, body, CRC-32 of everything before
+/// it. A long index may make more than kMaxHeaderBytes, which no decoder reads; encoders refuse it.
 std::vector<uint8_t> writeHeader(const StreamHeader& header);
 
 struct ParsedHeader {

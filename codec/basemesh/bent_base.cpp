@@ -97,8 +97,7 @@ Vector BentBase::edgePoint(uint32_t from, uint32_t to, int64_t k) const {
   const int64_t n = n_, r = n - k;
   const int64_t begin = r * r * (n + 2 * k), end = k * k * (n + 2 * r);
   const Vector sum = (begin << kPlaceBits) * a + (end << kPlaceBits) * b +
-                     (k * r * r) * tangent(normals_[from]) -
-                     (k * k * r) * tangent(normals_[to]);
+                     (k * r * r) * tangent(normals_[from]) - (k * k * r) * tangent(normals_[to]);
   return shifted(sum, 3 * mesh_.forest->depth());
 }
 
@@ -122,11 +121,12 @@ std::vector<BasePoint> BentBase::patch(uint32_t patch) const {
   for (int64_t j = 0; j <= n; ++j) {
     for (int64_t i = 0; i <= n; ++i) {
       const auto x = static_cast<size_t>(i), y = static_cast<size_t>(j);
-      const Vector rulings = n * ((n - j) * north[x] + j * south[x] + (n - i) * west[y] + i * east[y]);
+      const Vector rulings =
+          n * ((n - j) * north[x] + j * south[x] + (n - i) * west[y] + i * east[y]);
       const Vector flat = between(i, j, north.front(), north.back(), south.back(), south.front());
-      points.push_back({shifted(rulings - flat, bits),
-                        unit(between(i, j, normals_[first], normals_[first + 1],
-                                     normals_[first + 2], normals_[first + 3]))});
+      points.push_back(
+          {shifted(rulings - flat, bits), unit(between(i, j, normals_[first], normals_[first + 1],
+                                                       normals_[first + 2], normals_[first + 3]))});
     }
   }
   return points;

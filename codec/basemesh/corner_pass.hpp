@@ -64,8 +64,7 @@ class CornerPass {
 
   /// The corner that follows on the corner beside `corner` along a straight edge: beyond the side
   /// of the patch that lies opposite, clockwise or not.
-  std::optional<Cell> continued(uint32_t corner, bool clockwise,
-                                const std::vector<Cell>& corners) {
+  std::optional<Cell> continued(uint32_t corner, bool clockwise, const std::vector<Cell>& corners) {
     const uint32_t beside = turned(corner, clockwise ? 1 : 3);
     const uint32_t other = forest_.sides()[turned(corner, clockwise ? 1 : 2)];
     if (other == Forest::kBorder) return {};
@@ -106,15 +105,16 @@ class CornerPass {
   int32_t next(int32_t difference, size_t axis) {
     const auto magnitude = static_cast<uint32_t>(std::abs(difference));
     const int wanted = static_cast<int>(std::bit_width(magnitude));
-    auto& models = more_[std::min<size_t>((bits_seen_[0] + bits_seen_[1] + bits_seen_[2] + 1) / 3, 15)];
+    auto& models =
+        more_[std::min<size_t>((bits_seen_[0] + bits_seen_[1] + bits_seen_[2] + 1) / 3, 15)];
     int bits = 0;
     while (bits <= bits_ && io_.decide(models[static_cast<size_t>(bits)], wanted > bits)) ++bits;
     uint32_t value = bits > 0 ? 1 : 0;
     for (int position = bits - 2; position >= 0; --position) {
       const bool answer = (magnitude >> position) & 1;
       const bool modelled = value < 1u << kModelledBits;
-      const bool bit = modelled ? io_.decide(high_[static_cast<size_t>(bits)][value], answer)
-                                : io_.even(answer);
+      const bool bit =
+          modelled ? io_.decide(high_[static_cast<size_t>(bits)][value], answer) : io_.even(answer);
       value = value << 1 | uint32_t{bit};
     }
     bits_seen_[axis] = static_cast<size_t>(bits);

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/remesh/object.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "codec/remesh/quad_forest.hpp"
+
+namespace tetrakis::inline remesh {
+
+namespace {
+
+/// The same or a little more, with so many significant bits: headers leave out zero bytes.
+double roundedUp(double value, int bits) {
+  int exponent = 0;
+  const double mantissa = std::frexp(value, &exponent);
+  return std::ldexp(std::ceil(std::ldexp(mantissa, bits)), exponent - bits);
+}
+
+/// A grid of cells that holds all points, without its corners.
+BaseMesh gridAround(const TriangleMesh& mesh, int bits) {
+  constexpr int kCellBits = 12;
+  Point low = mesh.points.front(), high = low;
+  for (const Point& point : mesh.points) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], point[axis]);
+      high[axis] = std::max(high[axis], point[axis]);
+    }
+  }
+  const Point extent = high - low;
+  const double longest = std::max({extent[0], extent[1], extent[2]});
+  BaseMesh base;
+  base.bits = bits;
+  // Rounding and the step below take up to two cells.
+  base.cell = roundedUp(longest / ((1 << bits) - 3), kCellBits);
+  if (!(base.cell > 0)) base.cell = 1;
+  const double step = std::ldexp(1.0, std::ilogb(base.cell));
+  for (size_t axis = 0; axis < 3; ++axis) base.origin[axis] = std::floor(low[axis] / step) * step;
+  return base;
+}
+
+Cell cellOf(const BaseMesh& base, const Point& point) {
+  Cell cell;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double place = (point[axis] - base.origin[axis]) / base.cell;
+    cell[axis] = std::clamp(static_cast<int32_t>(std::floor(place + 0.5)), 0, (1 << base.bits) - 1);
+  }
+  return cell;
+}
+
+/// The places of a patch on the two triangles of its quad.
+class PatchMap {
+ public:
+  PatchMap(const PairedMesh& paired, const QuadForest& forest) : paired_(paired), forest_(forest) {}
+
+  /// x and y from 0 to 1.
+  SurfacePoint at(uint32_t patch, double x, double y) const {
+    const auto corner = [&](uint32_t which) { return kPlaces[forest_.quadCorner(patch, which)]; };
+    const auto nw = corner(0), ne = corner(1), sw = corner(3);
+    const double s = nw[0] + x * (ne[0] - nw[0]) + y * (sw[0] - nw[0]);
+    const double t = nw[1] + x * (ne[1] - nw[1]) + y * (sw[1] - nw[1]);
+    const Quad& quad = paired_.quads[forest_.quads[patch]];
+    if (t >= s) return {quad.triangles[0], {1 - t, t - s, s}};
+    return {quad.triangles[1], {1 - s, t, s - t}};
+  }
+
+ private:
+  /// Of the corners of a quad: how far along its sides 0 3 and 0 1.
+  static constexpr std::array<std::array<double, 2>, 4> kPlaces = {
+      {{0, 0}, {0, 1}, {1, 1}, {1, 0}}};
+
+  const PairedMesh& paired_;
+  const QuadForest& forest_;
+};
+
+}  // namespace
+
+ObjectSource::ObjectSource(const TriangleMesh& mesh, uint32_t fewest)
+    : cleaned_(tetrakis::cleaned(mesh)), tree_(cleaned_.mesh), decimation_(cleaned_.mesh, fewest) {}
+
+ResampledObject ObjectSource::resampled(const ObjectShape& shape) const {
+  const DecimatedMesh decimated = decimation_.base(shape.base_triangles);
+  const PairedMesh paired = tetrakis::paired(decimated.mesh);
+  const QuadForest quads = quadForest(paired.quads);
+  ResampledObject object{gridAround(cleaned_.mesh, shape.position_bits), {}};
+  BaseMesh& base = object.base;
+  base.forest = std::make_shared<const Forest>(shape.depth, quads.sides);
+  for (uint32_t patch = 0; patch < quads.quads.size(); ++patch) {
+    const Quad& quad = paired.quads[quads.quads[patch]];
+    for (uint32_t corner = 0; corner < Forest::kSides; ++corner) {
+      const uint32_t point = quad.corners[quads.quadCorner(patch, corner)];
+      base.corners.push_back(cellOf(base, paired.mesh.points[point]));
+    }
+  }
+  const PatchMap map(paired, quads);
+  object.surface = castHeights(base, tree_, [&](uint32_t patch, double x, double y) {
+    return decimation_.toInput(decimated, onBase(paired, map.at(patch, x, y)));
+  });
+  return object;
+}
+
+}  // namespace tetrakis::inline remesh
