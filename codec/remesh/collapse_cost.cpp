@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/remesh/collapse_cost.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "codec/remesh/ring_flattening.hpp"
+
+namespace tetrakis::inline remesh {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kEvenness = 1e-3;   // of area times squared length
+constexpr double kSliver = 0.3;      // qualities below are penalised
+constexpr double kNoArea = 1e-6;     // quality of a triangle that is refused
+constexpr double kTurn = 0.2;        // least cosine between normals before and after
+constexpr uint32_t kNeighbours = 7;  // more of them are penalised
+
+void addTriangle(const TriangleMesh& mesh, const Triangle& t, std::vector<Quadric>& quadrics) {
+  const Point normal = areaNormal(mesh, t);
+  const double doubled_area = length(normal);
+  if (!(doubled_area > 0)) return;
+  for (const uint32_t point : t)
+    quadrics[point].addPlane(1 / doubled_area * normal, mesh.points[t[0]], doubled_area / 2);
+}
+
+/// A plane through a boundary edge, upright on its triangle.
+void addBoundary(const TriangleMesh& mesh, uint32_t side, std::vector<Quadric>& quadrics) {
+  const uint32_t a = startOf(mesh.triangles, side), b = startOf(mesh.triangles, nextSide(side));
+  const Point edge = mesh.points[b] - mesh.points[a];
+  const Point outwards = cross(edge, areaNormal(mesh, mesh.triangles[side / 3]));
+  const double size = length(outwards);
+  if (!(size > 0)) return;
+  for (const uint32_t point : {a, b})
+    quadrics[point].addPlane(1 / size * outwards, mesh.points[a], dot(edge, edge));
+}
+
+}  // namespace
+
+CollapseCost::CollapseCost(const TriangleMesh& mesh)
+    : points_(mesh.points), quadrics_(mesh.points.size()) {
+  for (const Triangle& t : mesh.triangles) addTriangle(mesh, t, quadrics_);
+  const GluedSides glued = gluedSides(mesh.triangles);
+  for (uint32_t side = 0; side < glued.opposite.size(); ++side) {
+    if (glued.opposite[side] == kNone) addBoundary(mesh, side, quadrics_);
+  }
+}
+
+/// At least 1, and infinite where a triangle would turn over or have no area.
+double CollapseCost::shapePenalty(const Ring& ring, uint32_t target) const {
+  double worst = kSliver;
+  const Point& to = points_[ring.points[target]];
+  for (uint32_t i = 0; i < ring.triangles(); ++i) {
+    if (vanishes(ring, i, target)) continue;
+    const Point a = points_[ring.points[i]] - to, b = points_[ring.points[ring.next(i)]] - to;
+    const Point c = b - a, normal = cross(a, b), &old = normals_[i];
+    const double size = length(normal), old_size = length(old);
+    // 1 for equal sides
+    const double quality = 2 * std::sqrt(3.0) * size / (dot(a, a) + dot(b, b) + dot(c, c));
+    if (!(quality > kNoArea)) return kInfinite;
+    if (dot(normal, old) < kTurn * size * old_size) return kInfinite;
+    worst = std::min(worst, quality);
+  }
+  return kSliver / worst;
+}
+
+void CollapseCost::find(const ShrinkingMesh& shrinking, const Ring& ring,
+                        std::vector<double>& costs) {
+  const Point& centre = points_[ring.centre];
+  normals_.resize(ring.triangles());
+  double area = 0;
+  for (uint32_t i = 0; i < ring.triangles(); ++i) {
+    normals_[i] =
+        cross(points_[ring.points[i]] - centre, points_[ring.points[ring.next(i)]] - centre);
+    area += length(normals_[i]) / 2;
+  }
+  costs.assign(ring.points.size(), kInfinite);
+  const auto own = static_cast<uint32_t>(ring.points.size());
+  for (uint32_t i = 0; i < own; ++i) {
+    if (!ring.closed && i > 0 && i + 1 < own) continue;
+    const uint32_t to = ring.points[i];
+    const uint32_t neighbours = shrinking.neighbours(to) + own - (ring.closed ? 4 : 3);
+    const Point way = points_[to] - centre;
+    const double error = quadrics_[ring.centre].at(points_[to]) + quadrics_[to].at(points_[to]);
+    const double crowd = neighbours > kNeighbours ? 1.0 + (neighbours - kNeighbours) : 1.0;
+    costs[i] = (error + kEvenness * area * dot(way, way)) * crowd * shapePenalty(ring, i);
+  }
+}
+
+void CollapseCost::collapsed(const Ring& ring, uint32_t target) {
+  quadrics_[ring.points[target]].add(quadrics_[ring.centre]);
+}
+
+}  // namespace tetrakis::inline remesh
