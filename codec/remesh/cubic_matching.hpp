@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace tetrakis::inline remesh {
+#include "codec/remesh/triangle_mesh.hpp"
 
-constexpr uint32_t kNone = ~uint32_t{0};
+namespace tetrakis::inline remesh {
 
 /// Of each node the neighbours, kNone where there is none. Neighbours know one another.
 using CubicGraph = std::vector<std::array<uint32_t, 3>>;

@@ -11,8 +11,6 @@
 
 namespace tetrakis::inline remesh {
 
-constexpr uint32_t kNone = UINT32_MAX;  ///< no half-edge, no triangle, no point
-
 inline uint32_t nextSide(uint32_t side) {
   return side % 3 == 2 ? side - 2 : side + 1;
 }

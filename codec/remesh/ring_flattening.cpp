@@ -17,7 +17,7 @@ constexpr double kWidestAngle = 0.9 * pi;
 constexpr double kSmallestRadius = 1e-3;  // relative to the largest one
 constexpr double kThinnest = 0.02;        // a thickness; half of the ring's own if that is less
 
-double angleBetween(const Point& a, const Point& b) {
+double spokeAngle(const Point& a, const Point& b) {
   const double along = dot(a, b), beside = length(cross(a, b));
   if (along == 0) return pi / 2;
   const double angle = portable::atan(beside / along);
@@ -56,7 +56,7 @@ void flatten(const std::vector<Point>& points, const Ring& ring, std::vector<Fla
   }
   double sum = 0;
   for (uint32_t i = 0; i < angles.size(); ++i)
-    sum += angles[i] = std::max(kSmallestAngle, angleBetween(spokes[i], spokes[ring.next(i)]));
+    sum += angles[i] = std::max(kSmallestAngle, spokeAngle(spokes[i], spokes[ring.next(i)]));
   const double total = ring.closed ? 2 * pi : pi;
   scaleAngles(angles, sum, total);
   const double power = std::clamp(total / sum, 1.0 / 3, 3.0);

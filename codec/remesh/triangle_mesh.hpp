@@ -30,6 +30,8 @@ inline double length(const Point& a) {
   return std::sqrt(dot(a, a));
 }
 
+inline constexpr uint32_t kNone = UINT32_MAX;  ///< no point, no triangle, no side
+
 using Triangle = std::array<uint32_t, 3>;  ///< numbers of points, counter-clockwise from outside
 
 struct TriangleMesh {
