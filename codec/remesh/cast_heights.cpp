@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace tetrakis::inline remesh {
 
@@ -13,9 +14,11 @@ namespace {
 /// beyond that it has met another sheet.
 constexpr double kReach = 0.03;
 
-/// How far a height may lie from the median of those around it, in parts of the diagonal, before
-/// the map's own place is taken in its stead.
-constexpr double kOutlier = 0.004;
+/// Rounds in which samples look at their neighbours and choose anew.
+constexpr int kRounds = 4;
+
+/// What a step from the mapped place counts, beside a step from the heights around.
+constexpr double kMapWeight = 0.25;
 
 Point pointOf(const BaseMesh& base, const BasePoint& at) {
   return placeOf(base, at, 0);
@@ -27,39 +30,53 @@ Point normalOf(const BasePoint& at) {
           static_cast<double>(at.normal[2]) * kUnit};
 }
 
+/// A place where a sample may lie.
 struct Cast {
   double height = 0;
   SurfacePoint place;
+  double off = 0;  ///< how far the place is from the mapped one, and the line from the place
 };
 
 class Caster {
  public:
   Caster(const TriangleTree& mesh, double reach) : mesh_(mesh), reach_(reach) {}
 
-  /// The place that the line meets nearest to the mapped one, on a side that faces the normal.
-  Cast cast(const Point& origin, const Point& normal, const SurfacePoint& mapped) const {
-    const Cast fallen = fall(origin, normal, mapped);
-    if (dot(normal, normal) == 0) return fallen;
+  /// Where the line meets the side of the mesh that its normal leaves, near the mapped place; and
+  /// where it comes nearest to the mesh around that. By rising heights, at least one.
+  std::vector<Cast> casts(const Point& origin, const Point& normal,
+                          const SurfacePoint& mapped) const {
     const Point target = at(mesh_.mesh(), mapped);
-    Cast best = fallen;
-    double nearest = reach_;
+    std::vector<Cast> found = {nearest(origin, normal, mapped)};
+    if (dot(normal, normal) == 0) return found;
     const double middle = dot(target - origin, normal);
     mesh_.crossings({origin, normal, middle - reach_, middle + reach_}, [&](const Crossing& met) {
-      const double distance = length(at(mesh_.mesh(), met.place) - target);
-      if (!met.outward || distance > nearest) return;
-      if (distance == nearest && met.t >= best.height) return;  // whatever the order of visits
-      nearest = distance;
-      best = {met.t, met.place};
+      const double off = length(at(mesh_.mesh(), met.place) - target);
+      if (met.outward && off <= reach_) found.push_back({met.t, met.place, off});
     });
-    return best;
-  }
-
-  /// What the mapped place says itself: its height over the plane of the base there.
-  Cast fall(const Point& origin, const Point& normal, const SurfacePoint& mapped) const {
-    return {dot(at(mesh_.mesh(), mapped) - origin, normal), mapped};
+    std::sort(found.begin(), found.end(), [](const Cast& a, const Cast& b) {
+      return std::tuple(a.height, a.place.triangle) < std::tuple(b.height, b.place.triangle);
+    });
+    return found;
   }
 
  private:
+  /// The line and the mesh are nearest to each other where each is the other's nearest place.
+  Cast nearest(const Point& origin, const Point& normal, const SurfacePoint& mapped) const {
+    constexpr int kSteps = 4;
+    const Point target = at(mesh_.mesh(), mapped);
+    Cast cast{dot(target - origin, normal), mapped, 0};
+    for (int step = 0; step < kSteps; ++step) {
+      const auto near = mesh_.closest(origin + cast.height * normal, reach_);
+      if (!near) break;
+      cast = {dot(at(mesh_.mesh(), near->place) - origin, normal), near->place, 0};
+    }
+    const Point place = at(mesh_.mesh(), cast.place);
+    cast.off = length(place - target) + kOffLine * length(origin + cast.height * normal - place);
+    return cast;
+  }
+  /// A sample beside the mesh is worse than one on another part of it.
+  static constexpr double kOffLine = 4;
+
   const TriangleTree& mesh_;
   double reach_;
 };
@@ -71,45 +88,51 @@ double median(std::array<double, 8>& values, size_t count) {
 }
 
 /// Of the neighbours of a sample in its patch.
-double medianAround(const std::vector<Cast>& casts, int side, int x, int y) {
+double medianAround(const std::vector<double>& heights, int side, int x, int y) {
   std::array<double, 8> values;
   size_t count = 0;
   for (int dy = -1; dy <= 1; ++dy) {
     for (int dx = -1; dx <= 1; ++dx) {
       const int column = x + dx, row = y + dy;
       if ((dx == 0 && dy == 0) || column < 0 || row < 0 || column >= side || row >= side) continue;
-      values[count++] = casts[static_cast<size_t>(row * side + column)].height;
+      values[count++] = heights[static_cast<size_t>(row * side + column)];
     }
   }
   return median(values, count);
 }
 
-/// The samples of one patch, those aside that lie far from all around them.
+/// The samples of one patch. Each takes the place nearest to the mapped one; then the one that fits
+/// its neighbours better.
 std::vector<Cast> castPatch(const BaseMesh& base, const std::vector<BasePoint>& points,
-                            const Caster& caster, double outlier,
+                            const Caster& caster,
                             const std::function<SurfacePoint(double x, double y)>& place_of) {
   const auto side = static_cast<int>(base.forest->side());
   const double n = side - 1;
-  std::vector<Cast> casts;
-  casts.reserve(points.size());
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const BasePoint& at = points[casts.size()];
-      casts.push_back(caster.cast(pointOf(base, at), normalOf(at), place_of(x / n, y / n)));
+  std::vector<std::vector<Cast>> choices;
+  std::vector<Cast> taken;
+  const auto take = [](const std::vector<Cast>& from, const auto& cost) {
+    return *std::min_element(from.begin(), from.end(),
+                             [&](const Cast& a, const Cast& b) { return cost(a) < cost(b); });
+  };
+  for (const BasePoint& at : points) {
+    const auto x = static_cast<double>(choices.size() % static_cast<size_t>(side));
+    const auto y = static_cast<double>(choices.size() / static_cast<size_t>(side));
+    choices.push_back(caster.casts(pointOf(base, at), normalOf(at), place_of(x / n, y / n)));
+    taken.push_back(take(choices.back(), [](const Cast& cast) { return cast.off; }));
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<double> heights;
+    for (const Cast& cast : taken) heights.push_back(cast.height);
+    for (size_t i = 0; i < taken.size(); ++i) {
+      if (choices[i].size() == 1) continue;
+      const int x = static_cast<int>(i) % side, y = static_cast<int>(i) / side;
+      const double usual = medianAround(heights, side, x, y);
+      taken[i] = take(choices[i], [&](const Cast& cast) {
+        return std::abs(cast.height - usual) + kMapWeight * cast.off;
+      });
     }
   }
-  const std::vector<Cast> first = casts;
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      const auto i = static_cast<size_t>(y * side + x);
-      const double usual = medianAround(first, side, x, y);
-      if (std::abs(first[i].height - usual) <= outlier) continue;
-      const Cast fallen =
-          caster.fall(pointOf(base, points[i]), normalOf(points[i]), place_of(x / n, y / n));
-      if (std::abs(fallen.height - usual) < std::abs(first[i].height - usual)) casts[i] = fallen;
-    }
-  }
-  return casts;
+  return taken;
 }
 
 }  // namespace
@@ -123,7 +146,7 @@ CastSurface castHeights(
   CastSurface surface;
   for (uint32_t patch = 0; patch < base.forest->patches(); ++patch) {
     const auto place = [&](double x, double y) { return place_of(patch, x, y); };
-    for (const Cast& cast : castPatch(base, bent.patch(patch), caster, kOutlier * size, place)) {
+    for (const Cast& cast : castPatch(base, bent.patch(patch), caster, place)) {
       surface.heights.push_back(static_cast<float>(cast.height));
       surface.places.push_back(cast.place);
     }

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kEvenness = 1e-3;   // of area times squared length
+constexpr double kBoundary = 30;     // of a boundary edge, beside an area as large as its square
 constexpr double kSliver = 0.3;      // qualities below are penalised
 constexpr double kNoArea = 1e-6;     // quality of a triangle that is refused
 constexpr double kTurn = 0.2;        // least cosine between normals before and after
@@ -32,7 +33,7 @@ void addBoundary(const TriangleMesh& mesh, uint32_t side, std::vector<Quadric>& 
   const double size = length(outwards);
   if (!(size > 0)) return;
   for (const uint32_t point : {a, b})
-    quadrics[point].addPlane(1 / size * outwards, mesh.points[a], dot(edge, edge));
+    quadrics[point].addPlane(1 / size * outwards, mesh.points[a], kBoundary * dot(edge, edge));
 }
 
 }  // namespace
