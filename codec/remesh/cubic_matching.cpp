@@ -11,8 +11,8 @@ namespace {
 /// Looks for a path from a node without a mate, whose sides are alternately not pairs and pairs,
 /// to another node without one, or to a node that may be alone. On such a path pairs and gaps
 /// change places. Nodes at an even distance from the start, along a path of that kind, are outer
-/// ones. Two outer neighbours close an odd cycle, a blossom: all its nodes become outer ones, and it
-/// counts as one node, its base.
+/// ones. Two outer neighbours close an odd cycle, a blossom: all its nodes become outer ones, and
+/// it counts as one node, its base.
 class PathSearch {
  public:
   PathSearch(const CubicGraph& graph, const std::vector<bool>& may_be_alone, Matching& matching)
@@ -20,7 +20,7 @@ class PathSearch {
         may_be_alone_(may_be_alone),
         mate_(matching),
         places_(graph.size()),
-        before_(graph.size(), kNone),
+        before_(graph.size(), kNoMate),
         base_(graph.size()),
         mark_(graph.size(), 0) {
     for (uint32_t node = 0; node < base_.size(); ++node) base_[node] = node;
@@ -39,7 +39,7 @@ class PathSearch {
       if (found) exchange(node, node);
       for (size_t k = 0; k < 3 && !found; ++k) {
         const uint32_t neighbour = graph_[node][k];
-        if (neighbour != kNone) found = visit(node, neighbour);
+        if (neighbour != kNoMate) found = visit(node, neighbour);
       }
     }
     if (found) forget();
@@ -64,7 +64,7 @@ class PathSearch {
       shrink(neighbour, node, base);
       return false;
     }
-    if (mate_[neighbour] == kNone) {
+    if (mate_[neighbour] == kNoMate) {
       exchange(neighbour, node);
       return true;
     }
@@ -82,7 +82,7 @@ class PathSearch {
       const uint32_t next = mate_[node];
       mate_[end] = node;
       mate_[node] = end;
-      if (next == kNone) return;
+      if (next == kNoMate) return;
       end = next;
       node = before_[end];
     }
@@ -100,8 +100,8 @@ class PathSearch {
     b = baseOf(b);
     while (mark_[a] != time_) {
       mark_[a] = time_;
-      a = mate_[a] == kNone ? kNone : baseOf(before_[mate_[a]]);
-      if (b != kNone) std::swap(a, b);  // otherwise the path of b has come to the root
+      a = mate_[a] == kNoMate ? kNoMate : baseOf(before_[mate_[a]]);
+      if (b != kNoMate) std::swap(a, b);  // otherwise the path of b has come to the root
     }
     return a;
   }
@@ -145,7 +145,7 @@ void completeMatching(const CubicGraph& graph, const std::vector<bool>& may_be_a
   for (const std::vector<bool>& alone : {std::cref(none), std::cref(may_be_alone)}) {
     PathSearch search(graph, alone, matching);
     for (uint32_t node = 0; node < graph.size(); ++node) {
-      if (matching[node] == kNone) search.matchFrom(node);
+      if (matching[node] == kNoMate) search.matchFrom(node);
     }
   }
 }

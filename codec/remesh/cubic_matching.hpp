@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A maximum matching of a graph whose nodes have at most three neighbours: as many disjoint pairs of
+// A maximum matching of a graph whose nodes have at most three neighbours: as many pairs of
 // neighbours as there can be, by the blossoms of Edmonds ("Paths, trees, and flowers", 1965).
 #pragma once
 
@@ -7,14 +7,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "codec/remesh/triangle_mesh.hpp"
-
 namespace tetrakis::inline remesh {
 
-/// Of each node the neighbours, kNone where there is none. Neighbours know one another.
+constexpr uint32_t kNoMate = ~uint32_t{0};
+
+/// Of each node the neighbours, kNoMate where there is none. Neighbours know one another.
 using CubicGraph = std::vector<std::array<uint32_t, 3>>;
 
-/// Of each node the mate, a neighbour; itself, if it is matched alone; kNone if it is not matched.
+/// Of each node the mate, a neighbour; itself, if it is matched alone; kNoMate, if it has none.
 using Matching = std::vector<uint32_t>;
 
 /// Adds pairs to `matching`, in which none is alone, until there are as many as there can be. Nodes

@@ -7,14 +7,14 @@
 namespace tetrakis::inline remesh {
 namespace {
 
-constexpr int kRounds = 20;      ///< over all triangles at most; four to eight are usual
-constexpr double kLeast = 1e-9;  ///< an exchange takes away more badness than that
+constexpr int kExchangeRounds = 20;  ///< over all triangles at most; four to eight are usual
+constexpr double kLeastGain = 1e-9;  ///< an exchange takes away more badness than that
 
 /// Triangles of which each is a neighbour of the next. Now the second and third are a pair, the
 /// fourth and fifth and so on, and the first one's mate is the last one, or it is alone. The
 /// exchange would pair the first and second, the third and fourth and so on; a last one that is
 /// over would be alone.
-struct Path {
+struct ExchangePath {
   std::array<uint32_t, 2 * kExchangedPairs + 1> triangles{};
   size_t length = 0;
 
@@ -33,7 +33,7 @@ class Exchange {
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       for (size_t k = 0; k < 3; ++k) {
         const uint32_t neighbour = graph.neighbours[t][k];
-        if (neighbour != kNone && neighbour > t && neighbour != mate_[t]) addSide(t, k, 1);
+        if (neighbour != kNoMate && neighbour > t && neighbour != mate_[t]) addSide(t, k, 1);
       }
     }
   }
@@ -42,10 +42,10 @@ class Exchange {
   bool round() {
     bool better = false;
     for (uint32_t t = 0; t < mate_.size(); ++t) {
-      if (mate_[t] == kNone || mate_[t] < t) continue;
+      if (mate_[t] == kNoMate || mate_[t] < t) continue;
       best_ = {};
-      gain_ = kLeast;
-      Path path;
+      gain_ = kLeastGain;
+      ExchangePath path;
       path.add(t);
       search(path, badness(t, mate_[t]));
       if (best_.length == 0) continue;
@@ -60,33 +60,35 @@ class Exchange {
     return graph_.badness[triangle][sideTowards(graph_, triangle, mate)];
   }
 
-  /// Goes on from the last triangle of a path of odd length in all ways: as deep as a path is long.
-  /// `gain`: badness of the pairs that it takes apart less that of those that it makes.
-  void search(const Path& path, double gain) {
-    const uint32_t last = path.back(), start = path.triangles[0], end = mate_[start];
+  /// Goes on from the last triangle of a path of odd length in all ways that win: at most as deep
+  /// as a path is long. `gain`: badness of the pairs that it takes apart less that of those that
+  /// it makes.
+  void search(const ExchangePath& path, double gain) {
+    const uint32_t last = path.back(), end = mate_[path.triangles[0]];
     for (const uint32_t next : graph_.neighbours[last]) {
-      if (next == kNone || path.holds(next) || next == mate_[last]) continue;
-      if (mate_[next] == kNone || mate_[next] == next) continue;
-      Path longer = path;
-      longer.add(next);
+      if (next == kNoMate || path.holds(next) || next == mate_[last]) continue;
+      if (mate_[next] == kNoMate || mate_[next] == next) continue;
       const double paired = gain - badness(last, next);
+      if (paired <= 0) continue;
+      ExchangePath longer = path;
+      longer.add(next);
       if (next == end) {
         offer(longer, paired);
-      } else if (longer.length < longer.triangles.size()) {
+      } else {
         longer.add(mate_[next]);
         goOn(longer, paired + badness(next, mate_[next]));
       }
     }
   }
 
-  void goOn(const Path& path, double gain) {
+  void goOn(const ExchangePath& path, double gain) {
     const uint32_t last = path.back(), start = path.triangles[0];
     const bool alone = mate_[start] == start;
     if (alone && graph_.halved[last] < 3) offer(path, gain - badness(last, last));
     if (path.length < path.triangles.size()) search(path, gain);
   }
 
-  void offer(const Path& path, double gain) {
+  void offer(const ExchangePath& path, double gain) {
     const double total = gain - changePoints(path, 1);
     changePoints(path, -1);
     if (total <= gain_) return;
@@ -94,7 +96,7 @@ class Exchange {
     best_ = path;
   }
 
-  void apply(const Path& path) {
+  void apply(const ExchangePath& path) {
     changePoints(path, 1);
     for (size_t i = 0; i < path.length; i += 2) {
       const uint32_t triangle = path.triangles[i];
@@ -106,7 +108,7 @@ class Exchange {
 
   /// Counts quads as after the exchange (`sign` 1), or as before it again (-1). Returns how much
   /// worse the points are then.
-  double changePoints(const Path& path, int sign) {
+  double changePoints(const ExchangePath& path, int sign) {
     double worse = 0;
     for (size_t i = 0; i + 1 < path.length; ++i) {
       const uint32_t triangle = path.triangles[i];
@@ -133,7 +135,7 @@ class Exchange {
   const PairGraph& graph_;
   Matching& mate_;
   std::vector<int> quads_;  ///< that meet in each point, at the border: 0
-  Path best_;               ///< of the paths that were offered, empty at first
+  ExchangePath best_;       ///< of the paths that were offered, empty at first
   double gain_ = 0;         ///< of it
 };
 
@@ -145,7 +147,7 @@ double pointBadness(int quads) {
 
 void exchangePairs(const TriangleMesh& mesh, const PairGraph& graph, Matching& matching) {
   Exchange exchange(mesh, graph, matching);
-  for (int round = 0; round < kRounds && exchange.round(); ++round) continue;
+  for (int round = 0; round < kExchangeRounds && exchange.round(); ++round) continue;
 }
 
 }  // namespace tetrakis::inline remesh

@@ -14,7 +14,7 @@
 namespace tetrakis::inline remesh {
 
 struct PairGraph {
-  /// The triangles beyond the three sides. kNone, where none can be a mate: at the border, and
+  /// The triangles beyond the three sides. kNoMate, where none can be a mate: at the border, and
   /// where the other triangle has the same corners.
   CubicGraph neighbours;
   /// Of the quads with them. Without a neighbour: of the triangle alone with that side halved.

@@ -20,13 +20,13 @@ Matching greedyPairs(const PairGraph& graph) {
   for (uint32_t t = 0; t < graph.neighbours.size(); ++t) {
     for (size_t k = 0; k < 3; ++k) {
       const uint32_t mate = graph.neighbours[t][k];
-      if (mate != kNone && t < mate) pairs.emplace_back(graph.badness[t][k], t, mate);
+      if (mate != kNoMate && t < mate) pairs.emplace_back(graph.badness[t][k], t, mate);
     }
   }
   std::sort(pairs.begin(), pairs.end());
-  Matching matching(graph.neighbours.size(), kNone);
+  Matching matching(graph.neighbours.size(), kNoMate);
   for (const auto& [badness, a, b] : pairs) {
-    if (matching[a] != kNone || matching[b] != kNone) continue;
+    if (matching[a] != kNoMate || matching[b] != kNoMate) continue;
     matching[a] = b;
     matching[b] = a;
   }
@@ -43,14 +43,16 @@ Matching bestPairs(const TriangleMesh& mesh, const PairGraph& graph) {
 }
 
 /// A corner of a quad: a point of the new mesh, and where it lies in the triangle of the base.
-struct Corner {
+struct QuadCorner {
   uint32_t point;
   std::array<double, 3> weights;
 };
 
-class Builder {
+class QuadBuilder {
  public:
-  explicit Builder(const TriangleMesh& base) : base_(base) { result_.mesh.points = base.points; }
+  explicit QuadBuilder(const TriangleMesh& base) : base_(base) {
+    result_.mesh.points = base.points;
+  }
 
   /// Two triangles, the first with its side `k` towards the second one's side `j`.
   void addPair(uint32_t t, size_t k, uint32_t mate, size_t j) {
@@ -59,8 +61,8 @@ class Builder {
   }
 
   void addAlone(uint32_t t, size_t k) {
-    const Corner start = corner(t, k), end = corner(t, k + 1), across = corner(t, k + 2);
-    Corner middle = start;
+    const QuadCorner start = corner(t, k), end = corner(t, k + 1), across = corner(t, k + 2);
+    QuadCorner middle = start;
     middle.weights[(k + 1) % 3] = middle.weights[k] = 0.5;
     middle.point = middleOf(start.point, end.point);
     addQuad({t, {middle, end, across}}, {t, {middle, across, start}});
@@ -71,11 +73,11 @@ class Builder {
  private:
   struct Half {
     uint32_t triangle;  ///< of the base
-    std::array<Corner, 3> corners;
+    std::array<QuadCorner, 3> corners;
   };
 
-  Corner corner(uint32_t t, size_t k) const {
-    Corner result{base_.triangles[t][k % 3], {0, 0, 0}};
+  QuadCorner corner(uint32_t t, size_t k) const {
+    QuadCorner result{base_.triangles[t][k % 3], {0, 0, 0}};
     result.weights[k % 3] = 1;
     return result;
   }
@@ -89,7 +91,7 @@ class Builder {
 
   void addQuad(const Half& first, const Half& second) {
     const auto next = static_cast<uint32_t>(result_.mesh.triangles.size());
-    const std::array<Corner, 3>& c = first.corners;
+    const std::array<QuadCorner, 3>& c = first.corners;
     result_.quads.push_back(
         {{c[0].point, c[1].point, c[2].point, second.corners[2].point}, {next, next + 1}});
     for (const Half& half : {first, second}) {
@@ -114,13 +116,13 @@ class Builder {
 PairedMesh paired(const TriangleMesh& base) {
   const PairGraph graph = pairGraph(base);
   const Matching matching = bestPairs(base, graph);
-  Builder builder(base);
+  QuadBuilder builder(base);
   for (uint32_t t = 0; t < base.triangles.size(); ++t) {
     const uint32_t mate = matching[t];
     if (mate == t) builder.addAlone(t, graph.halved[t]);
     // Only a triangle with two equal corners may be without a mate.
-    if (mate == kNone) builder.addAlone(t, 0);
-    if (mate == kNone || mate <= t) continue;
+    if (mate == kNoMate) builder.addAlone(t, 0);
+    if (mate == kNoMate || mate <= t) continue;
     builder.addPair(t, sideTowards(graph, t, mate), mate, sideTowards(graph, mate, t));
   }
   return builder.take();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pairs the triangles of a base mesh to quads. In an oriented mesh there is always a way that leaves
-// none over, if triangles at the border may stay alone: the mesh glued to its mirror image along the
-// border is closed, and no single side of it, which has two ends, separates it. Cubic graphs without
-// bridges have perfect matchings (Petersen, 1891).
+// Pairs the triangles of a base mesh to quads. In an oriented mesh there is always a way that
+// leaves none over, if triangles at the border may stay alone: glued to its mirror image along the
+// border the mesh is closed, and no single side, since it has two ends, is all that holds two parts
+// of it together. Cubic graphs without such bridges have perfect matchings (Petersen, 1891).
 #pragma once
 
 #include <array>

@@ -14,11 +14,11 @@ namespace {
 
 /// About one and a half sides a node at most, in a random order.
 CubicGraph randomGraph(uint32_t nodes, uint32_t tries, std::mt19937& random) {
-  CubicGraph graph(nodes, {kNone, kNone, kNone});
+  CubicGraph graph(nodes, {kNoMate, kNoMate, kNoMate});
   for (; tries > 0; --tries) {
     const uint32_t a = below(random, nodes), b = below(random, nodes);
-    const auto free_a = std::find(graph[a].begin(), graph[a].end(), kNone);
-    const auto free_b = std::find(graph[b].begin(), graph[b].end(), kNone);
+    const auto free_a = std::find(graph[a].begin(), graph[a].end(), kNoMate);
+    const auto free_b = std::find(graph[b].begin(), graph[b].end(), kNoMate);
     if (a == b || free_a == graph[a].end() || free_b == graph[b].end()) continue;
     if (std::find(graph[a].begin(), graph[a].end(), b) != graph[a].end()) continue;
     *free_a = b;
@@ -35,7 +35,7 @@ int mostNodes(const CubicGraph& graph, const std::vector<bool>& may_be_alone) {
     const size_t rest = set & (set - 1);
     most[set] = most[rest] + may_be_alone[node];
     for (const uint32_t mate : graph[node]) {
-      if (mate == kNone || (rest >> mate & 1) == 0) continue;
+      if (mate == kNoMate || (rest >> mate & 1) == 0) continue;
       most[set] = std::max(most[set], 2 + most[rest & ~(size_t{1} << mate)]);
     }
   }
@@ -48,7 +48,7 @@ std::array<int, 3> counted(const CubicGraph& graph, const std::vector<bool>& may
   std::array<int, 3> counts{};
   for (uint32_t node = 0; node < graph.size(); ++node) {
     const uint32_t mate = matching[node];
-    if (mate == kNone) {
+    if (mate == kNoMate) {
       ++counts[2];
     } else if (mate == node) {
       EXPECT_TRUE(may_be_alone[node]);
@@ -64,10 +64,10 @@ std::array<int, 3> counted(const CubicGraph& graph, const std::vector<bool>& may
 
 /// Pairs of neighbours that are free, in the order of the nodes.
 Matching greedy(const CubicGraph& graph) {
-  Matching matching(graph.size(), kNone);
+  Matching matching(graph.size(), kNoMate);
   for (uint32_t node = 0; node < graph.size(); ++node) {
     for (const uint32_t mate : graph[node]) {
-      if (mate == kNone || matching[node] != kNone || matching[mate] != kNone) continue;
+      if (mate == kNoMate || matching[node] != kNoMate || matching[mate] != kNoMate) continue;
       matching[node] = mate;
       matching[mate] = node;
     }
@@ -82,7 +82,7 @@ TEST(CubicMatchings, HaveAsManyPairsAsCanBe) {
     const CubicGraph graph = randomGraph(nodes, nodes * (1 + below(random, 4)), random);
     const std::vector<bool> none(nodes);
     const int most = mostNodes(graph, none);
-    for (Matching matching : {Matching(nodes, kNone), greedy(graph)}) {
+    for (Matching matching : {Matching(nodes, kNoMate), greedy(graph)}) {
       completeMatching(graph, none, matching);
       const auto [pairs, alone, unmatched] = counted(graph, none, matching);
       EXPECT_EQ(2 * pairs, most);
@@ -98,7 +98,7 @@ TEST(CubicMatchings, LeaveAloneOnlyWhereAllPairsAreTaken) {
     const CubicGraph graph = randomGraph(nodes, nodes * (1 + below(random, 4)), random);
     std::vector<bool> may_be_alone(nodes);
     for (uint32_t node = 0; node < nodes; ++node) may_be_alone[node] = below(random, 4) == 0;
-    Matching matching(nodes, kNone);
+    Matching matching(nodes, kNoMate);
     completeMatching(graph, may_be_alone, matching);
     const auto [pairs, alone, unmatched] = counted(graph, may_be_alone, matching);
     EXPECT_EQ(2 * pairs, mostNodes(graph, std::vector<bool>(nodes)));
@@ -115,7 +115,7 @@ TEST(CubicMatchings, KeepNodesMatched) {
     Matching matching = start;
     completeMatching(graph, std::vector<bool>(500), matching);
     for (size_t node = 0; node < 500; ++node) {
-      EXPECT_TRUE(start[node] == kNone || matching[node] != kNone);
+      EXPECT_TRUE(start[node] == kNoMate || matching[node] != kNoMate);
     }
   }
 }
@@ -123,22 +123,22 @@ TEST(CubicMatchings, KeepNodesMatched) {
 TEST(CubicMatchings, OfLongPathsAndCombsAreQuick) {
   // A path of odd length whose greedy pairs are all wrong; a comb, most of whose teeth are odd.
   constexpr uint32_t kNodes = 60000;
-  CubicGraph path(kNodes, {kNone, kNone, kNone}), comb = path;
+  CubicGraph path(kNodes, {kNoMate, kNoMate, kNoMate}), comb = path;
   for (uint32_t node = 0; node + 1 < kNodes; ++node) {
     path[node][0] = node + 1;
     path[node + 1][1] = node;
     if (node % 3 != 0) continue;  // node - node + 1, node - node + 2: two teeth
-    comb[node] = {node + 1, node + 2, kNone};
+    comb[node] = {node + 1, node + 2, kNoMate};
     comb[node + 1][0] = comb[node + 2][0] = node;
   }
-  Matching matching(kNodes, kNone);
+  Matching matching(kNodes, kNoMate);
   for (uint32_t node = 1; node + 2 < kNodes; node += 2) {
     matching[node] = node + 1;
     matching[node + 1] = node;
   }
   completeMatching(path, std::vector<bool>(kNodes), matching);
   EXPECT_EQ(counted(path, std::vector<bool>(kNodes), matching)[0], kNodes / 2);
-  Matching teeth(kNodes, kNone);
+  Matching teeth(kNodes, kNoMate);
   completeMatching(comb, std::vector<bool>(kNodes), teeth);
   EXPECT_EQ(counted(comb, std::vector<bool>(kNodes), teeth)[0], kNodes / 3);
 }
