@@ -41,18 +41,21 @@ class Caster {
  public:
   Caster(const TriangleTree& mesh, double reach) : mesh_(mesh), reach_(reach) {}
 
-  /// Where the line meets the side of the mesh that its normal leaves, near the mapped place; and
-  /// where it comes nearest to the mesh around that. By rising heights, at least one.
+  /// Where the line meets the side of the mesh that its normal leaves, near the mapped place; and,
+  /// unless that is very near, where it comes nearest to the mesh. By rising heights, at least one.
   std::vector<Cast> casts(const Point& origin, const Point& normal,
                           const SurfacePoint& mapped) const {
     const Point target = at(mesh_.mesh(), mapped);
-    std::vector<Cast> found = {nearest(origin, normal, mapped)};
-    if (dot(normal, normal) == 0) return found;
+    std::vector<Cast> found;
+    if (dot(normal, normal) == 0) return {{0, mapped, 0}};
     const double middle = dot(target - origin, normal);
     mesh_.crossings({origin, normal, middle - reach_, middle + reach_}, [&](const Crossing& met) {
       const double off = length(at(mesh_.mesh(), met.place) - target);
       if (met.outward && off <= reach_) found.push_back({met.t, met.place, off});
     });
+    const auto near = [&](const Cast& cast) { return cast.off <= kNear * reach_; };
+    if (std::none_of(found.begin(), found.end(), near))
+      found.push_back(nearest(origin, normal, mapped));
     std::sort(found.begin(), found.end(), [](const Cast& a, const Cast& b) {
       return std::tuple(a.height, a.place.triangle) < std::tuple(b.height, b.place.triangle);
     });
@@ -74,6 +77,9 @@ class Caster {
     cast.off = length(place - target) + kOffLine * length(origin + cast.height * normal - place);
     return cast;
   }
+  /// Where the line meets the mesh this near to the mapped place, in parts of the reach, it has met
+  /// the right sheet.
+  static constexpr double kNear = 0.1;
   /// A sample beside the mesh is worse than one on another part of it.
   static constexpr double kOffLine = 4;
 
