@@ -78,7 +78,10 @@ class PatchMap {
 }  // namespace
 
 ObjectSource::ObjectSource(const TriangleMesh& mesh, uint32_t fewest)
-    : cleaned_(tetrakis::cleaned(mesh)), tree_(cleaned_.mesh), decimation_(cleaned_.mesh, fewest) {}
+    : cleaned_(tetrakis::cleaned(mesh)),
+      tree_(cleaned_.mesh),
+      decimation_(cleaned_.mesh, fewest),
+      diagonal_(tetrakis::diagonal(cleaned_.mesh)) {}
 
 ResampledObject ObjectSource::resampled(const ObjectShape& shape) const {
   const DecimatedMesh decimated = decimation_.base(shape.base_triangles);

@@ -36,6 +36,13 @@ class ObjectSource {
   const CleanedMesh& cleaned() const { return cleaned_; }
   const TriangleTree& tree() const { return tree_; }
 
+  ObjectSource(const ObjectSource&) = delete;
+  ObjectSource& operator=(const ObjectSource&) = delete;
+
+  /// Triangles of the smallest base there is.
+  uint32_t fewestTriangles() const { return decimation_.fewest(); }
+  double diagonal() const { return diagonal_; }
+
   /// Bases have no fewer triangles than the decimation could leave.
   ResampledObject resampled(const ObjectShape& shape) const;
 
@@ -43,6 +50,7 @@ class ObjectSource {
   CleanedMesh cleaned_;
   TriangleTree tree_;
   MappedDecimation decimation_;
+  double diagonal_;
 };
 
 }  // namespace tetrakis::inline remesh

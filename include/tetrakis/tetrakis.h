@@ -123,7 +123,8 @@ typedef struct tks_base_mesh {
                              no base mesh */
   double cell;            /* above 0 */
   double origin[3];
-  const int32_t* corners; /* 12 for each patch: x, y, z of its corners with the first row and column,
+  const int32_t*
+      corners; /* 12 for each patch: x, y, z of its corners with the first row and column,
                              the first row and last column, the last of both, the last row and first
                              column. What sides share is the same */
 } tks_base_mesh;
@@ -195,7 +196,7 @@ typedef struct tks_heights {
   uint32_t grid_width, grid_height; /* heights on a forest that were resampled from a grid: columns
                                      and rows of the grid, whose place the georeference is then;
                                      0: none */
-  tks_base_mesh base_mesh; /* with TKS_DOMAIN_FOREST, of TKS_MOST_OBJECT_DEPTH at most */
+  tks_base_mesh base_mesh;          /* with TKS_DOMAIN_FOREST, of TKS_MOST_OBJECT_DEPTH at most */
 } tks_heights;
 
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed.
@@ -420,6 +421,47 @@ tks_status tks_encode(const tks_heights* heights, const tks_image* image,
                       const tks_encode_options* options, tks_buffer* out, char* message,
                       size_t message_size);
 
+/* A mesh of triangles to encode as an object: a scan, a sculpture. Triangles need not fit together:
+ * points at equal places are joined, degenerate and double triangles dropped, and edges of more than
+ * two triangles cut. */
+typedef struct tks_triangle_mesh {
+  size_t size;                           /* sizeof(tks_triangle_mesh) */
+  uint32_t vertex_count, triangle_count; /* to 2^26 */
+  const double* positions;               /* 3 * vertex_count finite numbers, in any unit */
+  const uint32_t* triangles;             /* 3 * triangle_count, below vertex_count;
+                                             counter-clockwise seen from outside */
+  const char* unit;                      /* UTF-8, NULL: unknown */
+  const char* description;               /* UTF-8, a name; NULL: none */
+} tks_triangle_mesh;
+
+/* What became of a mesh. Distances are between its surface and that of the decoded stream, in its
+ * unit, of 20 000 places of either. */
+typedef struct tks_object_report {
+  size_t size;                  /* sizeof(tks_object_report) */
+  uint32_t triangles;           /* that are left after cleaning */
+  uint32_t dropped_triangles;   /* degenerate or double ones */
+  uint32_t cut_edges;           /* of more than two triangles, or of two that cannot face one way */
+  uint32_t components, borders; /* connected parts, and closed rings of open edges */
+  uint32_t patches, depth;      /* of the forest: samples are (2^depth + 1)^2 a patch */
+  double diagonal;              /* of the box around the mesh */
+  double resampling_error;      /* of all samples, uncoded: the larger of the two RMS distances */
+  double error, largest;        /* of the stream, likewise; and the largest distance */
+  double psnr;                  /* 20 log10(diagonal / error) */
+} tks_object_report;
+
+/* Encodes the surface of a mesh as an object: heights along the normals of a base mesh
+ * (tks_base_mesh), which tks_decode_object makes meshes of. The mesh is resampled: its triangles do
+ * not come back. Of `options` these count: bytes (the base mesh with the least error is sought), or
+ * psnr (of the surface: 20 log10(diagonal / error), as tks_object_report has it; the fewest bytes
+ * are sought), or max_error (every sample of the base keeps its height within that distance, and the
+ * resampling error is at most a third of it); index, progress, threads. `report` may be NULL.
+ * TKS_USAGE, with a sentence in message: a mesh, or options, that break the rules; no triangle is
+ * left after cleaning; the base mesh takes more than 4096 patches, since there are too many parts;
+ * the target cannot be met. */
+tks_status tks_encode_object(const tks_triangle_mesh* mesh, const tks_encode_options* options,
+                             tks_object_report* report, tks_buffer* out, char* message,
+                             size_t message_size);
+
 /* Samples that lie farther from all others than these do from each other, so that they can only
  * stand for heights that are missing. Single samples are such only at the ends of an integer type;
  * those of 8 bits, the value 0, and whatever lies beside a single other value, never are. */
@@ -621,9 +663,9 @@ tks_status tks_decode_texture_window(tks_decoder* decoder, const tks_window* win
 
 /* A grid whose columns go round the Earth. */
 typedef struct tks_geographic_grid {
-  size_t size; /* sizeof(tks_geographic_grid) */
-  uint32_t width, height;  /* columns, from 1 to 2^20; rows, from 2 to 2^20 */
-  double geotransform[6];  /* in degrees, in the order of GDAL: columns go east or west, once round
+  size_t size;            /* sizeof(tks_geographic_grid) */
+  uint32_t width, height; /* columns, from 1 to 2^20; rows, from 2 to 2^20 */
+  double geotransform[6]; /* in degrees, in the order of GDAL: columns go east or west, once round
                               the Earth, where the last one may be the first one again; rows go
                               south or north, and the middles of their samples lie between the
                               poles */
