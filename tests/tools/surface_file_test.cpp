@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of other programs: the same triangles, texture coordinates and texture come back from every
-// format, and what is wrong with a file is said in a sentence.
+// Meshes of other programs: the same triangles, texture coordinates and texture come back from
+// every format, and what is wrong with a file is said in a sentence.
 #include "apps/tools/files/meshes/surface_file.hpp"
 
 #include <algorithm>

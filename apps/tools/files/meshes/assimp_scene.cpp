@@ -196,6 +196,12 @@ void takeTexture(const aiScene& scene, const SceneMaterial& material, MeshImport
   mesh.texture_file.assign(bytes, bytes + embedded->mWidth);
 }
 
+/// "" where Assimp has made it up (of OBJ and glTF).
+std::string nameOf(const aiMesh& mesh) {
+  const std::string name = mesh.mName.C_Str();
+  return name == "defaultobject" || name.starts_with("meshes[") ? "" : name;
+}
+
 /// Parts with triangles; `failure` says why there are none.
 std::vector<Part> solidParts(const aiScene& scene, MeshImport& mesh) {
   std::vector<Part> parts = partsOf(scene), solid;
@@ -230,8 +236,7 @@ void joinScene(const aiScene& scene, MeshImport& mesh) {
   takeTexture(scene, most.material, mesh);
   mesh.facts.parts = parts.size();
   mesh.facts.other = parts.size() - most.parts;
-  if (parts.size() == 1 && parts[0].mesh->mName != aiString("defaultobject"))  // Assimp's own
-    mesh.name = parts[0].mesh->mName.C_Str();
+  if (parts.size() == 1) mesh.name = nameOf(*parts[0].mesh);
   Joiner joiner(mesh);
   for (size_t i = 0; i < parts.size(); ++i) joiner.add(parts[i], materials[i].texcoords);
 }
