@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/remesh/triangle_tree.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+namespace tetrakis::inline remesh {
+namespace {
+
+constexpr uint32_t kLeaf = 8;  ///< triangles at most
+constexpr size_t kBins = 8;
+constexpr uint32_t kFreeDepth = 60;  ///< below it nodes are halved, so that stacks have an end
+constexpr size_t kStack = kFreeDepth + 36;
+
+void extend(Box& box, const Box& other) {
+  for (size_t axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::min(box.low[axis], other.low[axis]);
+    box.high[axis] = std::max(box.high[axis], other.high[axis]);
+  }
+}
+
+/// Half of the surface.
+double surface(const Box& box) {
+  const Point d = box.high - box.low;
+  return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
+}
+
+double squaredDistance(const Box& box, const Point& point) {
+  double sum = 0;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double outside =
+        std::max({box.low[axis] - point[axis], point[axis] - box.high[axis], 0.0});
+    sum += outside * outside;
+  }
+  return sum;
+}
+
+/// Rounding may err towards true.
+bool meets(const Box& box, const Line& line) {
+  constexpr double kRounding = 1e-15;
+  double first = line.first, last = line.last;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const double low = box.low[axis] - line.origin[axis];
+    const double high = box.high[axis] - line.origin[axis];
+    if (line.direction[axis] == 0) {
+      if (low > 0 || high < 0) return false;
+      continue;
+    }
+    const auto [in, out] = std::minmax({low / line.direction[axis], high / line.direction[axis]});
+    first = std::max(first, in - kRounding * std::abs(in));
+    last = std::min(last, out + kRounding * std::abs(out));
+  }
+  return first <= last;
+}
+
+/// Where to cut a node: triangles whose middles lie in the bins below `bin` go to the first part.
+struct Cut {
+  size_t axis = 0;
+  size_t bin = 0;  ///< 0: the middles do not differ
+};
+
+}  // namespace
+
+class TriangleTree::Builder {
+ public:
+  explicit Builder(TriangleTree& tree) : tree_(tree), boxes_(tree.mesh_->triangles.size()) {
+    for (size_t t = 0; t < boxes_.size(); ++t) {
+      for (const uint32_t corner : tree.mesh_->triangles[t]) {
+        const Point& point = tree.mesh_->points[corner];
+        extend(boxes_[t], {point, point});
+      }
+    }
+  }
+
+  void build() {
+    const auto count = static_cast<uint32_t>(boxes_.size());
+    if (count == 0) return;
+    tree_.order_.resize(count);
+    std::iota(tree_.order_.begin(), tree_.order_.end(), 0U);
+    tree_.nodes_.reserve(count);
+    tree_.nodes_.push_back({{}, 0, count});
+    std::vector<std::pair<uint32_t, uint32_t>> open{{0, 0}};  // nodes and their depths
+    while (!open.empty()) {
+      const auto [node, depth] = open.back();
+      open.pop_back();
+      if (!split(node, depth)) continue;
+      const uint32_t child = tree_.nodes_[node].first;
+      open.emplace_back(child + 1, depth + 1);
+      open.emplace_back(child, depth + 1);
+    }
+    tree_.nodes_.shrink_to_fit();
+  }
+
+ private:
+  Point middle(uint32_t triangle) const {
+    return 0.5 * boxes_[triangle].low + 0.5 * boxes_[triangle].high;
+  }
+
+  /// False: the node remains a leaf.
+  bool split(uint32_t number, uint32_t depth) {
+    const uint32_t begin = tree_.nodes_[number].first, count = tree_.nodes_[number].count;
+    Box all, middles;
+    for (uint32_t i = begin; i < begin + count; ++i) {
+      const Point center = middle(tree_.order_[i]);
+      extend(all, boxes_[tree_.order_[i]]);
+      extend(middles, {center, center});
+    }
+    tree_.nodes_[number].box = all;
+    if (count <= kLeaf) return false;
+    const uint32_t half = depth < kFreeDepth ? part(begin, count, middles) : count / 2;
+    const auto child = static_cast<uint32_t>(tree_.nodes_.size());
+    tree_.nodes_[number].first = child;
+    tree_.nodes_[number].count = 0;
+    tree_.nodes_.push_back({{}, begin, half});
+    tree_.nodes_.push_back({{}, begin + half, count - half});
+    return true;
+  }
+
+  /// Sorts triangles into two parts; returns the size of the first, which is less than `count`.
+  uint32_t part(uint32_t begin, uint32_t count, const Box& middles) {
+    const Point sides = middles.high - middles.low;
+    const auto axis =
+        static_cast<size_t>(std::max_element(sides.begin(), sides.end()) - sides.begin());
+    const double low = middles.low[axis], scale = kBins / sides[axis];
+    const auto binOf = [&](uint32_t triangle) {
+      const double bin = (middle(triangle)[axis] - low) * scale;
+      return bin < kBins ? static_cast<size_t>(bin) : kBins - 1;  // not a number: the last one
+    };
+    const size_t cut = bestCut(begin, count, binOf);
+    uint32_t end = begin;
+    for (uint32_t i = begin; i < begin + count; ++i) {
+      if (binOf(tree_.order_[i]) < cut) std::swap(tree_.order_[i], tree_.order_[end++]);
+    }
+    const uint32_t size = end - begin;
+    return size > 0 && size < count ? size : count / 2;
+  }
+
+  /// The first bin of the second part.
+  template <class BinOf>
+  size_t bestCut(uint32_t begin, uint32_t count, const BinOf& binOf) const {
+    std::array<Box, kBins> boxes;
+    std::array<uint32_t, kBins> counts{};
+    for (uint32_t i = begin; i < begin + count; ++i) {
+      const size_t bin = binOf(tree_.order_[i]);
+      extend(boxes[bin], boxes_[tree_.order_[i]]);
+      ++counts[bin];
+    }
+    const std::array<double, kBins> below = costs(boxes, counts);
+    std::reverse(boxes.begin(), boxes.end());
+    std::reverse(counts.begin(), counts.end());
+    const std::array<double, kBins> above = costs(boxes, counts);
+    size_t best = 1;
+    for (size_t cut = 2; cut < kBins; ++cut) {
+      const auto cost = [&](size_t at) { return below[at - 1] + above[kBins - 1 - at]; };
+      if (cost(cut) < cost(best)) best = cut;
+    }
+    return best;
+  }
+
+  /// What the first bins cost together: number of triangles by surface, up to each bin.
+  static std::array<double, kBins> costs(const std::array<Box, kBins>& boxes,
+                                         const std::array<uint32_t, kBins>& counts) {
+    std::array<double, kBins> result{};
+    Box box;
+    uint32_t count = 0;
+    for (size_t bin = 0; bin < kBins; ++bin) {
+      extend(box, boxes[bin]);
+      count += counts[bin];
+      result[bin] = count > 0 ? count * surface(box) : 0;
+    }
+    return result;
+  }
+
+  TriangleTree& tree_;
+  std::vector<Box> boxes_;  ///< of the triangles
+};
+
+TriangleTree::TriangleTree(const TriangleMesh& mesh) : mesh_(&mesh) {
+  Builder(*this).build();
+}
+
+std::optional<NearPlace> TriangleTree::closest(const Point& point, double bound) const {
+  struct Task {
+    uint32_t node;
+    double square;
+  };
+  std::optional<NearPlace> best;
+  std::array<Task, kStack> stack;
+  size_t open = 0;
+  if (!nodes_.empty()) stack[open++] = {0, squaredDistance(nodes_[0].box, point)};
+  while (open > 0) {
+    const Task task = stack[--open];
+    if (!(task.square <= bound * bound)) continue;
+    const Node& node = nodes_[task.node];
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const NearPlace found = nearestInTriangle(*mesh_, order_[i], point);
+      if (!(found.distance <= bound)) continue;
+      const bool same = best && found.distance == best->distance;
+      if (same && found.place.triangle > best->place.triangle) continue;
+      best = found;
+      bound = found.distance;
+    }
+    if (node.count > 0) continue;
+    Task near{node.first, squaredDistance(nodes_[node.first].box, point)};
+    Task far{node.first + 1, squaredDistance(nodes_[node.first + 1].box, point)};
+    if (far.square < near.square) std::swap(near, far);
+    stack[open++] = far;
+    stack[open++] = near;
+  }
+  return best;
+}
+
+void TriangleTree::crossings(const Line& line,
+                             const std::function<void(const Crossing&)>& visit) const {
+  const LineSight sight(line);
+  std::array<uint32_t, kStack> stack;
+  size_t open = 0;
+  if (!nodes_.empty()) stack[open++] = 0;
+  while (open > 0) {
+    const Node& node = nodes_[stack[--open]];
+    if (!meets(node.box, line)) continue;
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      if (const auto crossing = sight.crossing(*mesh_, order_[i])) visit(*crossing);
+    }
+    if (node.count > 0) continue;
+    stack[open++] = node.first + 1;
+    stack[open++] = node.first;
+  }
+}
+
+}  // namespace tetrakis::inline remesh
