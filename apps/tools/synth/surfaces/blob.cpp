@@ -71,7 +71,7 @@ class Sphere {
 
 Shape blob(uint32_t triangles, uint64_t seed) {
   constexpr double kFaceCount = 20, kBumps = 0.7, kWidth = 1.3;
-  constexpr int kOctaves = 4;
+  constexpr int kOctaves = 2;
   const double parts = std::sqrt(triangles / kFaceCount);
   Shape shape = Sphere(std::max(1U, static_cast<uint32_t>(parts + 0.5))).shape;
   for (Spot& point : shape.points)
