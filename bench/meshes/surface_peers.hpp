@@ -13,7 +13,7 @@ namespace tetrakis::bench {
 
 /// What is tried on each mesh.
 struct PeerSettings {
-  uint32_t sizes = 10;                    ///< numbers of triangles, evenly spaced by logarithm
+  uint32_t sizes = 10;                   ///< numbers of triangles, evenly spaced by logarithm
   uint32_t fewest = 250, most = 120000;  ///< but no more than the mesh has
   uint32_t coarsest_bits = 8, finest_bits = 12;  ///< of positions
 };
