@@ -14,7 +14,7 @@ constexpr uint32_t kNoMate = ~uint32_t{0};
 /// Of each node the neighbours, kNoMate where there is none. Neighbours know one another.
 using CubicGraph = std::vector<std::array<uint32_t, 3>>;
 
-/// Of each node the mate, a neighbour; itself, if it is matched alone; kNoMate if it is not matched.
+/// Of each node the mate, a neighbour; itself, if it is matched alone; kNoMate, if it has none.
 using Matching = std::vector<uint32_t>;
 
 /// Adds pairs to `matching`, in which none is alone, until there are as many as there can be. Nodes
