@@ -2,6 +2,7 @@
 // Files, standard input and output: what goes in comes out, whole or not at all.
 #include <sys/stat.h>
 
+#include "apps/tools/files/meshes/surface_file.hpp"
 #include "tests/cli/cli_fixture.hpp"
 #include "tests/support/tiny_tiff.hpp"
 
@@ -275,6 +276,23 @@ TEST_F(CliFiles, SynthesisIsDeterministicAndDependsOnTheSeed) {
   EXPECT_NE(content("a/height.tif"), content("c/height.tif"));
   EXPECT_EQ(cli("synth -o a --size 33").code, 2);
   EXPECT_EQ(cli("encode a/height.tif --texture a/texture.png --bytes 4k -o a.tks").code, 0);
+}
+
+TEST_F(CliFiles, SynthesisMakesSurfacesAsWell) {
+  for (const char* const name : {"a.glb", "a.obj", "a.ply"}) {
+    const std::string synth = "synth --kind knot --triangles 500 -o " + std::string(name);
+    ASSERT_EQ(cli(synth).code, 0);
+    EXPECT_EQ(cli(synth).code, 2);
+    const auto surface = tools::readSurface(path(name));
+    ASSERT_TRUE(surface.ok()) << surface.status().message();
+    EXPECT_NEAR(double(surface->triangles.size()), 500, 50);
+    EXPECT_EQ(surface->points.size() * 2, surface->triangles.size());
+  }
+  ASSERT_TRUE(tools::readSurface(path("a.obj"))->texture.has_value());
+  EXPECT_TRUE(cli("synth --kind blob --triangles 20 -o -").out.starts_with("glTF"));
+  EXPECT_EQ(cli("synth --kind blob -o b.tif").code, 1);
+  EXPECT_EQ(cli("synth --kind blob --size 65 -o b.glb").code, 1);
+  EXPECT_EQ(cli("synth --kind lakes --triangles 65 -o b").code, 1);
 }
 
 TEST_F(CliFiles, FolderWithoutManifestCannotBeVerified) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// tetrakis synth: a deterministic sample terrain, its texture and its map.
+// tetrakis synth: a deterministic sample terrain, its texture and its map; or a sample surface.
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "apps/tools/commands/command.hpp"
 #include "apps/tools/commands/options.hpp"
 #include "apps/tools/output/output.hpp"
+#include "apps/tools/synth/surfaces/synth_surface.hpp"
 #include "apps/tools/synth/synth.hpp"
 #include "base/parallel.hpp"
 
@@ -20,14 +22,15 @@ namespace tetrakis::tools {
 namespace {
 
 struct SynthArguments {
-  std::string folder;
-  SynthOptions options;
+  std::string output;
   std::string kind = kSynthKinds[0];
+  std::optional<uint32_t> size, triangles;
+  uint64_t seed = 1;
   bool force = false;
 };
 
-Status synth(const SynthArguments& arguments) {
-  const Result<OutputFolder> folder = OutputFolder::create(arguments.folder);
+Status synthTerrain(const SynthArguments& arguments, SynthKind kind) {
+  const Result<OutputFolder> folder = OutputFolder::create(arguments.output);
   if (!folder.ok()) return folder.status();
   std::vector<Output> outputs;
   for (const char* name : {"height.tif", "texture.png", "map.png"}) {
@@ -36,9 +39,10 @@ Status synth(const SynthArguments& arguments) {
     if (!output.ok()) return output.status();
     outputs.push_back(std::move(*output));
   }
-  SynthOptions options = arguments.options;
-  const auto kind = std::find(kSynthKinds.begin(), kSynthKinds.end(), arguments.kind);
-  options.kind = static_cast<SynthKind>(kind - kSynthKinds.begin());
+  SynthOptions options;
+  options.size = arguments.size.value_or(options.size);
+  options.seed = arguments.seed;
+  options.kind = kind;
   const SynthTerrain terrain = synthesize(options);
   const std::array<std::function<Status(const std::string&)>, 3> writers = {
       [&](const std::string& path) { return writeHeights(path, terrain.heights); },
@@ -56,26 +60,72 @@ Status synth(const SynthArguments& arguments) {
   return {};
 }
 
+Status synthSurface(const SynthArguments& arguments, SynthSurfaceKind kind) {
+  Result<Output> output = Output::plan(arguments.output, arguments.force, ".glb");
+  if (!output.ok()) return output.status();
+  const std::string format = std::filesystem::path(output->name()).extension();
+  if (format != ".glb" && format != ".obj" && format != ".ply")
+    return {TKS_USAGE, "a surface is written to a .glb, .obj or .ply"};
+  SynthSurfaceOptions options;
+  options.kind = kind;
+  options.triangles = arguments.triangles.value_or(options.triangles);
+  options.seed = arguments.seed;
+  SynthSurface surface = synthesizeSurface(options);
+  if (format != ".ply") surface.mesh.texture = &surface.texture;
+  const Status written =
+      output->stage([&surface](const std::string& path) { return writeMesh(path, surface.mesh); });
+  return written.ok() ? output->commit() : written;
+}
+
+/// Nothing if it is none of the names.
+template <class Kind, size_t kCount>
+std::optional<Kind> kindNamed(const std::string& name,
+                              const std::array<const char*, kCount>& names) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<Kind>(found - names.begin());
+}
+
+Status synth(const SynthArguments& arguments) {
+  const auto surface = kindNamed<SynthSurfaceKind>(arguments.kind, kSynthSurfaces);
+  if (surface && arguments.size)
+    return {TKS_USAGE, "--size is of terrain; a surface has --triangles"};
+  if (!surface && arguments.triangles)
+    return {TKS_USAGE, "--triangles is of surfaces; a terrain has --size"};
+  if (surface) return synthSurface(arguments, *surface);
+  return synthTerrain(arguments, *kindNamed<SynthKind>(arguments.kind, kSynthKinds));
+}
+
+std::vector<std::string> allKinds() {
+  std::vector<std::string> all(kSynthKinds.begin(), kSynthKinds.end());
+  all.insert(all.end(), kSynthSurfaces.begin(), kSynthSurfaces.end());
+  return all;
+}
+
 }  // namespace
 
 void addSynth(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<SynthArguments>();
-  CLI::App& verb = *app.add_subcommand("synth", "Make a sample terrain with its texture and map");
-  verb.add_option("-o,--output", arguments->folder,
-                  "Folder for height.tif, texture.png and map.png")
+  CLI::App& verb = *app.add_subcommand(
+      "synth", "Make a sample terrain with its texture and map, or a sample surface");
+  verb.add_option("-o,--output", arguments->output,
+                  "Folder for height.tif, texture.png and map.png; of a surface, its .glb, .obj or "
+                  ".ply")
       ->required()
-      ->type_name("DIR");
-  verb.add_option("--size", arguments->options.size, "Samples along a side (513)")
+      ->type_name("OUT");
+  verb.add_option("--size", arguments->size, "Samples along a side of a terrain (513)")
       ->check(silent(CLI::Range(2u, 8193u)))
       ->type_name("N");
-  verb.add_option("--seed", arguments->options.seed, "Another seed, another terrain (1)")
+  verb.add_option("--triangles", arguments->triangles, "Of a surface, about (20000)")
+      ->check(silent(CLI::Range(20u, 4000000u)))
+      ->type_name("N");
+  verb.add_option("--seed", arguments->seed, "Another seed, another terrain or surface (1)")
       ->type_name("S");
   verb.add_option(
           "--kind", arguments->kind,
           "Of terrain: mountains (default), coast, lakes, steps, voids, plain, city, rescaled, "
-          "bands, geoid, mosaic, turned, facets")
-      ->check(
-          silent(CLI::IsMember(std::vector<std::string>(kSynthKinds.begin(), kSynthKinds.end()))))
+          "bands, geoid, mosaic, turned, facets, smooth; of surfaces: blob, knot, scan")
+      ->check(silent(CLI::IsMember(allKinds())))
       ->type_name("NAME");
   addForce(verb, arguments->force);
   verb.callback([arguments, &line] { line.action = [arguments] { return synth(*arguments); }; });

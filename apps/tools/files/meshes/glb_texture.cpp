@@ -14,17 +14,6 @@ using nlohmann::json;
 constexpr int kTextureQuality = 90;
 constexpr int kLinear = 9729, kLinearMipmapLinear = 9987, kClampToEdge = 33071;
 
-/// WebP has no grey, nor has the KTX2 that glTF takes.
-ImageFile inColour(const ImageFile& grey) {
-  ImageFile colour{grey.width, grey.height, grey.channels + 2, TKS_U8, {}};
-  colour.data.reserve(grey.data.size() / grey.channels * colour.channels);
-  for (size_t i = 0; i < grey.data.size(); i += grey.channels) {
-    colour.data.insert(colour.data.end(), 3, grey.data[i]);
-    if (grey.channels == 2) colour.data.push_back(grey.data[i + 1]);
-  }
-  return colour;
-}
-
 Result<EncodedTexture> ofType(const char* mime_type, Result<std::vector<std::byte>> bytes) {
   if (!bytes.ok()) return bytes.status();
   return EncodedTexture{mime_type, std::move(*bytes)};
@@ -46,6 +35,16 @@ const char* extensionOf(MeshTexture format) {
 
 }  // namespace
 
+ImageFile greyInColour(const ImageFile& grey) {
+  ImageFile colour{grey.width, grey.height, grey.channels + 2, TKS_U8, {}};
+  colour.data.reserve(grey.data.size() / grey.channels * colour.channels);
+  for (size_t i = 0; i < grey.data.size(); i += grey.channels) {
+    colour.data.insert(colour.data.end(), 3, grey.data[i]);
+    if (grey.channels == 2) colour.data.push_back(grey.data[i + 1]);
+  }
+  return colour;
+}
+
 ImageFile reducedTo8Bits(const ImageFile& image) {
   ImageFile reduced{image.width, image.height, image.channels, TKS_U8, {}};
   reduced.data.resize(image.data.size() / 2);
@@ -62,7 +61,7 @@ ImageFile reducedTo8Bits(const ImageFile& image) {
 Result<EncodedTexture> encodeTexture(const ImageFile& image, MeshTexture format) {
   const ImageFile reduced = image.sample == TKS_U8 ? ImageFile{} : reducedTo8Bits(image);
   const ImageFile& texels = image.sample == TKS_U8 ? image : reduced;
-  const auto coloured = [&] { return image.channels < 3 ? inColour(texels) : texels; };
+  const auto coloured = [&] { return image.channels < 3 ? greyInColour(texels) : texels; };
   switch (format) {
     case MeshTexture::kKtx2:
       return ofType("image/ktx2", encodeKtx2(coloured()));

@@ -22,6 +22,9 @@ std::vector<float> smoothNormals(const MeshFile& mesh);
 /// A picture of 16 bits a channel in 8.
 ImageFile reducedTo8Bits(const ImageFile& image);
 
+/// A grey picture of 8 bits in RGB, its alpha kept.
+ImageFile greyInColour(const ImageFile& grey);
+
 struct EncodedTexture {
   const char* mime_type;
   std::vector<std::byte> bytes;

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// bench_surface FILE...: bytes of the geometry of triangle meshes at equal error, which is the
+// larger of the two RMS distances between a mesh and what is decoded, in 1e-4 of the diagonal of
+// its bounding box.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/tools/files/meshes/surface_file.hpp"
+#include "bench/harness/arguments.hpp"
+#include "bench/meshes/surface_peers.hpp"
+
+namespace tetrakis::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::vector<std::string> files;
+  std::vector<double> errors = {3.5, 2.5, 1.75, 1.2};
+  PeerSettings peers;
+  bool points = false;
+};
+
+/// Files, and those of folders and the folders below, by name.
+std::vector<std::string> meshFiles(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    if (!fs::is_directory(path)) {
+      files.push_back(path);
+      continue;
+    }
+    std::vector<std::string> found;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path))
+      if (entry.is_regular_file() && tools::isMeshFile(entry.path().string()))
+        found.push_back(entry.path().string());
+    std::sort(found.begin(), found.end());
+    files.insert(files.end(), found.begin(), found.end());
+  }
+  return files;
+}
+
+/// Points of files are distinct already; triangles of fewer than three points say nothing.
+TriangleMesh weldedMesh(tools::SurfaceFile file) {
+  TriangleMesh mesh{std::move(file.points), std::move(file.triangles)};
+  std::erase_if(mesh.triangles,
+                [](const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+  return mesh;
+}
+
+/// What a codec takes for a mesh: the least of some curves.
+struct Row {
+  const char* name;
+  std::vector<ErrorCurve> curves;
+};
+
+void print(const Row& row, const std::vector<double>& errors) {
+  std::printf("  %-22s", row.name);
+  for (const double error : errors) {
+    const std::optional<double> bytes = bytesAt(row.curves, error);
+    if (bytes)
+      std::printf(" %9.0f", *bytes);
+    else
+      std::printf(" %9s", "-");
+  }
+  std::printf("\n");
+}
+
+void printPoints(const std::vector<PeerCoding>& codings) {
+  for (const PeerCoding& coding : codings)
+    std::printf("  %7u triangles, %2u bits: error %7.3f, %8.0f bytes\n", coding.triangles,
+                coding.bits, coding.point.error, coding.point.bytes);
+}
+
+Result<Row> peersRow(const TriangleMesh& mesh, const Options& options) {
+  const Result<std::vector<PeerCoding>> codings = surfacePeers(mesh, options.peers);
+  if (!codings.ok()) return codings.status();
+  if (options.points) printPoints(*codings);
+  // By precision: the sizes of a curve have others between them, its precision has not.
+  std::map<uint32_t, ErrorCurve> curves;
+  for (const PeerCoding& coding : *codings) curves[coding.bits].push_back(coding.point);
+  Row row{"meshoptimizer + Draco", {}};
+  for (auto& [bits, curve] : curves) row.curves.push_back(std::move(curve));
+  return row;
+}
+
+Status measure(const Options& options, const std::string& path) {
+  Result<tools::SurfaceFile> file = tools::readSurface(path);
+  if (!file.ok()) return file.status();
+  const TriangleMesh mesh = weldedMesh(std::move(*file));
+  if (!(diagonal(mesh) > 0) || mesh.triangles.empty())
+    return {TKS_USAGE, path + " has no triangle of three points"};
+  std::printf("%s: %zu triangles, %zu points\n", path.c_str(), mesh.triangles.size(),
+              mesh.points.size());
+  const Result<Row> peers = peersRow(mesh, options);
+  if (!peers.ok()) return peers.status();
+  std::printf("  %-22s", "bytes at an error of");
+  for (const double error : options.errors) std::printf(" %9.2f", error);
+  std::printf("\n");
+  print(*peers, options.errors);
+  std::fflush(stdout);
+  return {};
+}
+
+}  // namespace
+}  // namespace tetrakis::bench
+
+int main(int argc, char** argv) {
+  using namespace tetrakis::bench;
+  Options options;
+  Arguments arguments("Bytes of triangle meshes at equal error.");
+  arguments.required({"FILE", "meshes, and folders of meshes"}, options.files);
+  arguments.numbers({"--errors", "in 1e-4 of the diagonal"}, options.errors);
+  arguments.within({"--sizes", "that meshoptimizer simplifies to"}, options.peers.sizes, 1, 100);
+  arguments.flag({"--points", "also each coding that was tried"}, options.points);
+  if (const auto code = arguments.parse(argc, argv)) return *code;
+  int failed = 0;
+  for (const std::string& file : meshFiles(options.files)) {
+    const tetrakis::Status status = measure(options, file);
+    if (!status.ok()) failed = exitCode(status);
+  }
+  return failed;
+}
