@@ -147,9 +147,10 @@ Status checkImage(const tks_image& i) {
   if (i.sample != TKS_U8 && i.sample != TKS_U16)
     return misuse("A texture has 8 or 16 bits a sample.");
   if (i.channels < 1 || i.channels > 4) return misuse("A texture has 1 to 4 channels.");
-  if (i.width < 1 || i.height < 1 || i.width > kMaxTextureSide || i.height > kMaxTextureSide) {
+  const uint32_t most = i.domain == TKS_DOMAIN_FOREST ? kMaxSide : kMaxTextureSide;
+  if (i.width < 1 || i.height < 1 || i.width > most || i.height > most) {
     return misuse("A texture of " + std::to_string(i.width) + " x " + std::to_string(i.height) +
-                  " texels: each side takes 1 to " + std::to_string(kMaxTextureSide) + ".");
+                  " texels: each side takes 1 to " + std::to_string(most) + ".");
   }
   const uint32_t largest = largestTexel(i.sample);
   if (i.white_level > largest || (i.sample == TKS_U8 && i.white_level % largest != 0))

@@ -15,6 +15,7 @@
 #include "api/encoded_stream.hpp"
 #include "api/guarded.hpp"
 #include "base/forest.hpp"
+#include "codec/remesh/mesh_colours.hpp"
 #include "codec/remesh/mesh_distance.hpp"
 #include "codec/remesh/mesh_topology.hpp"
 #include "codec/remesh/object.hpp"
@@ -63,12 +64,47 @@ Result<TriangleMesh> meshOf(const tks_triangle_mesh& given) {
   return mesh;
 }
 
+/// Of a mesh with a texture, what the image is worth beside the heights while a base is sought.
+constexpr double kHeightsPart = 0.25;
+
+/// MeshColours for each byte of a budget: more cannot be told from fewer.
+constexpr double kTexelsForByte = 64;
+
+Status checkImage(const tks_triangle_mesh& mesh, const tks_image* image) {
+  if (image == nullptr) return {};
+  if (mesh.texcoords == nullptr)
+    return misused("The mesh has no texture coordinates for its image.");
+  const bool sound = image->data != nullptr && image->channels >= 1 && image->channels <= 4 &&
+                     image->width >= 1 && image->height >= 1 &&
+                     (image->sample == TKS_U8 || image->sample == TKS_U16) &&
+                     image->domain == TKS_DOMAIN_PLANE;
+  return sound ? Status() : misused("The image of a mesh has 8 or 16 bits and 1 to 4 channels.");
+}
+
+MeshImage imageOf(const tks_image& image) {
+  const size_t values = size_t{image.width} * image.height * image.channels;
+  MeshImage out{image.width, image.height, image.channels, {}, {}};
+  if (image.sample == TKS_U8)
+    out.bytes = {static_cast<const uint8_t*>(image.data), values};
+  else
+    out.shorts = {static_cast<const uint16_t*>(image.data), values};
+  return out;
+}
+
+/// A texture on the patches of an object.
+struct PatchTexture {
+  std::vector<uint8_t> bytes;
+  std::vector<uint16_t> shorts;
+  Forest forest;
+};
+
 /// A base that was tried, and the stream over it.
 struct Trial {
   ResampledObject object;
   std::vector<uint8_t> stream;
   double resampling_error = 0;
   MeshDistance distance;
+  uint32_t texture_depth = 0;
 };
 
 using SharedTrial = std::shared_ptr<const Trial>;
@@ -83,9 +119,10 @@ int positionBits(uint32_t triangles) {
 
 class ObjectEncoder {
  public:
-  ObjectEncoder(const tks_triangle_mesh& given, const TriangleMesh& mesh,
+  /// image: null, or checked.
+  ObjectEncoder(const tks_triangle_mesh& given, const TriangleMesh& mesh, const tks_image* image,
                 const tks_encode_options& options)
-      : given_(given), options_(options), source_(mesh, kFewestTriangles) {}
+      : given_(given), image_(image), options_(options), source_(mesh, kFewestTriangles) {}
 
   const ObjectSource& source() const { return source_; }
 
@@ -96,14 +133,16 @@ class ObjectEncoder {
       return misused("The smallest base mesh has " + std::to_string(source_.fewestTriangles()) +
                      " triangles; a stream takes at most " +
                      std::to_string(2 * Forest::kMostPatches) + ". Leave small parts out.");
-    return options_.bytes > 0 ? withinBytes() : withinError();
+    Result<SharedTrial> taken = options_.bytes > 0 ? withinBytes() : withinError();
+    if (!taken.ok() || image_ == nullptr) return taken;
+    return withTexture(**taken);
   }
 
  private:
   /// The base with the least error within the budget: from the one tried first to finer or coarser
   /// ones, as long as they are better.
   Result<SharedTrial> withinBytes() {
-    const double wished = static_cast<double>(options_.bytes) / kBytesForTriangle;
+    const double wished = static_cast<double>(heightBytes()) / kBytesForTriangle;
     uint32_t triangles = kFewestTriangles;
     while (triangles < kMostTriangles && triangles * std::sqrt(2.0) < wished) triangles *= 2;
     Result<SharedTrial> best = inBudget(triangles);
@@ -129,10 +168,56 @@ class ObjectEncoder {
     return best;
   }
 
+  /// Of a budget, while a base is sought.
+  uint64_t heightBytes() const {
+    const double part = image_ != nullptr ? kHeightsPart : 1;
+    return static_cast<uint64_t>(part * static_cast<double>(options_.bytes));
+  }
+
   Result<SharedTrial> inBudget(uint32_t triangles) {
     tks_encode_options options = options_;
     options.psnr = options.max_error = 0;
-    return coded(resampled(triangles), options);
+    options.bytes = heightBytes();
+    return coded(resampled(triangles), options, nullptr);
+  }
+
+  /// The heights of a trial beside the texture, which the target is of as well.
+  Result<SharedTrial> withTexture(const Trial& trial) const {
+    const PatchTexture texture = textureOn(trial.object);
+    tks_image image = *image_;
+    const Extent raster = texture.forest.raster();
+    image.width = raster.width;
+    image.height = raster.height;
+    image.data = texture.bytes.empty() ? static_cast<const void*>(texture.shorts.data())
+                                       : static_cast<const void*>(texture.bytes.data());
+    image.has_geotransform = 0;
+    image.domain = TKS_DOMAIN_FOREST;
+    image.forest = {static_cast<uint32_t>(texture.forest.depth()), texture.forest.patches(),
+                    texture.forest.sides().data()};
+    Trial both = trial;
+    both.texture_depth = image.forest.depth;
+    return coded(std::move(both), options_, &image);
+  }
+
+  /// As many texels as the mesh shows of the image, unless the budget is too small for them.
+  PatchTexture textureOn(const ResampledObject& object) const {
+    const MeshColours texels(
+        source_.cleaned(), {given_.texcoords, 6 * size_t{given_.triangle_count}}, imageOf(*image_));
+    double wanted = texels.shown();
+    if (options_.bytes > 0)
+      wanted = std::min(wanted, kTexelsForByte * static_cast<double>(options_.bytes));
+    int depth = 1;
+    const double patches = object.base.forest->patches();
+    while (depth < TKS_MOST_OBJECT_DEPTH && patches * std::exp2(2 * depth) < wanted &&
+           object.base.forest->patches() < Forest::mostPatches(depth + 1))
+      ++depth;
+    PatchTexture out{{}, {}, Forest(depth, object.base.forest->sides())};
+    out.shorts = texels.at(source_.placesOn(object, depth));
+    if (image_->sample == TKS_U8) {
+      out.bytes.assign(out.shorts.begin(), out.shorts.end());
+      out.shorts.clear();
+    }
+    return out;
   }
 
   /// The fewest bytes over bases whose resampling leaves room for errors.
@@ -146,7 +231,7 @@ class ObjectEncoder {
     for (uint32_t triangles = kFewestTriangles; triangles <= kMostTriangles; triangles *= 2) {
       Trial trial = resampled(triangles);
       if (trial.resampling_error > kResamplingPart * error) continue;
-      Result<SharedTrial> made = options_.max_error > 0 ? coded(std::move(trial), options_)
+      Result<SharedTrial> made = options_.max_error > 0 ? coded(std::move(trial), options_, nullptr)
                                                         : toPsnr(std::move(trial), error);
       if (!made.ok()) return made;
       if (best.ok() && (*made)->stream.size() >= (*best)->stream.size()) break;
@@ -167,7 +252,7 @@ class ObjectEncoder {
     for (int attempt = 0; attempt < kTries; ++attempt) {
       tks_encode_options options = options_;
       options.psnr = std::max(1.0, 20 * std::log10(range / of_heights));
-      made = coded(trial, options);
+      made = coded(trial, options, nullptr);
       if (!made.ok() || (*made)->distance.error <= error) return made;
       of_heights *= kLess * std::min(1.0, error / (*made)->distance.error);
     }
@@ -185,13 +270,13 @@ class ObjectEncoder {
     return meshDistance(source_.tree(), TriangleTree(mesh));
   }
 
-  Result<SharedTrial> coded(Trial trial, tks_encode_options options) const {
+  Result<SharedTrial> coded(Trial trial, tks_encode_options options, const tks_image* image) const {
     options.explain = nullptr;
     const tks_heights heights = heightsOf(trial.object);
     tks_buffer buffer{};
     std::string message(300, '\0');
     const tks_status status =
-        tks_encode(&heights, nullptr, &options, &buffer, message.data(), message.size());
+        tks_encode(&heights, image, &options, &buffer, message.data(), message.size());
     if (status != TKS_OK) return Status(status, message.c_str());
     trial.stream.assign(buffer.data, buffer.data + buffer.size);
     tks_free_buffer(&buffer);
@@ -231,6 +316,7 @@ class ObjectEncoder {
   }
 
   const tks_triangle_mesh& given_;
+  const tks_image* image_;
   const tks_encode_options& options_;
   ObjectSource source_;
 };
@@ -252,6 +338,7 @@ tks_object_report reportOf(const ObjectSource& source, const Trial& trial) {
   report.error = trial.distance.error;
   report.largest = std::max(trial.distance.to_first.largest, trial.distance.to_second.largest);
   report.psnr = trial.distance.psnr;
+  report.texture_depth = trial.texture_depth;
   return report;
 }
 
@@ -268,8 +355,8 @@ Status checkObjectOptions(const tks_encode_options& o) {
   return {};
 }
 
-Status encodeObject(const tks_triangle_mesh* mesh, const tks_encode_options* options,
-                    tks_object_report* report, tks_buffer& out) {
+Status encodeObject(const tks_triangle_mesh* mesh, const tks_image* image,
+                    const tks_encode_options* options, tks_object_report* report, tks_buffer& out) {
   if (mesh == nullptr) return misused("The mesh is missing.");
   if (options == nullptr) return misused("The encoding options are missing.");
   tks_triangle_mesh given{};
@@ -280,11 +367,18 @@ Status encodeObject(const tks_triangle_mesh* mesh, const tks_encode_options* opt
       takeSized("the encoding options", *options, offsetof(tks_encode_options, threads), known);
   if (status.ok()) status = checkObjectOptions(known);
   if (!status.ok()) return status;
+  tks_image texture{};
+  if (image != nullptr)
+    status = takeSized("the texture", *image, offsetof(tks_image, geotransform), texture);
+  if (status.ok() && image != nullptr && known.bytes == 0)
+    status = misused("A mesh with an image takes a number of bytes as its target.");
+  if (status.ok()) status = checkImage(given, image != nullptr ? &texture : nullptr);
+  if (!status.ok()) return status;
   if (report != nullptr && (report->size < sizeof *report || report->size > kMostStructBytes))
     return misused("The struct of the report has a wrong size.");
   const Result<TriangleMesh> triangles = meshOf(given);
   if (!triangles.ok()) return triangles.status();
-  ObjectEncoder encoder(given, *triangles, known);
+  ObjectEncoder encoder(given, *triangles, image != nullptr ? &texture : nullptr, known);
   const Result<SharedTrial> taken = encoder.encode();
   if (!taken.ok()) return taken.status();
   if (report != nullptr) giveSized(reportOf(encoder.source(), **taken), *report);
@@ -295,12 +389,12 @@ Status encodeObject(const tks_triangle_mesh* mesh, const tks_encode_options* opt
 }  // namespace
 }  // namespace tetrakis::inline api
 
-tks_status tks_encode_object(const tks_triangle_mesh* mesh, const tks_encode_options* options,
-                             tks_object_report* report, tks_buffer* out, char* message,
-                             size_t message_size) {
+tks_status tks_encode_object(const tks_triangle_mesh* mesh, const tks_image* image,
+                             const tks_encode_options* options, tks_object_report* report,
+                             tks_buffer* out, char* message, size_t message_size) {
   if (out != nullptr) *out = {nullptr, 0};
   return tetrakis::reporting(message, message_size, [&]() -> tetrakis::Status {
     if (out == nullptr) return tetrakis::outputMissing();
-    return tetrakis::encodeObject(mesh, options, report, *out);
+    return tetrakis::encodeObject(mesh, image, options, report, *out);
   });
 }

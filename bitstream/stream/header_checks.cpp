@@ -100,7 +100,8 @@ Status checkTexture(const StreamHeader& header) {
   if (!header.texture) return {};
   const TextureHeader& t = *header.texture;
   const Extent shown = t.shown();
-  if (shown.width > kMaxTextureSide || shown.height > kMaxTextureSide)
+  const bool large = shown.width > kMaxTextureSide || shown.height > kMaxTextureSide;
+  if (large && t.wavelet.forest == nullptr)
     return {TKS_CORRUPT, "Corrupt stream: its texture has more than 32768 columns or rows."};
   if ((t.opaque || t.alpha_bytes > 0) && (t.channels % 2 == 1 || (t.opaque && t.alpha_bytes > 0)))
     return {TKS_CORRUPT,

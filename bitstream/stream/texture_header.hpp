@@ -16,7 +16,7 @@
 
 namespace tetrakis::inline stream {
 
-inline constexpr uint32_t kMaxTextureSide = 1u << 15;  ///< texels in a row or column
+inline constexpr uint32_t kMaxTextureSide = 1u << 15;  ///< texels in a row or column of a grid
 
 /// These stand in the place of a number of bit-planes: the texture is drawn
 /// (codec/drawing/drawing_pass.hpp), or its samples are stored (bitstream/coder/byte_planes.hpp).

@@ -83,25 +83,48 @@ ObjectSource::ObjectSource(const TriangleMesh& mesh, uint32_t fewest)
       decimation_(cleaned_.mesh, fewest),
       diagonal_(tetrakis::diagonal(cleaned_.mesh)) {}
 
+/// The base of so many triangles, as quads.
+struct ObjectSource::Quads {
+  DecimatedMesh decimated;
+  PairedMesh paired;
+  QuadForest forest;
+};
+
+ObjectSource::Quads ObjectSource::quadsOf(uint32_t base_triangles) const {
+  Quads quads;
+  quads.decimated = decimation_.base(base_triangles);
+  quads.paired = paired(quads.decimated.mesh);
+  quads.forest = quadForest(quads.paired.quads);
+  return quads;
+}
+
+CastSurface ObjectSource::castOn(const BaseMesh& base, const Quads& quads) const {
+  const PatchMap map(quads.paired, quads.forest);
+  return castHeights(base, tree_, [&](uint32_t patch, double x, double y) {
+    return decimation_.toInput(quads.decimated, onBase(quads.paired, map.at(patch, x, y)));
+  });
+}
+
 ResampledObject ObjectSource::resampled(const ObjectShape& shape) const {
-  const DecimatedMesh decimated = decimation_.base(shape.base_triangles);
-  const PairedMesh paired = tetrakis::paired(decimated.mesh);
-  const QuadForest quads = quadForest(paired.quads);
-  ResampledObject object{gridAround(cleaned_.mesh, shape.position_bits), {}};
+  const Quads quads = quadsOf(shape.base_triangles);
+  ResampledObject object{gridAround(cleaned_.mesh, shape.position_bits), {}, shape.base_triangles};
   BaseMesh& base = object.base;
-  base.forest = std::make_shared<const Forest>(shape.depth, quads.sides);
-  for (uint32_t patch = 0; patch < quads.quads.size(); ++patch) {
-    const Quad& quad = paired.quads[quads.quads[patch]];
+  base.forest = std::make_shared<const Forest>(shape.depth, quads.forest.sides);
+  for (uint32_t patch = 0; patch < quads.forest.quads.size(); ++patch) {
+    const Quad& quad = quads.paired.quads[quads.forest.quads[patch]];
     for (uint32_t corner = 0; corner < Forest::kSides; ++corner) {
-      const uint32_t point = quad.corners[quads.quadCorner(patch, corner)];
-      base.corners.push_back(cellOf(base, paired.mesh.points[point]));
+      const uint32_t point = quad.corners[quads.forest.quadCorner(patch, corner)];
+      base.corners.push_back(cellOf(base, quads.paired.mesh.points[point]));
     }
   }
-  const PatchMap map(paired, quads);
-  object.surface = castHeights(base, tree_, [&](uint32_t patch, double x, double y) {
-    return decimation_.toInput(decimated, onBase(paired, map.at(patch, x, y)));
-  });
+  object.surface = castOn(base, quads);
   return object;
+}
+
+std::vector<SurfacePoint> ObjectSource::placesOn(const ResampledObject& object, int depth) const {
+  BaseMesh base = object.base;
+  base.forest = std::make_shared<const Forest>(depth, object.base.forest->sides());
+  return castOn(base, quadsOf(object.base_triangles)).places;
 }
 
 }  // namespace tetrakis::inline remesh

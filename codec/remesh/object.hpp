@@ -25,6 +25,7 @@ struct ObjectShape {
 struct ResampledObject {
   BaseMesh base;
   CastSurface surface;
+  uint32_t base_triangles = 0;  ///< as asked for
 };
 
 class ObjectSource {
@@ -46,7 +47,14 @@ class ObjectSource {
   /// Bases have no fewer triangles than the decimation could leave.
   ResampledObject resampled(const ObjectShape& shape) const;
 
+  /// Where samples of patches of another depth, over the same base, lie on the mesh.
+  std::vector<SurfacePoint> placesOn(const ResampledObject& object, int depth) const;
+
  private:
+  struct Quads;
+  Quads quadsOf(uint32_t base_triangles) const;
+  CastSurface castOn(const BaseMesh& base, const Quads& quads) const;
+
   CleanedMesh cleaned_;
   TriangleTree tree_;
   MappedDecimation decimation_;

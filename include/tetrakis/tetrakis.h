@@ -202,7 +202,7 @@ typedef struct tks_heights {
 /* A texture to encode: channels 1 grey, 2 grey+alpha, 3 RGB, 4 RGBA, interleaved, tightly packed.
  * With `opaque` the last of 2 or 4 is a further colour, such as near infrared, which pictures and
  * meshes leave out. A texture covers the same footprint as the height field. sample: TKS_U8 or
- * TKS_U16. Sizes from 1 x 1 to 32 768 x 32 768.
+ * TKS_U16. Sizes from 1 x 1 to 32 768 x 32 768, on a forest to those of its raster.
  *
  * Cut-outs: an alpha that is 0 or the largest value, and nothing else, is coded as a mask ahead of
  * the colours and comes back exactly. (Where all is drawn in few colours, alpha is one of their
@@ -432,6 +432,9 @@ typedef struct tks_triangle_mesh {
                                              counter-clockwise seen from outside */
   const char* unit;                      /* UTF-8, NULL: unknown */
   const char* description;               /* UTF-8, a name; NULL: none */
+  const float* texcoords;                /* 6 * triangle_count, beside an image: where the corners of
+                                            each triangle lie on it. (0, 0) is its upper left corner,
+                                            (1, 1) its lower right one; it repeats beyond these */
 } tks_triangle_mesh;
 
 /* What became of a mesh. Distances are between its surface and that of the decoded stream, in its
@@ -447,6 +450,7 @@ typedef struct tks_object_report {
   double resampling_error;      /* of all samples, uncoded: the larger of the two RMS distances */
   double error, largest;        /* of the stream, likewise; and the largest distance */
   double psnr;                  /* 20 log10(diagonal / error) */
+  uint32_t texture_depth;       /* of the forest that the texture lies on; 0: there is none */
 } tks_object_report;
 
 /* Encodes the surface of a mesh as an object: heights along the normals of a base mesh
@@ -455,10 +459,17 @@ typedef struct tks_object_report {
  * psnr (of the surface: 20 log10(diagonal / error), as tks_object_report has it; the fewest bytes
  * are sought), or max_error (every sample of the base keeps its height within that distance, and the
  * resampling error is at most a third of it); index, progress, threads. `report` may be NULL.
+ *
+ * image: the texture of the mesh, which has texcoords, or NULL. Its texels are resampled on the same
+ * patches, so that receivers need no coordinates, and it has no seams: about as many of them as the
+ * mesh uses of the image, or fewer where `bytes` are few, which is the only target beside an image.
+ * Of its place nothing counts.
+ *
  * TKS_USAGE, with a sentence in message: a mesh, or options, that break the rules; no triangle is
  * left after cleaning; the base mesh takes more than 4096 patches, since there are too many parts;
  * the target cannot be met. */
-tks_status tks_encode_object(const tks_triangle_mesh* mesh, const tks_encode_options* options,
+tks_status tks_encode_object(const tks_triangle_mesh* mesh, const tks_image* image,
+                             const tks_encode_options* options,
                              tks_object_report* report, tks_buffer* out, char* message,
                              size_t message_size);
 
