@@ -102,7 +102,7 @@ class TrackCoder {
       state_.run(source_.plan, pass, io_);
       passes_.pop(state_.bands[pass.band]);
       append(track_.points, io_.point());
-      passPiece(mostPasses());
+      passPiece(most_passes_);
     }
   }
 
@@ -130,7 +130,8 @@ class TrackCoder {
         passes_(source.plan, planes),
         nothing_to_say_(nothing.squares() == 0),
         io_(nothing),
-        track_{{}, {nothing}, planes} {}
+        track_{{}, {nothing}, planes},
+        most_passes_(mostPasses()) {}
 
   /// Three in each bit-plane of every tier.
   size_t mostPasses() const {
@@ -146,6 +147,7 @@ class TrackCoder {
   bool nothing_to_say_;
   EncodingIo io_;
   EncodedTrack track_;
+  size_t most_passes_;  ///< counted once: forests have thousands of bands
 };
 
 /// The largest of so many numbers, which are found on several threads.
