@@ -67,7 +67,10 @@ Result<TriangleMesh> meshOf(const tks_triangle_mesh& given) {
 /// Of a mesh with a texture, what the image is worth beside the heights while a base is sought.
 constexpr double kHeightsPart = 0.25;
 
-/// MeshColours for each byte of a budget: more cannot be told from fewer.
+/// Places of either surface by which bases are compared; reports take more.
+constexpr size_t kTrialPlaces = 6000;
+
+/// Texels for each byte of a budget: more cannot be told from fewer.
 constexpr double kTexelsForByte = 64;
 
 Status checkImage(const tks_triangle_mesh& mesh, const tks_image* image) {
@@ -134,8 +137,15 @@ class ObjectEncoder {
                      " triangles; a stream takes at most " +
                      std::to_string(2 * Forest::kMostPatches) + ". Leave small parts out.");
     Result<SharedTrial> taken = options_.bytes > 0 ? withinBytes() : withinError();
-    if (!taken.ok() || image_ == nullptr) return taken;
-    return withTexture(**taken);
+    if (taken.ok() && image_ != nullptr) taken = withTexture(**taken);
+    if (!taken.ok()) return taken;
+    Trial measured = **taken;
+    measured.resampling_error =
+        distanceOf(measured.object, measured.object.surface.heights, kDistanceSamples).error;
+    std::vector<float> heights(measured.object.surface.heights.size());
+    if (Status decoded = decode(measured.stream, heights); !decoded.ok()) return decoded;
+    measured.distance = distanceOf(measured.object, heights, kDistanceSamples);
+    return std::make_shared<const Trial>(std::move(measured));
   }
 
  private:
@@ -178,7 +188,7 @@ class ObjectEncoder {
     tks_encode_options options = options_;
     options.psnr = options.max_error = 0;
     options.bytes = heightBytes();
-    return coded(resampled(triangles), options, nullptr);
+    return coded({resampled(triangles), {}, 0, {}}, options, nullptr);
   }
 
   /// The heights of a trial beside the texture, which the target is of as well.
@@ -229,7 +239,9 @@ class ObjectEncoder {
         misused("No base mesh of up to " + std::to_string(kMostTriangles) +
                 " triangles comes as near to the mesh as asked for: ask for a larger error.");
     for (uint32_t triangles = kFewestTriangles; triangles <= kMostTriangles; triangles *= 2) {
-      Trial trial = resampled(triangles);
+      Trial trial{resampled(triangles), {}, 0, {}};
+      trial.resampling_error =
+          distanceOf(trial.object, trial.object.surface.heights, kTrialPlaces).error;
       if (trial.resampling_error > kResamplingPart * error) continue;
       Result<SharedTrial> made = options_.max_error > 0 ? coded(std::move(trial), options_, nullptr)
                                                         : toPsnr(std::move(trial), error);
@@ -259,15 +271,14 @@ class ObjectEncoder {
     return misused("The error that is asked for cannot be met.");
   }
 
-  Trial resampled(uint32_t triangles) {
-    Trial trial{source_.resampled({triangles, kDepth, positionBits(triangles)}), {}, 0, {}};
-    trial.resampling_error = distanceOf(trial.object, trial.object.surface.heights).error;
-    return trial;
+  ResampledObject resampled(uint32_t triangles) const {
+    return source_.resampled({triangles, kDepth, positionBits(triangles)});
   }
 
-  MeshDistance distanceOf(const ResampledObject& object, const std::vector<float>& heights) const {
+  MeshDistance distanceOf(const ResampledObject& object, const std::vector<float>& heights,
+                          size_t places) const {
     const TriangleMesh mesh = meshOfSamples(object.base, heights);
-    return meshDistance(source_.tree(), TriangleTree(mesh));
+    return meshDistance(source_.tree(), TriangleTree(mesh), places);
   }
 
   Result<SharedTrial> coded(Trial trial, tks_encode_options options, const tks_image* image) const {
@@ -282,7 +293,7 @@ class ObjectEncoder {
     tks_free_buffer(&buffer);
     std::vector<float> decoded(trial.object.surface.heights.size());
     if (Status opened = decode(trial.stream, decoded); !opened.ok()) return opened;
-    trial.distance = distanceOf(trial.object, decoded);
+    trial.distance = distanceOf(trial.object, decoded, kTrialPlaces);
     return std::make_shared<const Trial>(std::move(trial));
   }
 
