@@ -81,7 +81,7 @@ void CollapseCost::find(const ShrinkingMesh& shrinking, const Ring& ring,
     const uint32_t to = ring.points[i];
     const uint32_t neighbours = shrinking.neighbours(to) + own - (ring.closed ? 4 : 3);
     const Point way = points_[to] - centre;
-    const double error = quadrics_[ring.centre].at(points_[to]) + quadrics_[to].at(points_[to]);
+    const double error = quadrics_[ring.centre].at(points_[to]);  // what `to` bears isn't new
     const double crowd = neighbours > kNeighbours ? 1.0 + (neighbours - kNeighbours) : 1.0;
     costs[i] = (error + kEvenness * area * dot(way, way)) * crowd * shapePenalty(ring, i);
   }
