@@ -10,10 +10,11 @@ namespace tetrakis::inline remesh {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kEvenness = 1e-3;   // of area times squared length
-constexpr double kBoundary = 30;     // of a boundary edge, beside an area as large as its square
-constexpr double kSliver = 0.3;      // qualities below are penalised
-constexpr double kNoArea = 1e-6;     // quality of a triangle that is refused
+constexpr double kEvenness = 1e-3;  // of area times squared length
+constexpr double kBoundary = 30;    // of a boundary edge, beside an area as large as its square
+constexpr double kSliver = 0.3;     // qualities below are penalised
+constexpr double kNoArea =
+    1e-6;  // a quality that is refused, unless the ring has triangles nearly as thin
 constexpr double kTurn = 0.2;        // least cosine between normals before and after
 constexpr uint32_t kNeighbours = 7;  // more of them are penalised
 
@@ -36,6 +37,12 @@ void addBoundary(const TriangleMesh& mesh, uint32_t side, std::vector<Quadric>& 
     quadrics[point].addPlane(1 / size * outwards, mesh.points[a], kBoundary * dot(edge, edge));
 }
 
+/// Of a triangle with one corner at the origin, whose area normal is `size` long; 1 for equal sides.
+double qualityOf(const Point& a, const Point& b, double size) {
+  const Point c = b - a;
+  return 2 * std::sqrt(3.0) * size / (dot(a, a) + dot(b, b) + dot(c, c));
+}
+
 }  // namespace
 
 CollapseCost::CollapseCost(const TriangleMesh& mesh)
@@ -54,12 +61,10 @@ double CollapseCost::shapePenalty(const Ring& ring, uint32_t target) const {
   for (uint32_t i = 0; i < ring.triangles(); ++i) {
     if (vanishes(ring, i, target)) continue;
     const Point a = points_[ring.points[i]] - to, b = points_[ring.points[ring.next(i)]] - to;
-    const Point c = b - a, normal = cross(a, b), &old = normals_[i];
-    const double size = length(normal), old_size = length(old);
-    // 1 for equal sides
-    const double quality = 2 * std::sqrt(3.0) * size / (dot(a, a) + dot(b, b) + dot(c, c));
-    if (!(quality > kNoArea)) return kInfinite;
-    if (dot(normal, old) < kTurn * size * old_size) return kInfinite;
+    const Point normal = cross(a, b), &old = normals_[i];
+    const double size = length(normal), quality = qualityOf(a, b, size);
+    if (!(quality > thinnest_)) return kInfinite;
+    if (dot(normal, old) < kTurn * size * length(old)) return kInfinite;
     worst = std::min(worst, quality);
   }
   return kSliver / worst;
@@ -69,11 +74,15 @@ void CollapseCost::find(const ShrinkingMesh& shrinking, const Ring& ring,
                         std::vector<double>& costs) {
   const Point& centre = points_[ring.centre];
   normals_.resize(ring.triangles());
+  thinnest_ = kNoArea;
   double area = 0;
   for (uint32_t i = 0; i < ring.triangles(); ++i) {
-    normals_[i] =
-        cross(points_[ring.points[i]] - centre, points_[ring.points[ring.next(i)]] - centre);
-    area += length(normals_[i]) / 2;
+    const Point a = points_[ring.points[i]] - centre;
+    const Point b = points_[ring.points[ring.next(i)]] - centre;
+    normals_[i] = cross(a, b);
+    const double size = length(normals_[i]);
+    thinnest_ = std::min(thinnest_, qualityOf(a, b, size) / 2);
+    area += size / 2;
   }
   costs.assign(ring.points.size(), kInfinite);
   const auto own = static_cast<uint32_t>(ring.points.size());
@@ -82,7 +91,7 @@ void CollapseCost::find(const ShrinkingMesh& shrinking, const Ring& ring,
     const uint32_t to = ring.points[i];
     const uint32_t neighbours = shrinking.neighbours(to) + own - (ring.closed ? 4 : 3);
     const Point way = points_[to] - centre;
-    const double error = quadrics_[ring.centre].at(points_[to]) + quadrics_[to].at(points_[to]);
+    const double error = quadrics_[ring.centre].at(points_[to]);  // what `to` bears isn't new
     const double crowd = neighbours > kNeighbours ? 1.0 + (neighbours - kNeighbours) : 1.0;
     costs[i] = (error + kEvenness * area * dot(way, way)) * crowd * shapePenalty(ring, i);
   }

@@ -30,7 +30,9 @@ class CollapseCost {
 
   const std::vector<Point>& points_;
   std::vector<Quadric> quadrics_;
-  std::vector<Point> normals_;  // of the ring in work
+  // Of the ring in work:
+  std::vector<Point> normals_;
+  double thinnest_ = 0;  // quality that is refused
 };
 
 }  // namespace tetrakis::inline remesh

@@ -71,7 +71,8 @@ void flatten(const std::vector<Point>& points, const Ring& ring, std::vector<Fla
     } else if (i == angles.size()) {
       flat[i] = {-radius, 0};  // on a line with the first point of an open ring
     } else {
-      flat[i] = {radius * portable::cos(angle), radius * portable::sin(angle)};
+      const double t = portable::tan(angle / 2), scale = radius / (1 + t * t);
+      flat[i] = {scale * (1 - t * t), scale * 2 * t};  // radius * cosine, sine
     }
     if (i < angles.size()) angle += angles[i];
   }
