@@ -95,7 +95,8 @@ void expectSameObject(Prefix prefix, uint32_t* seen = nullptr) {
   for (const tks_mesh_kind kind : {TKS_MESH_BUDGET, TKS_MESH_CODED}) {
     tks_object_mesh mesh = {};
     const tks_status status = tks_decode_object(stream.get(), kind, 0, &mesh);
-    ASSERT_TRUE(status == TKS_OK || status == TKS_LIMIT) << tks_message(stream.get());
+    ASSERT_TRUE(status == TKS_OK || (seen == nullptr && status == TKS_LIMIT))
+        << tks_message(stream.get());
     for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
       const auto x = static_cast<size_t>(mesh.pixel[2 * v]),
                  y = static_cast<size_t>(mesh.pixel[2 * v + 1]);
@@ -114,7 +115,8 @@ TEST(ReferenceObject, AgreesOnEveryShape) {
     for (const auto& [depth, bits] : {std::pair(1, 1u), {1, 20u}, {2, 7u}, {3, 12u}, {4, 20u}}) {
       SCOPED_TRACE(shape.name + ", depth " + std::to_string(depth));
       const Bytes bytes = Object(shape, depth, bits, bits).encoded(within(9));
-      for (const size_t size : {bytes.size(), bytes.size() * 3 / 4}) {
+      const auto header = static_cast<size_t>(Stream(bytes).info().header_bytes);
+      for (const size_t size : {bytes.size(), (bytes.size() + header) / 2}) {
         uint32_t seen = 0;
         expectSameObject(Prefix(bytes).first(size), &seen);
         if (HasFatalFailure()) return;
