@@ -31,7 +31,9 @@ ObjectPlaces placesOf(const BaseMesh& mesh, std::span<const float> heights) {
   all.places.reserve(heights.size());
   const auto unitsOf = [&](double from_origin) {
     constexpr double kMost = 1 << 30;
-    return static_cast<int32_t>(std::floor(std::clamp(from_origin / unit, -kMost, kMost) + 0.5));
+    const double units = from_origin / unit;  // of any size, and none where a cell is next to 0
+    if (std::isnan(units)) return int32_t{0};
+    return static_cast<int32_t>(std::floor(std::clamp(units, -kMost, kMost) + 0.5));
   };
   for (uint32_t patch = 0; patch < mesh.forest->patches(); ++patch) {
     for (const BasePoint& point : base.patch(patch)) {

@@ -4,6 +4,7 @@
 // "FORMAT n" in its comments names the section that a function implements.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -39,5 +40,27 @@ struct Decoded {
 /// Decodes the first bytes of a stream: all of them, or any prefix. Safe on any input.
 Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples = kMaxSamples,
                Levels levels = {});
+
+/// FORMAT 11, "Objects".
+using Vector = std::array<int64_t, 3>;
+struct BasePoint {
+  Vector place, normal;
+};
+
+/// What the heights of a stream lie over that has a base mesh.
+struct Object {
+  int bits = 0;
+  double cell = 1;
+  std::array<double, 3> origin = {};
+  std::vector<Vector> corners;    ///< four a patch
+  std::vector<BasePoint> points;  ///< of all samples of the raster
+};
+
+/// Nothing where there is no base mesh, or the stream does not decode.
+std::optional<Object> decodeObject(std::span<const uint8_t> prefix,
+                                   uint64_t maxSamples = kMaxSamples);
+
+/// Where a sample of that height lies.
+std::array<double, 3> placeOf(const Object& object, size_t sample, double height);
 
 }  // namespace tetrakis::reference

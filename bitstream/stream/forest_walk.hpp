@@ -32,13 +32,11 @@ class ForestWalk {
   uint32_t aroundStart(uint32_t side) const { return std::min(sides_[side].around, kMostAround); }
   uint32_t aroundEnd(uint32_t side) const { return aroundStart(next(side)); }
 
-  /// A patch that is glued to none that the walk has seen. There is no open side.
-  void begin(uint32_t patch) {
-    for (uint32_t i = 0; i < Forest::kSides; ++i) {
-      const uint32_t side = Forest::kSides * patch + i;
-      sides_[side] = {beside(side, 1), beside(side, 3), 1, true};
-    }
-    for (uint32_t i = 0; i < Forest::kSides; ++i) wait(Forest::kSides * patch + i);
+  /// The patch of that side is seen: its sides are a ring of their own.
+  void meet(uint32_t side) {
+    for (uint32_t i = 0; i < Forest::kSides; ++i)
+      sides_[beside(side, i)] = {beside(side, i + 1), beside(side, i + 3), 1, true};
+    for (uint32_t i = 0; i < Forest::kSides; ++i) wait(beside(side, i));
   }
 
   /// The open side that is next; nothing where there is none.
@@ -56,31 +54,13 @@ class ForestWalk {
     wait(last(side));
   }
 
-  /// A patch that the walk has not seen, one side of which is glued to an open side.
-  void attach(uint32_t side, uint32_t glued) {
-    const uint32_t a = beside(glued, 1), b = beside(glued, 2), c = beside(glued, 3);
-    const uint32_t before = last(side), behind = next(side), around = sides_[side].around;
-    sides_[side].open = false;
-    sides_[a] = {b, 0, around + 1, true};
-    sides_[b] = {c, a, 1, true};
-    sides_[c] = {0, b, 1, true};
-    const bool alone = behind == side;  // the ring of a single side
-    join(alone ? c : before, a);
-    join(c, alone ? a : behind);
-    ++sides_[next(c)].around;
-    for (const uint32_t one : {last(a), a, b, c}) wait(one);
-  }
-
   /// Glues two open sides.
   void glue(uint32_t a, uint32_t b) {
     assert(a != b && isOpen(a) && isOpen(b));
-    const Side one = sides_[a], other = sides_[b];
     sides_[a].open = sides_[b].open = false;
-    sides_[other.next].around += one.around;
-    sides_[one.next].around += other.around;
-    join(one.last, other.next);
-    join(other.last, one.next);
-    for (const uint32_t side : {one.last, other.last}) wait(side);
+    joinBehind(a, b);
+    joinBehind(b, a);
+    for (const uint32_t side : {last(a), last(b)}) wait(side);
   }
 
  private:
@@ -94,9 +74,13 @@ class ForestWalk {
   static uint32_t beside(uint32_t side, uint32_t steps) {
     return side - side % Forest::kSides + (side + steps) % Forest::kSides;
   }
-  void join(uint32_t a, uint32_t b) {
-    sides_[a].next = b;
-    sides_[b].last = a;
+  /// What comes before `a` in its ring is followed by what comes behind `b`. Done both ways round it
+  /// takes the two sides out of their rings, also where one of them is all of its ring.
+  void joinBehind(uint32_t a, uint32_t b) {
+    const uint32_t before = last(a), behind = next(b);
+    sides_[behind].around += sides_[a].around;
+    sides_[before].next = behind;
+    sides_[behind].last = before;
   }
   uint32_t rankOf(uint32_t side) const { return isOpen(next(side)) ? aroundEnd(side) : 0; }
   void wait(uint32_t side) {

@@ -19,8 +19,8 @@ std::string encodeGlue(const std::vector<uint32_t>& sides);
 /// early. patches: at least 1. Takes some twenty decisions a patch.
 std::optional<std::vector<uint32_t>> decodeGlue(std::string_view codeword, uint32_t patches);
 
-/// (Encoder) where a ForestWalk meets the patches of a forest, and by which side it enters them: numbered
-/// and turned like this they take the fewest bits.
+/// (Encoder) where a ForestWalk meets the patches of a forest, and by which side it enters them:
+/// numbered and turned like this they take the fewest bits.
 struct MetPatch {
   uint32_t patch = 0;
   uint32_t entered = 0;  ///< the side, 0 to 3; of the first patch of a component 0

@@ -26,16 +26,17 @@ std::vector<MetPatch> patchesAsMet(const std::vector<uint32_t>& sides) {
   for (uint32_t first = 0; first < patches; ++first) {
     if (seen[first] != 0) continue;
     meet(first, 0);
-    walk.begin(first);
+    walk.meet(Forest::kSides * first);
     while (const auto side = walk.front()) {
       const uint32_t other = sides[*side];
       if (other == Forest::kBorder) {
         walk.makeBorder(*side);
-      } else if (seen[other / Forest::kSides] != 0) {
-        walk.glue(*side, other);
       } else {
-        meet(other / Forest::kSides, other % Forest::kSides);
-        walk.attach(*side, other);
+        if (seen[other / Forest::kSides] == 0) {
+          meet(other / Forest::kSides, other % Forest::kSides);
+          walk.meet(other);
+        }
+        walk.glue(*side, other);
       }
     }
   }

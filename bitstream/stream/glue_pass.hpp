@@ -31,7 +31,7 @@ class GluePass {
         takeSide(*side, sides);
       } else if (lowestUnseen() < patches_) {
         seen_[lowest_] = 1;
-        walk_.begin(lowest_);
+        walk_.meet(Forest::kSides * lowest_);
       } else {
         return true;
       }
@@ -84,9 +84,8 @@ class GluePass {
     if (!sound_) return;
     seen_[patch] = 1;
     const uint32_t entered = Forest::kSides * patch + 2 * uint32_t{high} + uint32_t{low};
-    sides[side] = entered;
-    sides[entered] = side;
-    walk_.attach(side, entered);
+    walk_.meet(entered);
+    glue(side, entered, sides);
   }
 
   uint32_t lowestUnseen() {

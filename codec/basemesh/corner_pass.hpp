@@ -108,7 +108,7 @@ class CornerPass {
     auto& models =
         more_[std::min<size_t>((bits_seen_[0] + bits_seen_[1] + bits_seen_[2] + 1) / 3, 15)];
     int bits = 0;
-    while (bits <= bits_ && io_.decide(models[static_cast<size_t>(bits)], wanted > bits)) ++bits;
+    while (bits < bits_ && io_.decide(models[static_cast<size_t>(bits)], wanted > bits)) ++bits;
     uint32_t value = bits > 0 ? 1 : 0;
     for (int position = bits - 2; position >= 0; --position) {
       const bool answer = (magnitude >> position) & 1;

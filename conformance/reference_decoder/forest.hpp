@@ -22,7 +22,12 @@ class Forest {
   Forest(int depth, std::vector<int> glued);
 
   bool isGrid() const { return depth_ == 0; }
+  int depth() const { return depth_; }
   int patches() const { return static_cast<int>(glued_.size() / 4); }
+  const std::vector<int>& glued() const { return glued_; }
+  int glued(int side) const { return glued_[static_cast<size_t>(side)]; }
+  /// Of those that are the same as a corner.
+  int lowestCorner(int corner) const { return corners_[static_cast<size_t>(corner)]; }
   /// FORMAT 7, "locate", among patches with such a last column and row.
   Place locate(Place place, int64_t lastX, int64_t lastY) const;
   /// Both are numbers of samples of the raster, row by row.

@@ -48,6 +48,17 @@ void readCorrections(Reader& in, Layers& layers) {
   if (layers.corrections == 4) layers.facetUnit = in.u8(1, 254);
 }
 
+/// FORMAT 2, Base mesh.
+BaseMeshHeader readBaseMesh(Reader& in) {
+  BaseMeshHeader mesh;
+  mesh.bits = in.u8(1, 20);
+  mesh.cell = in.f64();
+  if (mesh.cell <= 0) in.fail(Outcome::kCorrupt);
+  for (double& value : mesh.origin) value = in.f64();
+  mesh.corners = restOf(in);
+  return mesh;
+}
+
 /// Whether such heights may have the layers.
 bool suits(const GeometryHeader& geometry, const Layers& layers) {
   const bool integer = geometry.sample != kF32, direct = geometry.planes == kStoredPlanes;
@@ -115,12 +126,15 @@ void readHeights(Reader& in, const Domain& domain, RegionHeader regions, Stream&
   Parts parts(in);
   readCoding(parts, g);
   stream.layers = readLayers(parts);
+  parts.take(10, [&](Reader& p) { g.baseMesh = readBaseMesh(p); });
   parts.take(64, [](Reader& p) {
     p.u8(0, 1);              // exact
     if (!p.ends()) p.f64();  // max_error
   });
   parts.end();
   g.wavelet.domain = domain;
+  const Forest& forest = domain.forest;
+  if (g.baseMesh.bits > 0 && (forest.isGrid() || forest.depth() > 8)) stream.suits = false;
   if (!suits(g, stream.layers)) stream.suits = false;
 }
 

@@ -2,6 +2,8 @@
 // Reference decoder: header and packets (docs/FORMAT.md, sections 2, 3 and 12).
 #include "conformance/reference_decoder/stream.hpp"
 
+#include "conformance/reference_decoder/base_mesh.hpp"
+#include "conformance/reference_decoder/glue.hpp"
 #include "conformance/reference_decoder/metadata.hpp"
 #include "conformance/reference_decoder/parts.hpp"
 #include "conformance/reference_decoder/regions.hpp"
@@ -67,20 +69,24 @@ int levelOf(const Stream& stream) {
   return level;
 }
 
-/// FORMAT 2, domain_kind 2.
-Domain readForest(Reader& in) {
-  constexpr int kUnknown = -1;
-  const int depth = in.u8(1, 18), side = (1 << depth) + 1;
-  const int patches = static_cast<int>(in.varint(1, std::min(4096, (1 << 20) / side)));
-  std::vector<int> glued(size_t(4) * patches, kUnknown);
-  const int sides = static_cast<int>(glued.size());
-  for (int here = 0; here < sides; ++here) {
-    if (glued[here] != kUnknown) continue;
-    const int other = here + static_cast<int>(in.varint(0, sides - 1 - here));
-    if (glued[other] != kUnknown) in.fail(Outcome::kCorrupt);
-    glued[here] = other;
-    glued[other] = here;
+/// FORMAT 2, domain_kind 2 and 3.
+Domain readForest(Reader& in, int kind, const std::vector<Domain>& known) {
+  const int depth = in.u8(1, 18), side = (1 << depth) + 1, most = std::min(4096, (1 << 20) / side);
+  std::vector<int> glued;
+  if (kind == 3) {
+    const uint64_t alike = in.varint(0, UINT64_MAX);
+    if (alike >= known.size() || known[alike].forest.isGrid()) in.fail(Outcome::kCorrupt);
+    if (in.outcome() == Outcome::kDone) glued = known[alike].forest.glued();
+  } else {
+    const int patches = static_cast<int>(in.varint(1, most));
+    const auto codeword = in.take(in.varint(0, UINT64_MAX));
+    if (in.outcome() != Outcome::kDone) return {};
+    const auto read = readGlue(codeword, patches);
+    if (read) glued = *read;
+    if (!read) in.fail(Outcome::kCorrupt);
   }
+  const int patches = static_cast<int>(glued.size() / 4);
+  if (patches > most) in.fail(Outcome::kCorrupt);
   if (in.outcome() != Outcome::kDone) return {};
   return {2, side, patches * side, Forest(depth, std::move(glued))};
 }
@@ -91,8 +97,8 @@ Domain readDomain(Reader& in, std::vector<Domain>& known) {
   if (number < known.size()) return known[number];
   Domain domain;
   domain.kind = in.byte();
-  if (domain.kind == 2) {
-    domain = readForest(in);
+  if (domain.kind == 2 || domain.kind == 3) {
+    domain = readForest(in, domain.kind, known);
   } else if (domain.known()) {
     domain.width = static_cast<int>(in.varint(1, 1 << 20));
     domain.height = static_cast<int>(in.varint(1, 1 << 20));
@@ -236,6 +242,17 @@ Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples, Levels leve
     forest.share(decoded.texture.emplace(decodeShownTexture(*t, stream.codewords[1], at)));
   }
   return decoded;
+}
+
+std::optional<Object> decodeObject(std::span<const uint8_t> prefix, uint64_t maxSamples) {
+  const Stream stream = readStream(prefix, maxSamples);
+  if (stream.outcome != Outcome::kDone || !stream.geometry) return {};
+  const BaseMeshHeader& mesh = stream.geometry->baseMesh;
+  const Forest& forest = stream.geometry->wavelet.domain.forest;
+  if (mesh.bits == 0) return {};
+  std::vector<Vector> corners = readCorners(mesh.corners, mesh.bits, forest);
+  std::vector<BasePoint> points = bentBase(corners, forest);
+  return Object{mesh.bits, mesh.cell, mesh.origin, std::move(corners), std::move(points)};
 }
 
 }  // namespace tetrakis::reference

@@ -52,6 +52,14 @@ struct LineMap {
   LineMap(std::span<const uint8_t> code, int width, int height);
 };
 
+/// FORMAT 2, Base mesh.
+struct BaseMeshHeader {
+  int bits = 0;  ///< 0: none
+  double cell = 1;
+  std::array<double, 3> origin = {};
+  std::vector<uint8_t> corners;
+};
+
 struct GeometryHeader {
   int width = 0, height = 0, sample = 0, planes = 0;  ///< width and height: of the coded lines
   bool drawn = false;
@@ -60,6 +68,7 @@ struct GeometryHeader {
   WaveletHeader wavelet;
   PriorityHeader priorities;
   RegionHeader regions;
+  BaseMeshHeader baseMesh;
 
   int shownWidth() const { return lines.columns.empty() ? width : int(lines.columns.size()); }
   int shownHeight() const { return lines.rows.empty() ? height : int(lines.rows.size()); }

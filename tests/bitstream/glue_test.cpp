@@ -60,7 +60,8 @@ std::vector<Sides> forests() {
   std::vector<Sides> all = {grid(1, 1, false), grid(1, 1, true), grid(2, 2, false),
                             grid(7, 5, true), grid(9, 4, false)};
   std::mt19937 random(1);
-  for (int i = 0; i < 60; ++i) all.push_back(anyForest(random, static_cast<uint32_t>(1 + random() % 12)));
+  for (int i = 0; i < 60; ++i)
+    all.push_back(anyForest(random, static_cast<uint32_t>(1 + random() % 12)));
   for (size_t i = 0, count = all.size(); i < count; ++i) all.push_back(asMet(all[i]));
   return all;
 }

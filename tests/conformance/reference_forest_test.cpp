@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/forest.hpp"
+#include "bitstream/stream/glue.hpp"
 #include "conformance/reference_decoder/wavelet.hpp"
 #include "conformance/samples/header_parts.hpp"
 #include "tests/conformance/agreement.hpp"
@@ -120,10 +121,9 @@ Bytes onForest(const Bytes& stream, int depth, const Sides& sides) {
   for (int i = 0; i < 2; ++i) takeVarint(fields, end);
   Bytes domain = {2, static_cast<uint8_t>(depth)};
   putVarint(sides.size() / 4, domain);
-  for (uint32_t side = 0; side < sides.size(); ++side) {
-    if (sides[side] == TKS_BORDER) domain.push_back(0);
-    if (sides[side] != TKS_BORDER && sides[side] > side) putVarint(sides[side] - side, domain);
-  }
+  const std::string glue = encodeGlue(sides);
+  putVarint(glue.size(), domain);
+  domain.insert(domain.end(), glue.begin(), glue.end());
   const auto begin = fields.begin() + kDomainByte + 1;
   fields.insert(fields.erase(begin, fields.begin() + static_cast<ptrdiff_t>(end)), domain.begin(),
                 domain.end());

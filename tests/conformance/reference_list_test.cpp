@@ -32,7 +32,7 @@ void expectPassesOver(const Among& among) {
 TEST(ReferenceList, PassesOverComponentsThatNobodyKnows) {
   const Raster heights = make({Pattern::kRidges, 25, 9, 1, TKS_I16, 19});
   const Raster image = make({Pattern::kRidges, 6, 9, 3, TKS_U8, 20});
-  const Domain sphere{3, {0, 0}}, grid{Domain::kGrid, {70, 3000}};
+  const Domain sphere{9, {0, 0}}, grid{Domain::kGrid, {70, 3000}};
   const std::vector<std::vector<ListedComponent>> lists = {
       {unknown(7, grid, 0, "first")},
       {known(Component::kTexture), unknown(7, sphere, 2, ""), known(Component::kGeometry),
@@ -56,7 +56,7 @@ TEST(ReferenceList, AgreesOnDamagedLists) {
   const Raster heights = make({Pattern::kRidges, 9, 7, 1, TKS_I16, 19});
   const Raster image = make({Pattern::kRidges, 6, 9, 3, TKS_U8, 20});
   const Bytes plain = encode(&heights, &image, lossless());
-  const Domain sphere{3, {0, 0}};
+  const Domain sphere{9, {0, 0}};
   Bytes later =
       LaterStream(plain, {unknown(7, sphere, 2, "what"), known(Component::kTexture)}).make().later;
   HeaderParts body = bodyOf(later);
