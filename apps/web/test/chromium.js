@@ -9,6 +9,7 @@ const VIEWPORT = {width: 1000, height: 600};
 async function emptied(page) {
   page.removeAllListeners();
   await page.unrouteAll();
+  await page.emulateMedia({reducedMotion: null});
   await page.mouse.move(0, 0);
   await page.goto('about:blank');
   return page;
