@@ -8,8 +8,8 @@ import {cp, mkdtemp, readFile, rm, writeFile} from 'node:fs/promises';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
-import {chromium} from 'playwright-core';
 
+import {launch} from './chromium.js';
 import {psnr} from './pictures.js';
 import {serve} from './server.js';
 
@@ -30,7 +30,7 @@ const PLACES = [
   {eye: [0, 2600, 500], target: [0, 500, -200]},
   {eye: [-700, 1900, 900], target: [300, 400, -300]},
 ];
-let browser, folder, native;
+let browser, reader, folder, native;
 
 before(async () => {
   if (skip) return;
@@ -47,7 +47,8 @@ before(async () => {
     '--cameras', join(folder, 'cameras.json'), '--pictures', join(folder, 'seen')]);
   native = await Promise.all(
     PLACES.map((_, i) => readFile(join(folder, `seen/picture-${i + 1}.png`))));
-  browser = await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
+  browser = await launch();
+  reader = await browser.newPage();
 });
 after(async () => {
   await browser?.close();
@@ -55,21 +56,16 @@ after(async () => {
 });
 
 /** The viewer's picture with all triangles, unlit, from a place. */
-async function drawn(server, {eye, target}) {
-  const page = await browser.newPage({viewport: {width: WIDTH, height: HEIGHT}});
-  try {
-    await page.goto(`${server.url}index.html?tks=a.tks&eye=${eye}&target=${target}`);
-    const done = () => page.waitForFunction(() => document.body.dataset.state === 'done');
-    await done();
-    await page.locator('#triangles').fill('1000');
-    await done();
-    await page.locator('#shaded').click();
-    await page.waitForTimeout(300);
-    return await page.locator('#picture').screenshot({style: STYLE});
-  } finally {
-    await page.close();
-  }
-}
+const drawn = (server, {eye, target}) => browser.withPage(async (page) => {
+  await page.goto(`${server.url}index.html?tks=a.tks&eye=${eye}&target=${target}`);
+  const done = () => page.waitForFunction(() => document.body.dataset.state === 'done');
+  await done();
+  await page.locator('#triangles').fill('1000');
+  await done();
+  await page.locator('#shaded').click();
+  await page.waitForTimeout(300);
+  return page.locator('#picture').screenshot({style: STYLE});
+});
 
 test('the viewer draws what the native renderer does', {skip}, async () => {
   const server = await serve(folder);
@@ -81,7 +77,7 @@ test('the viewer draws what the native renderer does', {skip}, async () => {
         await writeFile(`${PICTURES}/viewer-${i}.png`, picture);
         await writeFile(`${PICTURES}/native-${i}.png`, native[i]);
       }
-      const dB = await psnr(browser, [picture, native[i]], [{...area, x: 0}, {...area, x: ASIDE}]);
+      const dB = await psnr(reader, [picture, native[i]], [{...area, x: 0}, {...area, x: ASIDE}]);
       if (PICTURES) console.log(`${dB.toFixed(1)} dB`);
       assert.ok(dB >= LEAST, `${dB} dB from ${place.eye}`);
     }

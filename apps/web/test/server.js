@@ -27,7 +27,7 @@ async function sendInTwo(response, file, [start, end], [bytes, ms]) {
  * rests), empty (204 always), fail ([n, ms]: the n-th request is answered 500 after so long).
  * A request's `ended` resolves to whether all of its answer went out.
  */
-export async function serve(folder, faults = {}) {
+export async function serve(folder, {...faults} = {}) {
   const requests = [];
   // Clients may be busy for longer than the 5 s of Node.
   const server = createServer({keepAliveTimeout: 60000}, async (request, response) => {
@@ -80,6 +80,12 @@ export async function serve(folder, faults = {}) {
     url: `http://127.0.0.1:${server.address().port}/`,
     requests,
     faults,
+    /** Forgets requests and faults, for others. */
+    begin(others = {}) {
+      requests.length = 0;
+      for (const name of Object.keys(faults)) delete faults[name];
+      Object.assign(faults, others);
+    },
     close: () => {
       server.closeAllConnections();
       return new Promise((resolve) => server.close(resolve));

@@ -10,10 +10,10 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 import {fromArrayBuffer} from 'geotiff';
-import {chromium} from 'playwright-core';
 
 import {encode} from '../src/encode.js';
 import {open} from '../src/index.js';
+import {launch} from './chromium.js';
 import {psnr} from './pictures.js';
 import {serve} from './server.js';
 import {terrainOf, tiffOf} from './terrain.js';
@@ -23,10 +23,10 @@ const vectors = new URL('../../../conformance/vectors/', import.meta.url).pathna
 const NAME = 'joint_budget_97x97_128x128.tks';
 const CLI = process.env.TETRAKIS_CLI ??
   new URL('../../../build/tetrakis', import.meta.url).pathname;
-let browser, folder, bytes;
+let browser, folder, bytes, site;
 
 before(async () => {
-  browser = await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
+  browser = await launch();
   folder = await mkdtemp(join(tmpdir(), 'tetrakis-'));
   await cp(viewer, folder, {recursive: true});
   bytes = await readFile(vectors + NAME);
@@ -38,9 +38,11 @@ before(async () => {
   await writeFile(join(folder, 'page.tks'), '<!doctype html><title>Sign in</title>');
   await writeFile(join(folder, 'empty.tks'), '');
   await cp(vectors + 'column_1x300.tks', join(folder, 'column.tks'));
+  site = await serve(folder);
 });
 after(async () => {
   await browser.close();
+  await site.close();
   await rm(folder, {recursive: true});
 });
 
@@ -52,21 +54,15 @@ const shows = (page, stream) => page.waitForFunction(
   (size) => document.body.dataset.bytes === size, String(stream.length));
 
 /** Opens the viewer and calls `use` once it has ended with what it was told to show. */
-async function withPage(query, use, faults = {}, options = {}) {
-  const server = await serve(folder, faults);
-  const page = await browser.newPage({viewport: {width: 1000, height: 600}, ...options});
+const withPage = (query, use, faults = {}, options = null) => browser.withPage(async (page) => {
   const errors = [];
+  site.begin(faults);
   page.on('pageerror', (error) => errors.push(error.message));
-  try {
-    await page.goto(server.url + 'index.html' + query);
-    if (query) await ended(page);
-    await use(page, server);
-    assert.deepEqual(errors, []);
-  } finally {
-    await page.close();
-    await server.close();
-  }
-}
+  await page.goto(site.url + 'index.html' + query);
+  if (query) await ended(page);
+  await use(page, site);
+  assert.deepEqual(errors, []);
+}, options);
 
 const ranges = (server) =>
   server.requests.filter(({path}) => path.endsWith('.tks')).map(({range}) => range);
@@ -105,21 +101,14 @@ test('a picture after one request, then refinement to the last byte', async () =
   });
 });
 
-test('the first picture needs the first request alone', async () => {
-  const server = await serve(folder);
-  const page = await browser.newPage();
-  try {
-    // Whatever follows the first 4 kB never comes.
-    await page.route('**/whole.tks', (route) =>
-      route.request().headers().range === 'bytes=0-4095' ? route.continue() : undefined);
-    await page.goto(server.url + 'index.html?tks=whole.tks');
-    await page.waitForFunction(() => document.body.dataset.bytes === '4096');
-    assert.ok((await colours(page)).ground > 0.05);
-  } finally {
-    await page.close();
-    await server.close();
-  }
-});
+test('the first picture needs the first request alone', () => browser.withPage(async (page) => {
+  // Whatever follows the first 4 kB never comes.
+  await page.route('**/whole.tks', (route) =>
+    route.request().headers().range === 'bytes=0-4095' ? route.continue() : undefined);
+  await page.goto(site.url + 'index.html?tks=whole.tks');
+  await page.waitForFunction(() => document.body.dataset.bytes === '4096');
+  assert.ok((await colours(page)).ground > 0.05);
+}));
 
 test('sliders go back without requests; wireframe, texture, light and flight draw', async () => {
   await withPage('?tks=whole.tks', async (page, server) => {
@@ -238,9 +227,8 @@ test('in a frame that is not shown the viewer waits, and draws once it is', asyn
     await encode({...terrainOf(385), bytes: 90000, index: true, regions: 32}));
   await writeFile(join(folder, 'host.html'), '<!doctype html><iframe src="index.html?' +
     'tks=indexed.tks" style="display: none; width: 800px; height: 500px"></iframe>');
-  const server = await serve(folder), page = await browser.newPage();
-  try {
-    await page.goto(server.url + 'host.html');
+  await browser.withPage(async (page) => {
+    await page.goto(site.url + 'host.html');
     await page.waitForTimeout(1500);
     const frame = page.frames()[1], body = frame.locator('body');
     assert.equal(await body.getAttribute('data-state'), 'refining');
@@ -249,10 +237,7 @@ test('in a frame that is not shown the viewer waits, and draws once it is', asyn
     assert.equal(await body.getAttribute('data-state'), 'done');
     assert.ok(Number(await body.getAttribute('data-bytes')) > 80000);
     assert.ok((await colours(frame)).ground > 0.05);
-  } finally {
-    await page.close();
-    await server.close();
-  }
+  });
 });
 
 test('a lost context comes back', async () => {
@@ -273,15 +258,14 @@ test('a lost context comes back', async () => {
 });
 
 test('a browser without WebGL is told apart', async () => {
-  const page = await browser.newPage(), server = await serve(folder);
+  const page = await browser.newPage();
   try {
     await page.addInitScript(() => (HTMLCanvasElement.prototype.getContext = () => null));
-    await page.goto(server.url + 'index.html?tks=whole.tks');
+    await page.goto(site.url + 'index.html?tks=whole.tks');
     await ended(page);
     assert.match(await page.getByRole('alert').textContent(), /no WebGL/);
   } finally {
     await page.close();
-    await server.close();
   }
 });
 
@@ -349,7 +333,7 @@ test('keys turn the picture and come nearer, and Home brings all of it back', as
     const after = await picture();
     assert.notDeepEqual(after, before);
     await page.keyboard.press('Home');
-    const dB = await psnr(browser, [await picture(), before],
+    const dB = await psnr(page, [await picture(), before],
       Array(2).fill({x: 0, y: 0, width: 1000, height: 600}));
     assert.ok(dB > 40, `${dB} dB`);
   });
@@ -449,11 +433,11 @@ test('a link keeps the camera, once it was moved', async () => {
     const shot = (which) =>
       which.locator('#picture').screenshot({style: 'aside, header, #bearings { display: none }'});
     const before = await shot(page);
-    const other = await browser.newPage({viewport: {width: 1000, height: 600}});
+    const other = await browser.newPage();
     await other.goto(page.url());
     await ended(other);
     await other.waitForTimeout(700);
-    const dB = await psnr(browser, [await shot(other), before],
+    const dB = await psnr(page, [await shot(other), before],
       Array(2).fill({x: 0, y: 0, width: 1000, height: 600}));
     await other.close();
     assert.ok(dB > 35, `${dB} dB`);
@@ -572,7 +556,7 @@ test('the original stands beside what was coded from it', async () => {
     assert.equal(await page.locator('#edge').getAttribute('aria-valuetext'),
       '40 % stream, 60 % original');
     const both = await shot();
-    const dB = (x) => psnr(browser, [stream, both],
+    const dB = (x) => psnr(page, [stream, both],
       Array(2).fill({x, y: 150, width: 180, height: 250}));
     const [left, right] = [await dB(200), await dB(420)];
     assert.ok(left > 50 && right < 35, `${left} ${right}`);

@@ -4,8 +4,8 @@ import assert from 'node:assert/strict';
 import {cp, mkdtemp, rm, writeFile} from 'node:fs/promises';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
-import {chromium} from 'playwright-core';
 
+import {launch} from './chromium.js';
 import {serve} from './server.js';
 
 const viewer = new URL('../dist/viewer/', import.meta.url).pathname;
@@ -23,8 +23,7 @@ export async function drawn(page, firstOnly = false) {
 
 /** A server of the viewer with files of these names and bytes. */
 export async function viewerSite(files) {
-  const browser =
-    await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
+  const browser = await launch();
   const folder = await mkdtemp(join(tmpdir(), 'tetrakis-'));
   await cp(viewer, folder, {recursive: true});
   for (const [name, bytes] of Object.entries(files)) await writeFile(join(folder, name), bytes);
@@ -32,22 +31,18 @@ export async function viewerSite(files) {
   return {
     server,
     /** Opens the viewer and calls `use` once it is drawn, with all bytes or with the first ones. */
-    async withPage(query, use, firstOnly = false) {
-      const page = await browser.newPage({viewport: {width: 1000, height: 600}}), errors = [];
+    withPage: (query, use, firstOnly = false) => browser.withPage(async (page) => {
+      const errors = [];
       page.on('pageerror', (error) => errors.push(error.message));
-      try {
-        if (firstOnly) {
-          await page.route(({pathname}) => pathname.endsWith('.tks'), (route) =>
-            (route.request().headers().range === 'bytes=0-4095' ? route.continue() : undefined));
-        }
-        await page.goto(`${server.url}index.html?${query}`);
-        await drawn(page, firstOnly);
-        await use(page);
-        assert.deepEqual(errors, []);
-      } finally {
-        await page.close();
+      if (firstOnly) {
+        await page.route(({pathname}) => pathname.endsWith('.tks'), (route) =>
+          (route.request().headers().range === 'bytes=0-4095' ? route.continue() : undefined));
       }
-    },
+      await page.goto(`${server.url}index.html?${query}`);
+      await drawn(page, firstOnly);
+      await use(page);
+      assert.deepEqual(errors, []);
+    }),
     async close() {
       await browser.close();
       await server.close();
