@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+// Objects through the C interface: meshes of triangles in, streams, meshes of any prefix out.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/support/stream_fixture.hpp"
+#include "tests/support/triangle_meshes.hpp"
+#include "tests/support/welded_mesh.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+/// A mesh as the C interface takes it, which points into it.
+struct GivenMesh {
+  explicit GivenMesh(const TriangleMesh& mesh) {
+    for (const Point& point : mesh.points)
+      positions.insert(positions.end(), point.begin(), point.end());
+    for (const Triangle& t : mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+  }
+  tks_triangle_mesh given() const {
+    tks_triangle_mesh out{};
+    out.size = sizeof out;
+    out.vertex_count = static_cast<uint32_t>(positions.size() / 3);
+    out.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
+    out.positions = positions.data();
+    out.triangles = triangles.data();
+    return out;
+  }
+  std::vector<double> positions;
+  std::vector<uint32_t> triangles;
+};
+
+struct Encoded {
+  Bytes stream;
+  tks_object_report report{};
+};
+
+Encoded encodeMesh(const tks_triangle_mesh& mesh, const tks_encode_options& options,
+                   const tks_image* image = nullptr) {
+  Encoded out;
+  out.report.size = sizeof out.report;
+  tks_buffer buffer{};
+  std::array<char, 300> message{};
+  EXPECT_EQ(tks_encode_object(&mesh, image, &options, &out.report, &buffer, message.data(),
+                              message.size()),
+            TKS_OK)
+      << message.data();
+  out.stream.assign(buffer.data, buffer.data + buffer.size);
+  tks_free_buffer(&buffer);
+  return out;
+}
+
+Encoded encodeMesh(const TriangleMesh& mesh, const tks_encode_options& options) {
+  return encodeMesh(GivenMesh(mesh).given(), options);
+}
+
+struct Closer {
+  void operator()(tks_decoder* decoder) const { tks_close(decoder); }
+};
+using OpenedStream = std::unique_ptr<tks_decoder, Closer>;
+
+OpenedStream opened(const Bytes& stream, size_t length) {
+  tks_decoder* decoder = nullptr;
+  tks_open(stream.data(), length, nullptr, &decoder, nullptr, 0);
+  return OpenedStream(decoder);
+}
+
+uint64_t headerBytes(const Bytes& stream) {
+  tks_info info{};
+  info.size = sizeof info;
+  EXPECT_EQ(tks_get_info(opened(stream, stream.size()).get(), &info), TKS_OK);
+  return info.header_bytes;
+}
+
+struct DecodedMesh {
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<double, 2>> pixels;
+  std::vector<uint32_t> triangles;
+};
+
+DecodedMesh decodedMesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t most) {
+  tks_object_mesh mesh{};
+  EXPECT_EQ(tks_decode_object(decoder, kind, most, &mesh), TKS_OK) << tks_message(decoder);
+  DecodedMesh out;
+  for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
+    out.points.push_back(
+        {mesh.position[3 * v], mesh.position[3 * v + 1], mesh.position[3 * v + 2]});
+    out.pixels.push_back({mesh.pixel[2 * v], mesh.pixel[2 * v + 1]});
+  }
+  out.triangles.assign(mesh.triangles, mesh.triangles + 3 * size_t{mesh.triangle_count});
+  tks_free_object_mesh(&mesh);
+  return out;
+}
+
+double radiusOf(const std::array<double, 3>& point) {
+  return std::sqrt(point[0] * point[0] + point[1] * point[1] + point[2] * point[2]);
+}
+
+TEST(ObjectStreams, KeepASphereRound) {
+  const Encoded sphere = encodeMesh(made::sphere(4), budget(1500));
+  EXPECT_LE(sphere.stream.size(), 1500u);
+  const OpenedStream decoder = opened(sphere.stream, sphere.stream.size());
+  for (const auto& point : decodedMesh(decoder.get(), TKS_MESH_BUDGET, 0).points)
+    EXPECT_NEAR(radiusOf(point), 1, 0.01);
+  EXPECT_GT(sphere.report.psnr, 60);
+  EXPECT_EQ(sphere.report.components, 1u);
+  EXPECT_EQ(sphere.report.borders, 0u);
+}
+
+TEST(ObjectStreams, GetBetterWithMoreBytes) {
+  const TriangleMesh torus = made::torus(64, 32);
+  double before = 0;
+  for (const uint64_t bytes : {700, 1500, 3000, 6000}) {
+    const Encoded made = encodeMesh(torus, budget(bytes));
+    EXPECT_LE(made.stream.size(), bytes);
+    EXPECT_GT(made.report.psnr, before);
+    before = made.report.psnr;
+  }
+}
+
+TEST(ObjectStreams, ReachThePsnrAskedFor) {
+  for (const double psnr : {45.0, 55.0, 65.0}) {
+    tks_encode_options options{};
+    options.size = sizeof options;
+    options.psnr = psnr;
+    const Encoded made = encodeMesh(made::sphereWithLimbs(4), options);
+    EXPECT_GE(made.report.psnr, psnr - 0.3) << "reports count other places than the search";
+    EXPECT_LE(made.report.psnr, psnr + 6);
+  }
+}
+
+/// Rings of open edges and Euler characteristics are those of the input, whatever is decoded.
+TEST(ObjectStreams, KeepTheirTopologyAtEveryPrefixAndBudget) {
+  struct Shape {
+    TriangleMesh mesh;
+    long euler;
+    size_t loops;
+  };
+  const std::vector<Shape> shapes = {{made::sphere(3), 2, 0},
+                                     {made::torus(32, 16), 0, 0},
+                                     {made::openGrid(20, 20), 1, 1},
+                                     {made::pipe(16, 12), 0, 2}};
+  for (const Shape& shape : shapes) {
+    const Encoded made = encodeMesh(shape.mesh, budget(1200));
+    const size_t header = headerBytes(made.stream), size = made.stream.size();
+    for (const size_t length : {header, header + 1, (header + size) / 2, size}) {
+      const OpenedStream decoder = opened(made.stream, length);
+      for (const uint32_t most : {1u, 300u, 1000u, 5000u}) {
+        const DecodedMesh mesh = decodedMesh(decoder.get(), TKS_MESH_BUDGET, most);
+        EXPECT_LE(mesh.triangles.size() / 3, std::max(most, 2 * made.report.patches));
+        // By places on the raster: distinct samples may lie at equal points.
+        const checks::WeldedMesh welded = checks::weldedMesh(mesh.pixels, mesh.triangles);
+        EXPECT_EQ(welded.euler(), shape.euler) << length << " bytes, " << most;
+        EXPECT_EQ(welded.loops, shape.loops) << length << " bytes, " << most;
+      }
+    }
+  }
+}
+
+TEST(ObjectStreams, HaveTheTextureOfTheirMesh) {
+  // Colours that say where on the square they are.
+  constexpr uint32_t kSide = 64;
+  std::vector<uint8_t> texels;
+  for (uint32_t y = 0; y < kSide; ++y)
+    for (uint32_t x = 0; x < kSide; ++x)
+      for (const uint32_t value : {4 * x, 4 * y, 128u})
+        texels.push_back(static_cast<uint8_t>(value));
+  tks_image image{};
+  image.size = sizeof image;
+  image.width = image.height = kSide;
+  image.channels = 3;
+  image.sample = TKS_U8;
+  image.data = texels.data();
+  const TriangleMesh grid = made::openGrid(24, 24, 0.05);
+  std::vector<float> texcoords;
+  for (const Triangle& t : grid.triangles) {
+    for (const uint32_t corner : t) {
+      texcoords.push_back(static_cast<float>(grid.points[corner][0]));
+      texcoords.push_back(static_cast<float>(grid.points[corner][1]));
+    }
+  }
+  const GivenMesh given(grid);
+  tks_triangle_mesh mesh = given.given();
+  mesh.texcoords = texcoords.data();
+  const Encoded made = encodeMesh(mesh, budget(20000), &image);
+  const OpenedStream decoder = opened(made.stream, made.stream.size());
+  tks_info info{};
+  info.size = sizeof info;
+  ASSERT_EQ(tks_get_info(decoder.get(), &info), TKS_OK);
+  std::vector<uint8_t> decoded(size_t{info.texture_width} * info.texture_height * 3);
+  ASSERT_EQ(tks_decode_texture(decoder.get(), decoded.data(), decoded.size()), TKS_OK);
+  const DecodedMesh shown = decodedMesh(decoder.get(), TKS_MESH_BUDGET, 2000);
+  const double scale = std::exp2(double(info.texture_forest.depth) - double(info.forest.depth));
+  for (size_t v = 0; v < shown.points.size(); ++v) {
+    const double column = shown.pixels[v][0] - 0.5, row = shown.pixels[v][1] - 0.5;
+    const double patch = std::floor(row / info.width), y = row - patch * info.width;
+    const auto texel = static_cast<size_t>((patch * info.texture_width + std::round(y * scale)) *
+                                           info.texture_width) +
+                       static_cast<size_t>(std::round(column * scale));
+    const auto expected = [](double place) { return std::clamp(256 * place - 2, 0.0, 252.0); };
+    if (shown.points[v][0] < 0.05 || shown.points[v][0] > 0.95) continue;  // the image repeats
+    if (shown.points[v][1] < 0.05 || shown.points[v][1] > 0.95) continue;
+    EXPECT_NEAR(decoded[3 * texel], expected(shown.points[v][0]), 12);
+    EXPECT_NEAR(decoded[3 * texel + 1], expected(shown.points[v][1]), 12);
+    EXPECT_NEAR(decoded[3 * texel + 2], 128, 4);
+  }
+}
+
+TEST(ObjectStreams, OfBadMeshesAreASentence) {
+  const auto refused = [](const TriangleMesh& mesh, tks_encode_options options) {
+    const GivenMesh given(mesh);
+    const tks_triangle_mesh in = given.given();
+    tks_buffer buffer{};
+    std::array<char, 300> message{};
+    EXPECT_EQ(
+        tks_encode_object(&in, nullptr, &options, nullptr, &buffer, message.data(), message.size()),
+        TKS_USAGE);
+    EXPECT_EQ(buffer.data, nullptr);
+    return std::string(message.data());
+  };
+  const TriangleMesh sphere = made::sphere(2);
+  TriangleMesh far = sphere;
+  far.points[7][1] = kNan;
+  EXPECT_EQ(refused(far, budget(1000)), "Vertex 7 of the mesh lies at no finite place.");
+  TriangleMesh wrong = sphere;
+  wrong.triangles[3][2] = 5000;
+  EXPECT_EQ(refused(wrong, budget(1000)),
+            "Triangle 3 of the mesh names vertex 5000, which is not there.");
+  EXPECT_EQ(refused({}, budget(1000)), "The mesh has no triangles.");
+  EXPECT_EQ(refused({{{0, 0, 0}}, {{0, 0, 0}}}, budget(1000)),
+            "No triangle of the mesh is left: all have corners at equal places.");
+  EXPECT_NE(refused(sphere, lossless()).find("cannot be lossless"), std::string::npos);
+  EXPECT_NE(refused(sphere, budget(30)).find("too small"), std::string::npos);
+}
+
+TEST(ObjectStreams, TakeAnyTrianglesThatFitTogetherOrNot) {
+  std::mt19937 random(5);
+  const std::vector<TriangleMesh> meshes = {
+      {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}},
+      {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 1, 2}, {2, 1, 0}}},
+      {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}},
+      {{{0, 0, 0}, {1e-30, 0, 0}, {0, 1e-30, 0}}, {{0, 1, 2}}},
+      {{{-1e30, 0, 0}, {1e30, 0, 0}, {0, 1e30, 0}}, {{0, 1, 2}}},
+      made::moebiusStrip(20),
+      made::soup(random, 20, 60),
+      made::soup(random, 60, 60),
+      made::beside(made::sphere(2), made::torus(12, 8), {4, 0, 0})};
+  for (size_t i = 0; i < meshes.size(); ++i) {
+    const Encoded made = encodeMesh(meshes[i], budget(4000));
+    const OpenedStream decoder = opened(made.stream, made.stream.size());
+    const DecodedMesh mesh = decodedMesh(decoder.get(), TKS_MESH_BUDGET, 5000);
+    EXPECT_GT(mesh.triangles.size(), 0u) << "mesh " << i;
+    for (const auto& point : mesh.points)
+      for (const double value : point) ASSERT_TRUE(std::isfinite(value)) << "mesh " << i;
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::test
