@@ -154,13 +154,13 @@ class ObjectEncoder {
   Result<SharedTrial> withinBytes() {
     const double wished = static_cast<double>(heightBytes()) / kBytesForTriangle;
     uint32_t triangles = kFewestTriangles;
-    while (triangles < kMostTriangles && triangles * std::sqrt(2.0) < wished) triangles *= 2;
+    while (triangles < mostTriangles() && triangles * std::sqrt(2.0) < wished) triangles *= 2;
     Result<SharedTrial> best = inBudget(triangles);
     const auto better = [&](const Result<SharedTrial>& trial) {
       return trial.ok() && (!best.ok() || (*trial)->distance.error < (*best)->distance.error);
     };
     bool found_finer = false;
-    for (uint32_t finer = 2 * triangles; finer <= kMostTriangles && best.ok(); finer *= 2) {
+    for (uint32_t finer = 2 * triangles; finer <= mostTriangles() && best.ok(); finer *= 2) {
       Result<SharedTrial> trial = inBudget(finer);
       if (!better(trial)) break;
       best = std::move(trial);
@@ -176,6 +176,13 @@ class ObjectEncoder {
         break;
     }
     return best;
+  }
+
+  /// The first size of a base that all triangles of the mesh fit in, or the largest one.
+  uint32_t mostTriangles() const {
+    uint32_t most = kFewestTriangles;
+    while (most < kMostTriangles && most < source_.cleaned().mesh.triangles.size()) most *= 2;
+    return most;
   }
 
   /// Of a budget, while a base is sought.
@@ -238,7 +245,7 @@ class ObjectEncoder {
     Result<SharedTrial> best =
         misused("No base mesh of up to " + std::to_string(kMostTriangles) +
                 " triangles comes as near to the mesh as asked for: ask for a larger error.");
-    for (uint32_t triangles = kFewestTriangles; triangles <= kMostTriangles; triangles *= 2) {
+    for (uint32_t triangles = kFewestTriangles; triangles <= mostTriangles(); triangles *= 2) {
       Trial trial{resampled(triangles), {}, 0, {}};
       trial.resampling_error =
           distanceOf(trial.object, trial.object.surface.heights, kTrialPlaces).error;

@@ -74,8 +74,8 @@ class ForestWalk {
   static uint32_t beside(uint32_t side, uint32_t steps) {
     return side - side % Forest::kSides + (side + steps) % Forest::kSides;
   }
-  /// What comes before `a` in its ring is followed by what comes behind `b`. Done both ways round it
-  /// takes the two sides out of their rings, also where one of them is all of its ring.
+  /// What comes before `a` in its ring is followed by what comes behind `b`. Done both ways round
+  /// this takes the two sides out of their rings, also where one of them is all of its ring.
   void joinBehind(uint32_t a, uint32_t b) {
     const uint32_t before = last(a), behind = next(b);
     sides_[behind].around += sides_[a].around;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// visitBody() visits the body of a header, field by field: what readHeader() and writeHeader() share
-// (docs/FORMAT.md, section 2).
+// visitBody() visits the body of a header, field by field: what readHeader() and writeHeader()
+// share (docs/FORMAT.md, section 2).
 #pragma once
 
 #include <algorithm>

@@ -183,6 +183,14 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"forest_joint_9x54_17x102",
      "doubled low bands, forest of heights, forest of texels, heights by wavelet, levels of "
      "several filters, shears of coefficients, texture by wavelet"},
+    {"object_torus_9x144", "base mesh, forest of heights, fraction bits, heights by wavelet"},
+    {"object_open_17x68",
+     "base mesh, corrections of steps, forest of heights, fraction bits, heights by wavelet"},
+    {"object_joint_9x54_17x102",
+     "base mesh, doubled low bands, forest of heights, forest of texels, heights by wavelet, "
+     "levels of several filters, shears of coefficients, texture by wavelet"},
+    {"noise_object_257x514",
+     "base mesh, forest of heights, heights by wavelet, levels of several filters"},
     {"cylinder_joint_70x33_61x40",
      "cylinder of heights, cylinder of texels, doubled low bands, heights by wavelet, index, "
      "levels of several filters, regions of heights, regions of texels, shears of coefficients, "

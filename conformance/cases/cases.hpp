@@ -15,6 +15,9 @@ std::vector<VectorCase> layerCases();
 std::vector<VectorCase> bridgeCases();
 std::vector<VectorCase> sparseCases();
 
+// object_cases.cpp
+std::vector<VectorCase> objectCases();
+
 // height_kind_cases.cpp
 std::vector<VectorCase> tableCases();
 std::vector<VectorCase> relativeCases();

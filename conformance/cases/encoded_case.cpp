@@ -164,6 +164,8 @@ Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case) {
     heights.domain = image.domain = TKS_DOMAIN_FOREST;
     heights.forest = given(ground);
     image.forest = given(painted);
+    if (!vector_case.corners.empty())
+      heights.base_mesh = {vector_case.corner_bits, 0.4, {-1, 20, 0.3}, vector_case.corners.data()};
   }
   if (vector_case.ring) heights.domain = image.domain = TKS_DOMAIN_CYLINDER;
   tks_encode_options options = vector_case.options;

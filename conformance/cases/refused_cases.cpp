@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "base/forest.hpp"
+#include "bitstream/coder/range_encoder.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
+#include "conformance/samples/header_parts.hpp"
 #include "conformance/samples/header_seal.hpp"
 
 namespace tetrakis::conformance {
@@ -123,10 +125,10 @@ void correctRelatively(StreamHeader& h, double step) {
   h.layers.relative = {step, 4};
 }
 
-/// Heights on patches of nine samples, none of which is glued to another.
-void plant(StreamHeader& h, uint32_t patches) {
+/// Heights on patches of nine samples, or more, none of which is glued to another.
+void plant(StreamHeader& h, uint32_t patches, int depth = 1) {
   const auto forest =
-      std::make_shared<const Forest>(1, std::vector<uint32_t>(4 * patches, Forest::kBorder));
+      std::make_shared<const Forest>(depth, std::vector<uint32_t>(4 * patches, Forest::kBorder));
   h = heightsHeader(forest->raster().width, forest->raster().height, TKS_I16, 8);
   h.geometry->wavelet.forest = forest;
 }
@@ -351,10 +353,28 @@ const Refusal kRefusals[] = {
        h.layers.flat_bytes = 5;
        h.layers.flat_areas = 1;
      }},
-    {"forest_voids", "a forest with voids that are not lifted", [](StreamHeader& h) {
+    {"forest_voids", "a forest with voids that are not lifted",
+     [](StreamHeader& h) {
        plant(h, 2);
        h.layers.validity_bytes = 9;
        h.layers.has_nodata = 1;
+     }},
+    {"base_mesh_grid", "a grid over a base mesh",
+     [](StreamHeader& h) { h.geometry->base_mesh.bits = 8; }},
+    {"base_mesh_depth", "patches of 513 x 513 samples over a base mesh",
+     [](StreamHeader& h) {
+       plant(h, 1, BaseMeshHeader::kMostDepth + 1);
+       h.geometry->base_mesh.bits = 8;
+     }},
+    {"base_mesh_bits", "corners of 21 bits",
+     [](StreamHeader& h) {
+       plant(h, 2);
+       h.geometry->base_mesh.bits = 21;
+     }},
+    {"base_mesh_cell", "a base mesh of cells without a size", [](StreamHeader& h) {
+       plant(h, 2);
+       h.geometry->base_mesh.bits = 8;
+       h.geometry->base_mesh.cell = 0;
      }}};
 
 /// Header fields, each of them wrong, in front of a sound packet.
@@ -367,6 +387,57 @@ std::vector<VectorCase> refusedHeaders() {
                             streamOf(header, noise(40, 54))));
   }
   return cases;
+}
+
+/// The codeword of a patch, the first side of which is a border, and another side glued to it.
+Bytes gluedToBorder() {
+  DecisionEncoding io;
+  AdaptiveBit after, before, border;
+  for (const bool is_border : {true, false}) {
+    io.decide(after, false);
+    io.decide(before, false);
+    io.decide(border, is_border);
+  }
+  for (int bit = 0; bit < 2; ++bit) io.even(true);  // side 3
+  return io.finish();
+}
+
+/// Forests whose patches are glued to none, with another glue.
+std::vector<VectorCase> refusedGlue() {
+  const auto refuse = [](const char* name, const char* purpose, uint32_t patches,
+                         const std::function<void(Bytes&)>& change) {
+    StreamHeader header;
+    plant(header, patches);
+    const Bytes stream = streamOf(header, noise(40, 54));
+    test::HeaderParts body = test::bodyOf(stream);
+    change(body.find(test::kComponentKind)->bytes);
+    return crafted(name, purpose, test::withBody(stream, body));
+  };
+  constexpr ptrdiff_t kGlueBytes = test::kDomainByte + 4;  // behind domain_kind, depth, patches
+  const auto withGlue = [](const Bytes& glue) {
+    return [glue](Bytes& component) {
+      const auto at = component.begin() + kGlueBytes;
+      const auto behind = component.erase(at, at + 1 + *at);
+      const auto put = component.insert(behind, glue.begin(), glue.end());
+      component.insert(put, static_cast<uint8_t>(glue.size()));
+    };
+  };
+  return {refuse("refused_glue_cut", "glue that ends early", 20,
+                 [](Bytes& component) {
+                   const auto at = component.begin() + kGlueBytes;
+                   component.erase(at + 2, at + 1 + *at);
+                   *at = 1;
+                 }),
+          refuse("refused_glue_side", "a side glued to a border", 1, withGlue(gluedToBorder())),
+          refuse("refused_glue_patch", "glue of more patches than it tells of", 1,
+                 [](Bytes& component) { component[kGlueBytes - 1] = 90; }),
+          refuse("refused_glue_alike", "a forest glued like one that there is not", 1,
+                 [](Bytes& component) {
+                   const auto at = component.begin() + kGlueBytes - 1;
+                   const auto behind = component.erase(at, at + 2 + at[1]);
+                   component.insert(behind, uint8_t{0});
+                   component[test::kDomainByte + 1] = Domain::kForestAlike;
+                 })};
 }
 
 /// A sound header before a packet that is none.
@@ -390,8 +461,8 @@ std::vector<VectorCase> refusedPackets() {
 
 std::vector<VectorCase> unusualAndRefusedCases() {
   std::vector<VectorCase> all;
-  for (const auto& cases :
-       {unusualCases(), onesCases(), indexCases(), refusedHeaders(), refusedPackets()})
+  for (const auto& cases : {unusualCases(), onesCases(), indexCases(), refusedHeaders(),
+                            refusedGlue(), refusedPackets()})
     all.insert(all.end(), cases.begin(), cases.end());
   return all;
 }

@@ -83,6 +83,7 @@ Tools toolsOf(std::span<const uint8_t> stream) {
   if (header.texture && header.texture->wavelet.ring) tools.insert("cylinder of texels");
   if (header.geometry && header.geometry->wavelet.forest) tools.insert("forest of heights");
   if (header.texture && header.texture->wavelet.forest) tools.insert("forest of texels");
+  if (header.geometry && !header.geometry->base_mesh.none()) tools.insert("base mesh");
   if (!header.index.empty()) tools.insert("index");
   if (header.georeference.heights.has_transform || header.georeference.texture.has_transform)
     tools.insert("georeference");
@@ -92,7 +93,8 @@ Tools toolsOf(std::span<const uint8_t> stream) {
 }
 
 Tools allTools() {
-  return {"bridged texels",
+  return {"base mesh",
+          "bridged texels",
           "bridged voids",
           "corrections of samples",
           "corrections of steps",

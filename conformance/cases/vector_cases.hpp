@@ -47,6 +47,8 @@ struct VectorCase {
   bool placed = false;                ///< heights and texture have a georeference
   bool ring = false;                  ///< the columns of heights and texture go round
   std::vector<uint32_t> sides;        ///< not empty: both lie on forests of this many sides
+  std::vector<int32_t> corners;       ///< not empty: heights lie over a base mesh; 12 a patch
+  uint32_t corner_bits = 0;           ///< of a coordinate of these
   bool told = false;                  ///< a camera looks down on the north-west
   std::vector<uint8_t> stream;        ///< not empty: nothing is encoded, these are the bytes
   bool dense = false;                 ///< cuts lie close to each other in the middle

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference decoder: what the heights of an object lie over (docs/FORMAT.md, section 11, "Objects").
+// Reference decoder: what the heights of an object lie over (docs/FORMAT.md, section 11,
+// "Objects").
 #pragma once
 
 #include <array>
