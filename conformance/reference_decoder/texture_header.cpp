@@ -45,7 +45,8 @@ void readWeights(Reader& in, TextureHeader& texture) {
 
 /// Whether a texture may have what its parts say.
 bool suits(const TextureHeader& t, const Domain& domain) {
-  if (domain.width > 1 << 15 || domain.height > 1 << 15 || hasTooManyTiles(t)) return false;
+  const bool large = domain.width > 1 << 15 || domain.height > 1 << 15;
+  if ((large && domain.forest.isGrid()) || hasTooManyTiles(t)) return false;
   const bool cutout = t.alphaBytes > 0;
   if ((cutout || t.opaque) && (t.channels % 2 == 1 || (cutout && t.opaque))) return false;
   if (t.planes == kDrawnPlanes && (t.regions.log2 > 0 || t.priorities.tileLog2 > 0)) return false;
