@@ -11,6 +11,7 @@ import pytest
 from conftest import photograph
 
 import tetrakis
+from tetrakis import _sketch
 
 
 def wound(rows, columns, closed_rows):
@@ -22,7 +23,7 @@ def wound(rows, columns, closed_rows):
     return np.concatenate([np.stack([a, d, b], -1), np.stack([b, d, e], -1)]).reshape(-1, 3)
 
 
-def sphere(rows=24, columns=48, radius=10.0):
+def sphere(rows=13, columns=24, radius=10.0):
     """Points of a pole are at one place; triangles there are degenerate, and dropped."""
     theta = np.linspace(0, np.pi, rows)[:, np.newaxis]
     phi = np.arange(columns) * 2 * np.pi / columns
@@ -32,7 +33,7 @@ def sphere(rows=24, columns=48, radius=10.0):
     return points, wound(rows, columns, False)
 
 
-def torus(rows=24, columns=48, large=10.0, small=3.0):
+def torus(rows=12, columns=24, large=10.0, small=3.0):
     u = np.arange(rows)[:, np.newaxis] * 2 * np.pi / rows
     v = np.arange(columns) * 2 * np.pi / columns
     ring = large + small * np.cos(u)
@@ -70,23 +71,23 @@ def volume(points, triangles):
 def shape(request):
     made, off, euler = SHAPES[request.param]
     points, triangles = made()
-    stream = tetrakis.encode_object(points, triangles, bytes=3000, unit="mm", description="a thing")
+    stream = tetrakis.encode_object(points, triangles, bytes=1500, unit="mm", description="a thing")
     return SimpleNamespace(stream=stream, off=off, euler=euler, points=points, triangles=triangles)
 
 
 def test_the_surface_comes_back(shape):
-    assert isinstance(shape.stream, bytes) and 1000 < len(shape.stream) <= 3000
+    assert isinstance(shape.stream, bytes) and 1000 < len(shape.stream) <= 1500
     with tetrakis.open(shape.stream) as opened:
         assert opened.is_object and (opened.info.unit, opened.info.description) == ("mm", "a thing")
         mesh = opened.object()
         assert mesh.points.dtype == np.float64 and mesh.texcoords is None and mesh.atlas is None
         assert len(mesh.points) == len(mesh.pixels) and mesh.triangles.dtype == np.uint32
         error = shape.off(mesh.points)
-        # The facets of the input are up to 0.1 off as well.
-        assert np.sqrt(np.mean(error**2)) < 0.1 and error.max() < 0.6
+        # The facets of the input are some 0.1 off as well.
+        assert np.sqrt(np.mean(error**2)) < 0.2 and error.max() < 0.6
         assert characteristic(mesh) == shape.euler
         ratio = volume(mesh.points, mesh.triangles) / volume(shape.points, shape.triangles)
-        assert ratio == pytest.approx(1, rel=0.02)
+        assert ratio == pytest.approx(1, rel=0.01)
 
 
 def test_meshes_have_the_triangles_asked_for(shape):
@@ -107,13 +108,16 @@ def test_every_prefix_is_a_surface(shape):
     header = tetrakis.open(shape.stream).info.header_bytes
     errors = []
     with tetrakis.open(shape.stream) as opened:
+        whole = opened.object().points
         for count in [*range(header, len(shape.stream), 97), len(shape.stream)]:
             mesh = opened.object(1000, bytes=count)
             with tetrakis.open(shape.stream[:count]) as cut:
                 np.testing.assert_array_equal(cut.object(1000).points, mesh.points)
             assert characteristic(mesh) == shape.euler
-            errors.append(np.sqrt(np.mean(shape.off(mesh.points) ** 2)))
-    assert errors[-1] < errors[0] and errors[0] < 1.5
+            assert (shape.off(mesh.points) < 1).all()
+            points = opened.object(bytes=count).points
+            errors.append(np.sqrt(np.mean((points - whole) ** 2)))
+    assert errors[0] > errors[len(errors) // 2] > errors[-1] == 0
     with pytest.raises(tetrakis.TksTruncatedError):
         tetrakis.open(shape.stream[: header - 1])
 
@@ -153,7 +157,7 @@ def test_the_report_says_what_became_of_it(shape):
 
 
 def test_a_target_of_quality_is_met():
-    points, triangles = torus(16, 32)
+    points, triangles = torus()
     by_psnr = tetrakis.encode_object(points, triangles, psnr=48)
     assert 48 <= by_psnr.report.psnr
     by_error = tetrakis.encode_object(points, triangles, max_error=0.2)
@@ -164,7 +168,7 @@ def test_a_target_of_quality_is_met():
 def test_arrays_of_any_kind_are_the_same_mesh():
     points, triangles = sphere(9, 12)
     points = np.round(points * 8)
-    expected = tetrakis.encode_object(points, triangles, bytes=1500)
+    expected = tetrakis.encode_object(points, triangles, bytes=800)
     faces = SimpleNamespace(vertices=points, faces=triangles)
     blocks = SimpleNamespace(points=points, cells_dict={"triangle": triangles, "line": [[0, 1]]})
     for given in (
@@ -174,11 +178,11 @@ def test_arrays_of_any_kind_are_the_same_mesh():
         (faces,),
         (blocks,),
     ):
-        assert tetrakis.encode_object(*given, bytes=1500) == expected
+        assert tetrakis.encode_object(*given, bytes=800) == expected
 
 
 def test_results_copy_and_pickle_with_their_report():
-    stream = tetrakis.encode_object(*sphere(9, 12), bytes=1500)
+    stream = tetrakis.encode_object(*sphere(9, 12), bytes=800)
     for again in (copy.copy(stream), pickle.loads(pickle.dumps(stream))):
         assert again == stream and again.report == stream.report
     assert type(stream[:100]) is bytes
@@ -192,19 +196,19 @@ def octants(points):
 @pytest.fixture(scope="module")
 def globe():
     """A sphere with a picture whose columns are longitudes, in two kinds of coordinates."""
-    points, triangles = sphere(24, 48)
-    rows, columns = 128, 256
+    points, triangles = sphere(13, 24)
+    rows, columns = 64, 128
     theta = (np.arange(rows)[:, np.newaxis] + 0.5) * np.pi / rows
     phi = (np.arange(columns) + 0.5) * 2 * np.pi / columns
     place = np.stack(
         np.broadcast_arrays(np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)), -1
     )
-    column = (np.arange(len(points)) % 48)[triangles]
-    column = np.where(column.max(axis=1, keepdims=True) - column > 24, column + 48, column)
-    row = (np.arange(len(points)) // 48)[triangles]
-    texcoords = np.stack([column / 48, row / 23], axis=-1)
+    column = (np.arange(len(points)) % 24)[triangles]
+    column = np.where(column.max(axis=1, keepdims=True) - column > 12, column + 24, column)
+    row = (np.arange(len(points)) // 24)[triangles]
+    texcoords = np.stack([column / 24, row / 12], axis=-1)
     image = octants(place).astype("u1")
-    stream = tetrakis.encode_object(points, triangles, texcoords=texcoords, texture=image, bytes=20000)
+    stream = tetrakis.encode_object(points, triangles, texcoords=texcoords, texture=image, bytes=8000)
     return SimpleNamespace(
         stream=stream, points=points, triangles=triangles, texcoords=texcoords, image=image
     )
@@ -257,45 +261,39 @@ def test_prefixes_with_a_texture_are_closed_and_coloured(globe):
 
 
 def test_textures_of_other_kinds(globe):
-    points, triangles = sphere(12, 16)
+    points, triangles = sphere(9, 12)
     uv = (np.arctan2(points[:, 1], points[:, 0]) / (2 * np.pi) + 0.5, 0.5 - points[:, 2] / 20)
     uv = np.stack(uv, axis=1)
-    grey, deep = photograph(32, 48, 1), photograph(32, 48, 4, "u2")
-    for texture in (grey, grey.tolist(), deep):
-        stream = tetrakis.encode_object(points, triangles, texcoords=uv, texture=texture, bytes=4000)
-        atlas = tetrakis.open(stream).object(100).atlas
-        assert atlas.ndim == np.ndim(texture) and len(stream) <= 4000
-        assert atlas.dtype == (np.uint16 if texture is deep else np.uint8)
-    corners = tetrakis.encode_object(
-        points, triangles, texcoords=uv[triangles].astype("f4"), texture=grey, bytes=4000
-    )
-    assert corners == tetrakis.encode_object(
-        points, triangles, texcoords=uv, texture=grey.tolist(), bytes=4000
-    )
-    material = SimpleNamespace(image=SimpleNamespace(mode="L", __array__=None))
-    material.image = grey  # an array stands for an image of Pillow
+    grey, deep = photograph(16, 24, 1), photograph(16, 24, 4, "u2")
+    options = dict(texcoords=uv, bytes=1500)
+    stream = tetrakis.encode_object(points, triangles, texture=deep, **options)
+    atlas = tetrakis.open(stream).object(100).atlas
+    assert atlas.shape[2:] == (4,) and atlas.dtype == np.uint16 and len(stream) <= 1500
+    stream = tetrakis.encode_object(points, triangles, texture=grey.tolist(), **options)
+    expected = tetrakis.open(stream).object(100).atlas
+    assert expected.ndim == 2 and expected.dtype == np.uint8
+    options["texcoords"] = uv[triangles].astype("f4")
+    assert tetrakis.encode_object(points, triangles, texture=grey, **options) == stream
+    material = SimpleNamespace(image=grey)  # an array stands for an image of Pillow
     visual = SimpleNamespace(uv=uv * [1, -1] + [0, 1], material=material)
     of_trimesh = SimpleNamespace(vertices=points, faces=triangles, visual=visual)
-    again = tetrakis.open(tetrakis.encode_object(of_trimesh, bytes=4000)).object()
-    np.testing.assert_allclose(again.atlas.astype(int), tetrakis.open(corners).object().atlas, atol=3)
+    atlas = tetrakis.open(tetrakis.encode_object(of_trimesh, bytes=1500)).object(100).atlas
+    np.testing.assert_allclose(atlas.astype(int), expected, atol=3)
 
 
-def test_notebooks_show_a_picture(shape, globe):
-    for stream in (shape.stream, shape.stream[:400], globe.stream):
+def test_notebooks_show_a_picture(globe):
+    plain = tetrakis.encode_object(*sphere(9, 12), bytes=800)
+    for stream in (globe.stream, plain[:400]):
         with tetrakis.open(stream) as opened:
             page, line = opened._repr_html_(), repr(opened)
             assert "data:image/png" in page and re.search(r"\d+ patches of \d+ x \d+", page)
             assert line.startswith("<tetrakis.Stream: object of ")
             assert opened.describe().base_mesh is not None
-            from tetrakis import _sketch
-
             picture = _sketch.drawn(opened.object(_sketch.TRIANGLES), 255)
             rows, columns = np.nonzero(picture[..., 3])
-            assert np.ptp(rows) > 60 and np.ptp(columns) > 60
-            # No holes between the points that are strewn: of a sphere the middle is covered.
-            if opened.info.texture_shape is not None:
-                assert picture[90:134, 90:134, 3].all()
-                assert len(np.unique(picture[90:134, 90:134, :3].reshape(-1, 3), axis=0)) > 8
+            assert np.ptp(rows) > 150 and np.ptp(columns) > 150
+            middle = picture[50:140, 50:140]  # without holes between the points that are strewn
+            assert middle[..., 3].all() and len(np.unique(middle.reshape(-1, 4), axis=0)) > 8
 
 
 def test_what_makes_no_object_is_refused():
@@ -351,9 +349,9 @@ def test_objects_and_terrains_are_told_apart(shape, stream):
 
 
 def test_progress_is_told_and_may_stop():
-    points, triangles = torus()
+    points, triangles = sphere(9, 12)
     told = []
-    tetrakis.encode_object(points, triangles, bytes=2000, progress=told.append)
+    tetrakis.encode_object(points, triangles, bytes=800, progress=told.append)
     assert told and all(0 <= done <= 1 for done in told)
 
     def stop(done):
@@ -364,11 +362,11 @@ def test_progress_is_told_and_may_stop():
 
 
 def test_the_library_has_the_last_word_on_hostile_texcoords():
-    points, triangles = sphere(6, 8)
+    points, triangles = sphere(9, 12)
     image = photograph(8, 8)
     for wild in (np.nan, np.inf, -1e30, 1e300):
         uv = np.full((len(points), 2), wild)
         try:
-            tetrakis.encode_object(points, triangles, texcoords=uv, texture=image, bytes=2000)
+            tetrakis.encode_object(points, triangles, texcoords=uv, texture=image, bytes=1500)
         except tetrakis.TksError as error:
             assert str(error).endswith(".")

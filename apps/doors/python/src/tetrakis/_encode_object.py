@@ -116,7 +116,8 @@ def _points(given: Any) -> NDArray[np.float64]:
     if points.ndim != 2 or points.shape[1] != 3:
         raise TksUsageError(f"Points are (n, 3), not an array of shape {points.shape}.")
     kept = points.astype(np.float64, order="C")
-    if points.dtype.kind in "iu" and (kept.astype(points.dtype) != points).any():
+    whole = points.dtype.kind in "iu" and points.dtype.itemsize == 8
+    if whole and np.abs(kept).max(initial=0) > 2.0**53:
         raise TksUsageError(f"Points of type {points.dtype} have values that float64 cannot hold.")
     return kept
 

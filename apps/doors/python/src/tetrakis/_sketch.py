@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from ._objects import ObjectMesh
 from ._picture import eight_bits
 
-SIZE = 224
-TRIANGLES = 8000
+SIZE = 192
+TRIANGLES = 4000
 _MARGIN = 6
 
 # Right, down and towards the viewer, who stands in front, to the right and above, with z upwards.
@@ -62,7 +62,7 @@ def _placed(points: NDArray[Any]) -> NDArray[Any]:
 def _strewn(corners: NDArray[Any]) -> Iterator[Tuple[NDArray[Any], NDArray[Any]]]:
     """Triangles of about one size, and the weights of their corners at points of a grid on each."""
     sides = corners[:, [1, 2, 0], :2] - corners[:, :, :2]
-    steps = np.ceil(np.linalg.norm(sides, axis=2).max(axis=1) * 1.5 + 1)
+    steps = np.ceil(np.linalg.norm(sides, axis=2).max(axis=1) * 1.42 + 1)
     fineness = np.ceil(np.log2(steps)).astype(int)
     for fine in np.unique(fineness):
         count = 2**fine
