@@ -23,12 +23,17 @@ def wound(rows, columns, closed_rows):
     return np.concatenate([np.stack([a, d, b], -1), np.stack([b, d, e], -1)]).reshape(-1, 3)
 
 
+def around(theta, phi):
+    """Points of the unit sphere, (rows, columns, 3)."""
+    x, y = np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi)
+    return np.stack([x, y, np.broadcast_to(np.cos(theta), x.shape)], axis=-1)
+
+
 def sphere(rows=13, columns=24, radius=10.0):
     """Points of a pole are at one place; triangles there are degenerate, and dropped."""
     theta = np.linspace(0, np.pi, rows)[:, np.newaxis]
     phi = np.arange(columns) * 2 * np.pi / columns
-    x, y, z = np.broadcast_arrays(np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta))
-    points = radius * np.stack([x, y, z], axis=-1).reshape(-1, 3)
+    points = radius * around(theta, phi).reshape(-1, 3)
     points[:columns], points[-columns:] = [0, 0, radius], [0, 0, -radius]
     return points, wound(rows, columns, False)
 
@@ -200,18 +205,15 @@ def globe():
     rows, columns = 64, 128
     theta = (np.arange(rows)[:, np.newaxis] + 0.5) * np.pi / rows
     phi = (np.arange(columns) + 0.5) * 2 * np.pi / columns
-    place = np.stack(
-        np.broadcast_arrays(np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)), -1
-    )
     column = (np.arange(len(points)) % 24)[triangles]
     column = np.where(column.max(axis=1, keepdims=True) - column > 12, column + 24, column)
     row = (np.arange(len(points)) // 24)[triangles]
     texcoords = np.stack([column / 24, row / 12], axis=-1)
-    image = octants(place).astype("u1")
-    stream = tetrakis.encode_object(points, triangles, texcoords=texcoords, texture=image, bytes=8000)
-    return SimpleNamespace(
-        stream=stream, points=points, triangles=triangles, texcoords=texcoords, image=image
+    image = octants(around(theta, phi)).astype("u1")
+    stream = tetrakis.encode_object(
+        points, triangles, texcoords=texcoords, texture=image, bytes=8000
     )
+    return SimpleNamespace(stream=stream)
 
 
 def looked_up(mesh, uv):
