@@ -85,7 +85,7 @@ class ImportTks(bpy.types.Operator, ImportHelper):
         except (tetrakis.TksError, OSError) as error:
             self.report({"ERROR"}, str(error))
             return {"CANCELLED"}
-        if shape.name == "Tetrakis":
+        if not shape.name:
             shape = shape._replace(name=Path(self.filepath).stem)
         thing = bpy.data.objects.new(shape.name, _mesh(shape))
         context.collection.objects.link(thing)

@@ -15,6 +15,7 @@ class Shape(NamedTuple):
     """A mesh with z up, and its image."""
 
     name: str
+    """That of the stream; "": it has none."""
     vertices: Any
     """float64 (n, 3)"""
     faces: Any
@@ -61,7 +62,7 @@ def _welded(
     # Blender takes no face that names a vertex twice.
     a, b, c = faces.T
     sound = (a != b) & (b != c) & (c != a)
-    name = stream.info.description or "Tetrakis"
+    name = stream.info.description or ""
     if uv is None or texels is None:
         return Shape(name, vertices, faces[sound], None, None)
     upwards = np.asarray(uv, np.float64) * [1, -1] + [0, 1]
