@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from conftest import REPOSITORY, photograph, terrain
+from test_objects import sphere
 
 import tetrakis
 
@@ -44,6 +45,8 @@ def test_what_the_readme_shows_runs(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     np.save("heights.npy", terrain(64, 64))
     np.save("texture.npy", photograph(64, 64))
+    points, triangles = sphere(9, 12)
+    np.savez("scan.npz", points=points, triangles=triangles)
     names = {}
     blocks = re.findall(r"```python\n(.*?)```", (DOOR / "README.md").read_text(), re.S)
     assert len(blocks) >= 3

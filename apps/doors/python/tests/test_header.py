@@ -96,7 +96,7 @@ def test_numbers_are_those_of_c(header, tmp_path):
         ours[f"TKS_REGISTRATION_{(name or 'unknown').upper()}"] = number
     for number, name in enumerate(c.WEIGHTS):
         ours[f"TKS_WEIGHTS_{name.upper()}"] = number
-    for name in ("PART_HEIGHTS", "PART_VALIDITY", "PART_TEXTURE", "MESH_BUDGET"):
+    for name in ("PART_HEIGHTS", "PART_VALIDITY", "PART_TEXTURE", "MESH_CODED", "MESH_BUDGET"):
         ours[f"TKS_{name}"] = getattr(c, name)
     rows = compiled(tmp_path, [f'printf("{name} %d\\n", (int){name});' for name in ours])
     assert {name: int(number) for name, number in rows} == ours

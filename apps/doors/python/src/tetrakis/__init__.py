@@ -5,9 +5,16 @@
     with tetrakis.open(stream) as terrain:
         coarse = terrain.heights(bytes=4096)
         vertices, triangles, uv = terrain.mesh(triangles=5000)
+
+Surfaces of scans and other triangle meshes likewise:
+
+    stream = tetrakis.encode_object(points, triangles, bytes=20000)
+    with tetrakis.open(stream) as thing:
+        points, triangles, *_ = thing.object(triangles=5000)
 """
 
 from ._encode import encode
+from ._encode_object import EncodedObject, ObjectReport, encode_object
 from ._errors import (
     Status,
     TksCorruptError,
@@ -20,6 +27,7 @@ from ._errors import (
     TksUsageError,
 )
 from ._info import Info
+from ._objects import BaseMesh, ObjectMesh
 from ._rasterio import from_rasterio, to_geotiff
 from ._stream import GlobeMesh, Mesh, Stream, open, truncate
 from ._tks import tks_check, tks_decode, tks_encode, tks_version
@@ -27,9 +35,13 @@ from ._version import __version__
 from ._xarray import from_xarray
 
 __all__ = [
+    "BaseMesh",
+    "EncodedObject",
     "GlobeMesh",
     "Info",
     "Mesh",
+    "ObjectMesh",
+    "ObjectReport",
     "Status",
     "Stream",
     "TksCorruptError",
@@ -42,6 +54,7 @@ __all__ = [
     "TksUsageError",
     "__version__",
     "encode",
+    "encode_object",
     "from_rasterio",
     "from_xarray",
     "open",

@@ -191,14 +191,18 @@ class Decoder:
         raw = c.GlobeMesh()
         self.check(c.lib.tks_decode_globe(self._handle, c.MESH_BUDGET, triangles, globe, raw))
         try:
-            return (
-                _copied(raw.position, 3 * raw.vertex_count, "f8").reshape(-1, 3),
-                _copied(raw.pixel, 2 * raw.vertex_count, "f8").reshape(-1, 2),
-                _copied(raw.height, raw.vertex_count, "f4"),
-                _copied(raw.triangles, 3 * raw.triangle_count, "u4").reshape(-1, 3),
-            )
+            return _arrays(raw)
         finally:
             c.lib.tks_free_globe_mesh(raw)
+
+    def object_mesh(self, kind: int, triangles: int) -> Tuple[NDArray[Any], ...]:
+        """As `globe_mesh`, of an object."""
+        raw = c.GlobeMesh()
+        self.check(c.lib.tks_decode_object(self._handle, kind, triangles, raw))
+        try:
+            return _arrays(raw)
+        finally:
+            c.lib.tks_free_object_mesh(raw)
 
     def _view(self, triangles: int, view: NDArray[Any], raw: c.Mesh) -> None:
         tree = ctypes.c_void_p()
@@ -251,6 +255,15 @@ def _put(array: NDArray[Any], out: Optional[NDArray[Any]]) -> NDArray[Any]:
     out = values.output(out, array.shape, array.dtype)
     out[...] = array
     return out
+
+
+def _arrays(raw: c.GlobeMesh) -> Tuple[NDArray[Any], ...]:
+    return (
+        _copied(raw.position, 3 * raw.vertex_count, "f8").reshape(-1, 3),
+        _copied(raw.pixel, 2 * raw.vertex_count, "f8").reshape(-1, 2),
+        _copied(raw.height, raw.vertex_count, "f4"),
+        _copied(raw.triangles, 3 * raw.triangle_count, "u4").reshape(-1, 3),
+    )
 
 
 def _copied(pointer: Any, count: int, dtype: str) -> NDArray[Any]:

@@ -124,7 +124,7 @@ def _declare_fill(heights: c.Heights) -> None:
         heights.has_nodata, heights.nodata = 1, found.value
 
 
-def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
+def image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
     """The struct, and the texels that it points to: they must live as long."""
     if isinstance(array, np.ma.MaskedArray) and np.ma.getmaskarray(array).any():
         raise TksUsageError("A texture has no masked texels: give an alpha of 0 as last channel.")
@@ -157,7 +157,7 @@ def _image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
     ), data
 
 
-def _set_target(options: c.EncodeOptions, target: dict) -> None:
+def set_target(options: c.EncodeOptions, target: dict) -> None:
     """Exactly one target; lossless where none is named."""
     named = [name for name, value in target.items() if value is not None and value is not False]
     if len(named) > 1:
@@ -175,13 +175,11 @@ def _set_target(options: c.EncodeOptions, target: dict) -> None:
         raise TksUsageError(f"The target {name} must be greater than 0.")
 
 
-def _run(
-    heights: Any, image: Any, options: c.EncodeOptions, callback: Any
-) -> builtins.bytes:
-    options.progress = callback
+def run_encoder(encoder: Any, *arguments: Any) -> builtins.bytes:
+    """The stream of an encoder of the C interface, which takes these, a buffer and a message."""
     buffer = c.Buffer()
     message = ctypes.create_string_buffer(1024)
-    status = c.lib.tks_encode(heights, image, options, buffer, message, len(message))
+    status = encoder(*arguments, buffer, message, len(message))
     if status != Status.OK:
         raise error(status, message.value.decode("utf-8", "replace"))
     try:
@@ -309,7 +307,7 @@ def encode(
     if lossless is not None:
         lossless = values.flag(lossless, "lossless")
     target = dict(bytes=bytes, psnr=psnr, max_error=max_error, lossless=lossless)
-    _set_target(options, target)
+    set_target(options, target)
     place = dict(
         nodata=nodata,
         unit=unit,
@@ -343,13 +341,14 @@ def encode(
     elif faces:
         raise TksUsageError('depth is about a cube: give domain="cube" and heights.')
     height_field, samples = (None, None) if heights is None else _heights_struct(heights, place)
-    image, texels = (None, None) if texture is None else _image_struct(texture, texture_place)
+    image, texels = (None, None) if texture is None else image_struct(texture, texture_place)
     arrays = [array for array in (samples, texels) if array is not None]
 
     def call(callback: Any, _kept: Any = arrays) -> builtins.bytes:
+        options.progress = callback
         if on_cube:
             field, _samples = cube.on_cube(height_field, samples, faces, options.threads)
-            return _run(field, image, options, callback)
-        return _run(height_field, image, options, callback)
+            return run_encoder(c.lib.tks_encode, field, image, options)
+        return run_encoder(c.lib.tks_encode, height_field, image, options)
 
     return stoppable.run(call, progress, sum(array.size for array in arrays) <= _SHORT)

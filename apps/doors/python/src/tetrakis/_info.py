@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Optional, Tuple, Union
 
 import numpy as np
 
 from . import _cube as cube
 from . import _library as c
+from . import _objects as objects
 from . import _values as values
 
 GeoTransform = Tuple[float, float, float, float, float, float]
@@ -62,7 +63,8 @@ class Info:
     domain: str
     """"plane", "cylinder", "cube" or another "forest": of the heights. Those of a cube that was
     made of a grid come back on the grid, which `shape`, `spacing` (on the equator) and
-    `geotransform` are of; `heights_rmse` is that of the cube."""
+    `geotransform` are of; `heights_rmse` is that of the cube. Heights of an object, which has a
+    `base_mesh`, lie on a "forest" as well: its patches are one below the other."""
     cube_depth: Optional[int]
     """Faces of such a cube have 2^cube_depth x 2^cube_depth squares."""
     has_voids: bool
@@ -98,6 +100,9 @@ class Info:
     texture_registration: Optional[str]
     texture_geo_keys: Optional[str]
     texture_domain: str
+
+    base_mesh: Optional[objects.BaseMesh] = field(compare=False)
+    """Of an object: the quads that its heights lie over."""
 
 
 _PLAIN = (
@@ -166,6 +171,7 @@ def _as_coded(raw: c.StreamInfo) -> Info:
         registration=c.REGISTRATIONS[raw.registration],
         domain=c.DOMAINS[raw.domain],
         cube_depth=None,
+        base_mesh=objects.base_of(raw),
         texture_domain=c.DOMAINS[raw.texture_domain],
         index=c.INDEXES[raw.index],
         nodata=raw.nodata if raw.has_nodata else None,

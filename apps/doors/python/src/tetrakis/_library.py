@@ -15,6 +15,7 @@ from ctypes import (
     c_double,
     c_float,
     c_int,
+    c_int32,
     c_size_t,
     c_uint32,
     c_uint64,
@@ -41,13 +42,24 @@ GIVEN_DOMAINS = ("plane", "cylinder", "cube")  # a cube is a forest
 CUBE_PATCHES, MOST_CUBE_DEPTH = 6, 14
 
 PART_HEIGHTS, PART_VALIDITY, PART_TEXTURE = 0, 1, 2
-MESH_BUDGET = 1
+MESH_CODED, MESH_BUDGET = 0, 1
 
 
 class Forest(ctypes.Structure):
     """tks_forest."""
 
     _fields_ = [("depth", c_uint32), ("patches", c_uint32), ("sides", POINTER(c_uint32))]
+
+
+class BaseMesh(ctypes.Structure):
+    """tks_base_mesh."""
+
+    _fields_ = [
+        ("position_bits", c_uint32),
+        ("cell", c_double),
+        ("origin", c_double * 3),
+        ("corners", POINTER(c_int32)),
+    ]
 
 
 class Heights(ctypes.Structure):
@@ -82,6 +94,7 @@ class Heights(ctypes.Structure):
         ("forest", Forest),
         ("grid_width", c_uint32),
         ("grid_height", c_uint32),
+        ("base_mesh", BaseMesh),
     ]
 
 
@@ -194,6 +207,42 @@ class Ground(ctypes.Structure):
     ]
 
 
+class TriangleMesh(ctypes.Structure):
+    """tks_triangle_mesh."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("vertex_count", c_uint32),
+        ("triangle_count", c_uint32),
+        ("positions", c_void_p),
+        ("triangles", c_void_p),
+        ("unit", c_char_p),
+        ("description", c_char_p),
+        ("texcoords", c_void_p),
+    ]
+
+
+class ObjectReport(ctypes.Structure):
+    """tks_object_report."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("triangles", c_uint32),
+        ("dropped_triangles", c_uint32),
+        ("cut_edges", c_uint32),
+        ("components", c_uint32),
+        ("borders", c_uint32),
+        ("patches", c_uint32),
+        ("depth", c_uint32),
+        ("diagonal", c_double),
+        ("resampling_error", c_double),
+        ("error", c_double),
+        ("largest", c_double),
+        ("psnr", c_double),
+        ("texture_depth", c_uint32),
+    ]
+
+
 class Outliers(ctypes.Structure):
     """tks_outliers."""
 
@@ -294,6 +343,7 @@ class StreamInfo(ctypes.Structure):
         ("texture_forest", Forest),
         ("grid_width", c_uint32),
         ("grid_height", c_uint32),
+        ("base_mesh", BaseMesh),
     ]
 
 
@@ -399,6 +449,7 @@ class Screen(ctypes.Structure):
 
 STRUCTS = {
     "tks_forest": Forest,
+    "tks_base_mesh": BaseMesh,
     "tks_heights": Heights,
     "tks_image": Image,
     "tks_camera": Camera,
@@ -406,6 +457,8 @@ STRUCTS = {
     "tks_encode_options": EncodeOptions,
     "tks_buffer": Buffer,
     "tks_ground": Ground,
+    "tks_triangle_mesh": TriangleMesh,
+    "tks_object_report": ObjectReport,
     "tks_outliers": Outliers,
     "tks_limits": Limits,
     "tks_range": Range,
@@ -431,6 +484,18 @@ PROTOTYPES = {
             POINTER(Heights),
             POINTER(Image),
             POINTER(EncodeOptions),
+            POINTER(Buffer),
+            c_char_p,
+            c_size_t,
+        ],
+    ),
+    "tks_encode_object": (
+        c_int,
+        [
+            POINTER(TriangleMesh),
+            POINTER(Image),
+            POINTER(EncodeOptions),
+            POINTER(ObjectReport),
             POINTER(Buffer),
             c_char_p,
             c_size_t,
@@ -472,6 +537,8 @@ PROTOTYPES = {
         [c_void_p, c_int, c_uint32, POINTER(Globe), POINTER(GlobeMesh)],
     ),
     "tks_free_globe_mesh": (None, [POINTER(GlobeMesh)]),
+    "tks_decode_object": (c_int, [c_void_p, c_int, c_uint32, POINTER(GlobeMesh)]),
+    "tks_free_object_mesh": (None, [POINTER(GlobeMesh)]),
     "tks_cube_sides": (POINTER(c_uint32), []),
     "tks_cube_depth": (c_uint32, [c_uint32]),
     "tks_cube_from_grid": (

@@ -36,6 +36,8 @@ def _run_here(call: Callable[[Any], T], progress: Optional[Progress]) -> T:
     report, raised = progress, []  # type: Progress, List[BaseException]
 
     def told(_user: Any, done: float) -> int:
+        if raised:
+            return 1
         try:
             report(done)
             return 0

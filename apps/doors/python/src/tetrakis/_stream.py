@@ -13,7 +13,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _library as c
+from . import _objects as objects
 from . import _picture as picture
+from . import _sketch as sketch
 from . import _values as values
 from ._access import Access, access
 from ._decoder import Decoder
@@ -134,6 +136,8 @@ class Stream:
             )
             if shape
         ]
+        if info.base_mesh is not None:
+            parts.insert(0, f"object of {_patches(info.base_mesh)}")
         parts.append(f"{info.available_bytes} of {info.stream_bytes} bytes")
         return f"<tetrakis.Stream: {', '.join(parts)}>"
 
@@ -149,9 +153,13 @@ class Stream:
             "largest error": info.max_error and f"{info.max_error} {info.unit or ''}",
             "CRS": info.crs and info.crs[:60],
         }
+        if info.base_mesh is not None:
+            facts = {"object": info.description or "", "quads": _patches(info.base_mesh), **facts}
         return picture.page(picture.png(self._thumbnail(info)), facts)
 
     def _thumbnail(self, info: Info) -> NDArray[Any]:
+        if info.base_mesh is not None:
+            return sketch.drawn(self.object(sketch.TRIANGLES), info.texture_white_level or 65535)
         if info.texture_shape is not None:
             level = _level_for(info.texture_shape, info.texture_coarsest_level)
             return picture.eight_bits(self.texture(level), info.texture_white_level or 65535)
@@ -333,6 +341,8 @@ class Stream:
             info = decoder.info()
             if info.cube_depth is not None:
                 raise TksUsageError("Heights on a cube have a mesh round the globe: globe_mesh().")
+            if info.base_mesh is not None:
+                raise TksUsageError("The surface of an object is a mesh of its own: object().")
             if coordinates == "crs" and info.shape and info.geotransform is None:
                 raise TksUsageError("The stream does not say where its heights lie.")
             places, heights, corners = decoder.mesh(count, matrix)
@@ -376,6 +386,38 @@ class Stream:
         )
         with self._access.prefix(bytes) as decoder:
             return GlobeMesh(*decoder.globe_mesh(count, globe))
+
+    @property
+    def is_object(self) -> bool:
+        """Whether this is the surface of an object, whose mesh :meth:`object` gives. Its heights
+        are those along the normals of `info.base_mesh`."""
+        return self.info.base_mesh is not None
+
+    def object(
+        self, triangles: int = 0, coded: bool = False, bytes: Optional[int] = None
+    ) -> objects.ObjectMesh:
+        """The surface of an object as the best mesh of at most `triangles` triangles, by the
+        squared distance between surfaces, but no fewer than two for each of its patches. 0: of
+        every sample. With its texture, where it has one, as an image that lies on the mesh.
+
+        coded: the vertices whose heights the stream tells, however many these are.
+        bytes: of a prefix of so many bytes.
+
+        Points that are equal are one: taken for one, they leave no edge open but at borders of the
+        object.
+        """
+        count = values.unsigned(triangles, "triangles")
+        kind = c.MESH_CODED if values.flag(coded, "coded") else c.MESH_BUDGET
+        if count and kind == c.MESH_CODED:
+            raise TksUsageError("A coded mesh has the triangles that the stream tells: give none.")
+        with self._access.prefix(bytes) as decoder:
+            info = decoder.info()
+            points, pixels, _, corners = decoder.object_mesh(kind, count)
+            if info.base_mesh is None or info.base_mesh.texture_depth is None:
+                return objects.ObjectMesh(points, corners, pixels, None, None)
+            atlas = objects.atlas_of(decoder.texture(info, None, None))
+        texcoords = objects.texcoords_of(pixels, info.base_mesh)
+        return objects.ObjectMesh(points, corners, pixels, texcoords, atlas)
 
     def locate(
         self, columns: ArrayLike, rows: ArrayLike, *, part: str = "heights"
@@ -426,6 +468,11 @@ class Stream:
 
 def _levels(heights: int, texture: int) -> Tuple[int, int]:
     return values.unsigned(heights, "level"), values.unsigned(texture, "level")
+
+
+def _patches(base: objects.BaseMesh) -> str:
+    side = 2**base.depth + 1
+    return f"{len(base.corners)} patches of {side} x {side}"
 
 
 def _level_for(shape: Sequence[int], coarsest: int) -> int:
