@@ -14,14 +14,16 @@ prefix="$scratch/prefix"
 quiet() { "$@" > "$scratch/log" 2>&1 || { cat "$scratch/log"; return 1; }; }
 fail() { echo "$*"; exit 1; }
 
-# consume LANGUAGE LIBRARY ARGUMENTS...: configures, builds and runs the user's project.
+# consume LANGUAGE LIBRARY...: configures and builds the user's project, and runs its programs.
 consume() {
-  local folder="$scratch/consumer-$1-$2" input=()
+  local folder="$scratch/consumers-$1" input=() libraries="${*:2}"
   quiet cmake -S "$source" -B "$folder" -DCMAKE_PREFIX_PATH="$prefix" -DCONSUMER_LANGUAGE="$1" \
-    -DLIBRARY="tetrakis::$2"
+    -DLIBRARIES="${libraries// /;}"
   quiet cmake --build "$folder"
   if [[ "$1" == C ]]; then input=("$stream"); fi
-  "$folder/consumer" "${input[@]}" || fail "the $1 consumer of $2 fails"
+  for library in "${@:2}"; do
+    "$folder/consumer_$library" "${input[@]}" || fail "the $1 consumer of $library fails"
+  done
 }
 
 # config LIBRARY OPTIONS...: what pkg-config says.
@@ -35,11 +37,8 @@ libraries="$(dirname "$(dirname "$pc")")"
 
 kinds=("" _static)
 if [[ -e "$libraries/libtetrakis.so" ]]; then kinds+=(_shared); fi
-for kind in "${kinds[@]}"; do
-  consume C "tetrakis$kind"
-  consume C "tetrakis_decoder$kind"
-  consume CXX "tetrakis$kind"
-done
+consume C "${kinds[@]/#/tetrakis}" "${kinds[@]/#/tetrakis_decoder}"
+consume CXX "${kinds[@]/#/tetrakis}"
 
 # Linked by hand: what the archives need beside themselves stands in the files.
 for name in tetrakis tetrakis_decoder; do

@@ -12,9 +12,9 @@ for shared in OFF ON; do
   ending=a
   [[ "$shared" == OFF ]] || ending=so
   cmake -S "$source/tests/install" -B "$scratch/$shared" -G Ninja -DTETRAKIS_SOURCE="$source" \
-    -DLIBRARY=tetrakis::tetrakis_decoder -DBUILD_SHARED_LIBS="$shared" > "$scratch/log" 2>&1 ||
+    -DLIBRARIES=tetrakis_decoder -DBUILD_SHARED_LIBS="$shared" > "$scratch/log" 2>&1 ||
     { cat "$scratch/log"; exit 1; }
-  ninja -C "$scratch/$shared" -t commands consumer | tail -n 1 |
-    grep -q "consumer .*libtetrakis_decoder\.$ending" ||
+  ninja -C "$scratch/$shared" -t commands consumer_tetrakis_decoder | tail -n 1 |
+    grep -q "consumer_tetrakis_decoder .*libtetrakis_decoder\.$ending" ||
     { echo "the consumer does not link libtetrakis_decoder.$ending"; exit 1; }
 done

@@ -51,7 +51,7 @@ before(async () => {
   await symlink(web + 'node_modules/@cesium/engine/Build/Workers', folder + 'Workers');
   await symlink(web + 'node_modules/@cesium/engine/Source/Assets', folder + 'Assets');
   server = await serve(web);
-  browser = await launch();
+  browser = await launch({width: 256, height: 256});
   reader = await browser.newPage();
 });
 after(async () => {
@@ -62,7 +62,7 @@ after(async () => {
 
 /** Opens the page with an adapter; gives its heights and its picture. */
 async function drawn(adapter) {
-  const page = await browser.newPage({viewport: {width: 256, height: 256}});
+  const page = await browser.newPage();
   try {
     const errors = [];
     page.on('pageerror', (error) => errors.push(error.message));

@@ -3,8 +3,6 @@
 // to start a process and to compile scripts, modules and shaders anew.
 import {chromium} from 'playwright-core';
 
-const VIEWPORT = {width: 1000, height: 600};
-
 /** As a new page is: nothing listens, nothing is asked for, the pointer lies in a corner. */
 async function emptied(page) {
   page.removeAllListeners();
@@ -15,13 +13,14 @@ async function emptied(page) {
   return page;
 }
 
-export async function launch() {
+/** `viewport`: of pages that are told no other. */
+export async function launch(viewport = {width: 1000, height: 600}) {
   const browser =
     await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
   let idle = null;
   return {
     /** A page of its own, with Playwright's options; the caller closes it. */
-    newPage: (options) => browser.newPage({viewport: VIEWPORT, ...options}),
+    newPage: (options) => browser.newPage({viewport, ...options}),
     /** Calls use(page) with an empty page, which another test may have used; one of its own if
      * there are `options`, or after a failure. */
     async withPage(use, options) {

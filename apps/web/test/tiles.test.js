@@ -7,8 +7,8 @@ import {existsSync} from 'node:fs';
 import {mkdir, rm, symlink, writeFile} from 'node:fs/promises';
 import {after, before, test} from 'node:test';
 import {build} from 'esbuild';
-import {chromium} from 'playwright-core';
 
+import {launch} from './chromium.js';
 import {serve} from './server.js';
 
 const CLI = process.env.TETRAKIS_CLI ??
@@ -42,7 +42,7 @@ before(async () => {
   await symlink(web + 'node_modules/@cesium/engine/Build/Workers', folder + 'Workers');
   await symlink(web + 'node_modules/@cesium/engine/Source/Assets', folder + 'Assets');
   server = await serve(web);
-  browser = await chromium.launch({executablePath: '/usr/bin/chromium', args: ['--no-sandbox']});
+  browser = await launch({width: PIXELS, height: PIXELS});
 });
 after(async () => {
   await browser?.close();
@@ -51,25 +51,19 @@ after(async () => {
 });
 
 /** Calls `look` with a page that shows a folder of tiles; nothing fails meanwhile. */
-async function shown(tiles, format, look) {
-  const page = await browser.newPage({viewport: {width: PIXELS, height: PIXELS}});
-  try {
-    const errors = [];
-    page.on('pageerror', (error) => errors.push(error.message));
-    const first = server.requests.length;
-    const query = `tiles=/dist/tiles-test/${tiles}&format=${format}`;
-    await page.goto(`${server.url}test/tiles.html?${query}`);
-    await page.waitForFunction(() => document.body.dataset.state === 'done', null, {timeout: 60000})
-      .catch((error) => assert.fail(`${error.message} ${errors}`));
-    await look(page);
-    const failures = await page.evaluate(() => window.failures);
-    const missing = server.requests.slice(first).filter(({status}) => status === 404);
-    assert.deepEqual([errors, failures, missing], [[], [], []]);
-    return server.requests.slice(first).map(({path}) => path);
-  } finally {
-    await page.close();
-  }
-}
+const shown = (tiles, format, look) => browser.withPage(async (page) => {
+  const errors = [], first = server.requests.length;
+  page.on('pageerror', (error) => errors.push(error.message));
+  const query = `tiles=/dist/tiles-test/${tiles}&format=${format}`;
+  await page.goto(`${server.url}test/tiles.html?${query}`);
+  await page.waitForFunction(() => document.body.dataset.state === 'done', null, {timeout: 60000})
+    .catch((error) => assert.fail(`${error.message} ${errors}`));
+  await look(page);
+  const failures = await page.evaluate(() => window.failures);
+  const missing = server.requests.slice(first).filter(({status}) => status === 404);
+  assert.deepEqual([errors, failures, missing], [[], [], []]);
+  return server.requests.slice(first).map(({path}) => path);
+});
 
 /** The share of pixels that are not black, from so many times the width of the ground. */
 async function litFrom(page, times, error, name) {

@@ -77,8 +77,8 @@ const farness = (page) => page.evaluate(() => {
   const [eye, target] = [numbers('eye'), numbers('target')];
   return Math.hypot(...eye.map((value, i) => value - target[i]));
 });
-/** Calls go(), and waits until the camera is where that takes it: at once where no motion is wanted,
- * which the address then tells. */
+/** Calls go(), and waits until the camera is where that takes it: at once where no motion is
+ * wanted, which the address then tells. */
 async function arrived(page, go, isMoving = false) {
   await page.emulateMedia({reducedMotion: isMoving ? 'no-preference' : 'reduce'});
   const before = await page.evaluate(() => location.hash);
