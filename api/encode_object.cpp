@@ -15,6 +15,7 @@
 #include "api/encoded_stream.hpp"
 #include "api/guarded.hpp"
 #include "base/forest.hpp"
+#include "base/watch.hpp"
 #include "codec/remesh/mesh_colours.hpp"
 #include "codec/remesh/mesh_distance.hpp"
 #include "codec/remesh/mesh_topology.hpp"
@@ -120,12 +121,44 @@ int positionBits(uint32_t triangles) {
   return triangles <= 1000 ? 8 : triangles <= 4000 ? 9 : 10;
 }
 
+/// Tells the caller how far the search is. Nobody knows how many bases will be tried: each takes a
+/// part of what is left.
+class SearchProgress {
+ public:
+  explicit SearchProgress(const tks_encode_options& options) : options_(options) {}
+
+  /// A base is tried by an encoding under these options.
+  void attend(tks_encode_options& options) {
+    begin_ = done_;
+    options.progress = options_.progress != nullptr ? &SearchProgress::told : nullptr;
+    options.user = this;
+  }
+  bool isStopped() const { return stopped_; }
+
+ private:
+  static int told(void* user, double done) {
+    constexpr double kOfTheRest = 0.4;
+    auto& self = *static_cast<SearchProgress*>(user);
+    self.done_ = self.begin_ + done * kOfTheRest * (1 - self.begin_);
+    self.stopped_ = self.options_.progress(self.options_.user, self.done_) != 0;
+    return self.stopped_;
+  }
+
+  const tks_encode_options& options_;
+  double begin_ = 0, done_ = 0;
+  bool stopped_ = false;
+};
+
 class ObjectEncoder {
  public:
   /// image: null, or checked.
   ObjectEncoder(const tks_triangle_mesh& given, const TriangleMesh& mesh, const tks_image* image,
                 const tks_encode_options& options)
-      : given_(given), image_(image), options_(options), source_(mesh, kFewestTriangles) {}
+      : given_(given),
+        image_(image),
+        options_(options),
+        source_(mesh, kFewestTriangles),
+        progress_(options) {}
 
   const ObjectSource& source() const { return source_; }
 
@@ -199,7 +232,7 @@ class ObjectEncoder {
   }
 
   /// The heights of a trial beside the texture, which the target is of as well.
-  Result<SharedTrial> withTexture(const Trial& trial) const {
+  Result<SharedTrial> withTexture(const Trial& trial) {
     const PatchTexture texture = textureOn(trial.object);
     tks_image image = *image_;
     const Extent raster = texture.forest.raster();
@@ -288,13 +321,15 @@ class ObjectEncoder {
     return meshDistance(source_.tree(), TriangleTree(mesh), places);
   }
 
-  Result<SharedTrial> coded(Trial trial, tks_encode_options options, const tks_image* image) const {
+  Result<SharedTrial> coded(Trial trial, tks_encode_options options, const tks_image* image) {
     options.explain = nullptr;
+    progress_.attend(options);
     const tks_heights heights = heightsOf(trial.object);
     tks_buffer buffer{};
     std::string message(300, '\0');
     const tks_status status =
         tks_encode(&heights, image, &options, &buffer, message.data(), message.size());
+    if (progress_.isStopped()) throw Stopped();
     if (status != TKS_OK) return Status(status, message.c_str());
     trial.stream.assign(buffer.data, buffer.data + buffer.size);
     tks_free_buffer(&buffer);
@@ -337,6 +372,7 @@ class ObjectEncoder {
   const tks_image* image_;
   const tks_encode_options& options_;
   ObjectSource source_;
+  SearchProgress progress_;
 };
 
 tks_object_report reportOf(const ObjectSource& source, const Trial& trial) {
@@ -413,6 +449,10 @@ tks_status tks_encode_object(const tks_triangle_mesh* mesh, const tks_image* ima
   if (out != nullptr) *out = {nullptr, 0};
   return tetrakis::reporting(message, message_size, [&]() -> tetrakis::Status {
     if (out == nullptr) return tetrakis::outputMissing();
-    return tetrakis::encodeObject(mesh, image, options, report, *out);
+    try {
+      return tetrakis::encodeObject(mesh, image, options, report, *out);
+    } catch (const tetrakis::Stopped&) {
+      return tetrakis::misused("Encoding was stopped by the caller.");
+    }
   });
 }

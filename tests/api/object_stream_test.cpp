@@ -212,6 +212,37 @@ TEST(ObjectStreams, HaveTheTextureOfTheirMesh) {
   }
 }
 
+TEST(ObjectStreams, TellTheirProgressAndStop) {
+  struct Told {
+    double last = 0;
+    bool falls = false;
+    int calls = 0, most = 1 << 20;
+  };
+  const auto told = [](void* user, double done) {
+    auto& seen = *static_cast<Told*>(user);
+    seen.falls |= done < seen.last || done > 1;
+    seen.last = done;
+    return ++seen.calls > seen.most ? 1 : 0;
+  };
+  const GivenMesh sphere(made::sphere(3));
+  const tks_triangle_mesh mesh = sphere.given();
+  for (const int most : {1 << 20, 0}) {
+    Told seen;
+    seen.most = most;
+    tks_encode_options options = budget(2000);
+    options.progress = told;
+    options.user = &seen;
+    tks_buffer buffer{};
+    std::array<char, 300> message{};
+    const tks_status status = tks_encode_object(&mesh, nullptr, &options, nullptr, &buffer,
+                                                message.data(), message.size());
+    EXPECT_EQ(status, most > 0 ? TKS_OK : TKS_USAGE);
+    EXPECT_STREQ(message.data(), most > 0 ? "" : "Encoding was stopped by the caller.");
+    EXPECT_FALSE(seen.falls);
+    tks_free_buffer(&buffer);
+  }
+}
+
 TEST(ObjectStreams, OfBadMeshesAreASentence) {
   const auto refused = [](const TriangleMesh& mesh, tks_encode_options options) {
     const GivenMesh given(mesh);
