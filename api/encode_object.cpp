@@ -14,7 +14,9 @@
 
 #include "api/encoded_stream.hpp"
 #include "api/guarded.hpp"
+#include "api/trial_progress.hpp"
 #include "base/forest.hpp"
+#include "base/portable_math.hpp"
 #include "codec/remesh/mesh_colours.hpp"
 #include "codec/remesh/mesh_distance.hpp"
 #include "codec/remesh/mesh_topology.hpp"
@@ -67,7 +69,7 @@ Result<TriangleMesh> meshOf(const tks_triangle_mesh& given) {
 /// Of a mesh with a texture, what the image is worth beside the heights while a base is sought.
 constexpr double kHeightsPart = 0.25;
 
-/// MeshColours for each byte of a budget: more cannot be told from fewer.
+/// Texels for each byte of a budget: more cannot be told from fewer.
 constexpr double kTexelsForByte = 64;
 
 Status checkImage(const tks_triangle_mesh& mesh, const tks_image* image) {
@@ -122,7 +124,11 @@ class ObjectEncoder {
   /// image: null, or checked.
   ObjectEncoder(const tks_triangle_mesh& given, const TriangleMesh& mesh, const tks_image* image,
                 const tks_encode_options& options)
-      : given_(given), image_(image), options_(options), source_(mesh, kFewestTriangles) {}
+      : given_(given),
+        image_(image),
+        options_(options),
+        progress_(options.progress, options.user),
+        source_(mesh, kFewestTriangles) {}
 
   const ObjectSource& source() const { return source_; }
 
@@ -134,6 +140,7 @@ class ObjectEncoder {
                      " triangles; a stream takes at most " +
                      std::to_string(2 * Forest::kMostPatches) + ". Leave small parts out.");
     Result<SharedTrial> taken = options_.bytes > 0 ? withinBytes() : withinError();
+    if (progress_.stopped()) return misused("Encoding was stopped by the caller.");
     if (!taken.ok() || image_ == nullptr) return taken;
     return withTexture(**taken);
   }
@@ -156,8 +163,8 @@ class ObjectEncoder {
       best = std::move(trial);
       found_finer = true;
     }
-    for (uint32_t coarser = triangles / 2; !found_finer && coarser >= kFewestTriangles;
-         coarser /= 2) {
+    for (uint32_t coarser = triangles / 2;
+         !found_finer && coarser >= kFewestTriangles && !progress_.stopped(); coarser /= 2) {
       Result<SharedTrial> trial = inBudget(coarser);
       const bool unmet = !best.ok();
       if (better(trial))
@@ -182,7 +189,7 @@ class ObjectEncoder {
   }
 
   /// The heights of a trial beside the texture, which the target is of as well.
-  Result<SharedTrial> withTexture(const Trial& trial) const {
+  Result<SharedTrial> withTexture(const Trial& trial) {
     const PatchTexture texture = textureOn(trial.object);
     tks_image image = *image_;
     const Extent raster = texture.forest.raster();
@@ -224,7 +231,7 @@ class ObjectEncoder {
   Result<SharedTrial> withinError() {
     const double error = options_.max_error > 0
                              ? options_.max_error
-                             : source_.diagonal() * std::pow(10.0, -options_.psnr / 20);
+                             : source_.diagonal() * portable::pow(10.0, -options_.psnr / 20);
     Result<SharedTrial> best =
         misused("No base mesh of up to " + std::to_string(kMostTriangles) +
                 " triangles comes as near to the mesh as asked for: ask for a larger error.");
@@ -251,7 +258,7 @@ class ObjectEncoder {
     Result<SharedTrial> made = misused("The error that is asked for cannot be met.");
     for (int attempt = 0; attempt < kTries; ++attempt) {
       tks_encode_options options = options_;
-      options.psnr = std::max(1.0, 20 * std::log10(range / of_heights));
+      options.psnr = std::max(1.0, 20 * portable::log10(range / of_heights));
       made = coded(trial, options, nullptr);
       if (!made.ok() || (*made)->distance.error <= error) return made;
       of_heights *= kLess * std::min(1.0, error / (*made)->distance.error);
@@ -270,7 +277,9 @@ class ObjectEncoder {
     return meshDistance(source_.tree(), TriangleTree(mesh));
   }
 
-  Result<SharedTrial> coded(Trial trial, tks_encode_options options, const tks_image* image) const {
+  Result<SharedTrial> coded(Trial trial, tks_encode_options options, const tks_image* image) {
+    constexpr double kPart = 1.0 / 3;  // of three trials or so
+    progress_.follow(options, image != nullptr ? 1 : kPart);
     options.explain = nullptr;
     const tks_heights heights = heightsOf(trial.object);
     tks_buffer buffer{};
@@ -318,6 +327,7 @@ class ObjectEncoder {
   const tks_triangle_mesh& given_;
   const tks_image* image_;
   const tks_encode_options& options_;
+  TrialProgress progress_;
   ObjectSource source_;
 };
 
