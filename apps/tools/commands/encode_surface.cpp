@@ -47,7 +47,7 @@ Status addTexture(const EncodeArguments& arguments, bool quiet, SurfaceInputs& i
   return {};
 }
 
-Result<SurfaceInputs> readInputs(const EncodeArguments& arguments, bool quiet) {
+Result<SurfaceInputs> readSurfaceInputs(const EncodeArguments& arguments, bool quiet) {
   std::string remark;
   Result<SurfaceFile> mesh = readSurface(arguments.height, &remark);
   if (!mesh.ok()) return mesh.status();
@@ -72,7 +72,8 @@ tks_triangle_mesh asTriangleMesh(const SurfaceInputs& inputs) {
   return mesh;
 }
 
-Result<tks_encode_options> optionsOf(const EncodeArguments& arguments, const std::string& unit) {
+Result<tks_encode_options> surfaceOptions(const EncodeArguments& arguments,
+                                          const std::string& unit) {
   tks_encode_options options = makeEncodeOptions();
   options.bytes = arguments.bytes;
   options.psnr = arguments.psnr;
@@ -87,7 +88,7 @@ Result<tks_encode_options> optionsOf(const EncodeArguments& arguments, const std
 }
 
 /// Three digits are what distances between 20 000 places tell.
-std::string rounded(double value) {
+std::string threeDigits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);
   return text;
@@ -95,7 +96,7 @@ std::string rounded(double value) {
 
 /// With its unit, if that is known.
 std::string inUnit(double value, const std::string& unit) {
-  return rounded(value) + (unit.empty() ? "" : ' ' + unit);
+  return threeDigits(value) + (unit.empty() ? "" : ' ' + unit);
 }
 
 std::string squares(uint32_t patches, uint32_t depth) {
@@ -103,9 +104,9 @@ std::string squares(uint32_t patches, uint32_t depth) {
   return counted(patches, "patch of ", "patches of ") + side + " x " + side;
 }
 
-Result<Buffer> encodeInputs(const EncodeArguments& arguments, const SurfaceInputs& inputs,
-                            bool quiet, tks_object_report& report) {
-  Result<tks_encode_options> options = optionsOf(arguments, inputs.unit);
+Result<Buffer> encodeMesh(const EncodeArguments& arguments, const SurfaceInputs& inputs, bool quiet,
+                          tks_object_report& report) {
+  Result<tks_encode_options> options = surfaceOptions(arguments, inputs.unit);
   if (!options.ok()) return options.status();
   Progress progress("encoding", quiet);
   options->progress = &Progress::report;
@@ -178,10 +179,10 @@ Status encodeSurface(const EncodeArguments& arguments, bool quiet) {
   if (!status.ok()) return status;
   Result<Output> output = Output::plan(arguments.output, arguments.force, ".tks");
   if (!output.ok()) return output.status();
-  const Result<SurfaceInputs> inputs = readInputs(arguments, quiet);
+  const Result<SurfaceInputs> inputs = readSurfaceInputs(arguments, quiet);
   if (!inputs.ok()) return inputs.status();
   tks_object_report report{};
-  const Result<Buffer> stream = encodeInputs(arguments, *inputs, quiet, report);
+  const Result<Buffer> stream = encodeMesh(arguments, *inputs, quiet, report);
   if (!stream.ok()) return stream.status();
   const std::span<const uint8_t> bytes = stream->bytes();
   status = output->stage(std::as_bytes(bytes));

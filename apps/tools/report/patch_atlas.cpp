@@ -39,7 +39,7 @@ ImageFile PatchAtlas::pictureOf(const ImageFile& raster) const {
 std::array<double, 2> PatchAtlas::at(uint32_t patch, double x, double y) const {
   const auto across = [this](uint32_t place, double part, uint32_t whole) {
     constexpr double kToMiddle = 1.5;  // over the gutter to the middle of the first texel
-    return (double{place} * cell() + kToMiddle + part * (side_ - 1)) / whole;
+    return (static_cast<double>(place) * cell() + kToMiddle + part * (side_ - 1)) / whole;
   };
   return {across(patch % columns_, x, width()), across(patch / columns_, y, height())};
 }
