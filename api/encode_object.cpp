@@ -66,8 +66,10 @@ Result<TriangleMesh> meshOf(const tks_triangle_mesh& given) {
   return mesh;
 }
 
-/// Of a mesh with a texture, what the image is worth beside the heights while a base is sought.
+/// Of a mesh with a texture, what its heights get while a base is sought, and no fewer bytes than
+/// the least.
 constexpr double kHeightsPart = 0.25;
+constexpr uint64_t kLeastHeightBytes = 1000;
 
 /// Texels for each byte of a budget: more cannot be told from fewer.
 constexpr double kTexelsForByte = 64;
@@ -177,8 +179,9 @@ class ObjectEncoder {
 
   /// Of a budget, while a base is sought.
   uint64_t heightBytes() const {
-    const double part = image_ != nullptr ? kHeightsPart : 1;
-    return static_cast<uint64_t>(part * static_cast<double>(options_.bytes));
+    if (image_ == nullptr) return options_.bytes;
+    const double part = kHeightsPart * static_cast<double>(options_.bytes);
+    return std::min(options_.bytes, std::max(kLeastHeightBytes, static_cast<uint64_t>(part)));
   }
 
   Result<SharedTrial> inBudget(uint32_t triangles) {

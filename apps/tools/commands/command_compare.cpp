@@ -142,6 +142,8 @@ Status compare(const CompareArguments& arguments, bool quiet) {
   if (!stream.ok()) return stream.status();
   if (!arguments.mesh.empty()) return compareMesh(arguments, *stream, quiet);
   const tks_info& info = stream->decoder.info();
+  if (isObject(info))
+    return {TKS_USAGE, quoted(arguments.source.path) + " holds an object: compare it with --mesh"};
   const Result<Reference> reference = readReference(arguments, info, quiet);
   if (!reference.ok()) return reference.status();
   Result<Comparer> comparer = Comparer::create(*reference, info);

@@ -14,7 +14,6 @@
 #include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/plain_heights.hpp"
 #include "apps/tools/output/json.hpp"
-#include "apps/tools/report/object_mesh.hpp"
 
 namespace tetrakis::tools {
 namespace {

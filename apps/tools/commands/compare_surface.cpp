@@ -16,7 +16,7 @@ namespace {
 /// With the texture that `encode` takes.
 Result<SurfaceFile> readOriginal(const MeshReference& reference, const tks_info& info, bool quiet) {
   std::string remark;
-  Result<SurfaceFile> mesh = readSurface(reference.mesh, &remark);
+  Result<SurfaceFile> mesh = readSurface(reference.mesh, &remark, reference.texture.empty());
   if (!mesh.ok()) return mesh.status();
   if (!remark.empty()) tellNote(quoted(reference.mesh) + ": " + remark, quiet);
   if (!reference.texture.empty()) {

@@ -5,7 +5,6 @@
 
 #include "apps/tools/commands/decode_windows.hpp"
 #include "apps/tools/files/cube_heights.hpp"
-#include "apps/tools/report/object_mesh.hpp"
 
 namespace tetrakis::tools {
 

@@ -49,7 +49,7 @@ Status addTexture(const EncodeArguments& arguments, bool quiet, SurfaceInputs& i
 
 Result<SurfaceInputs> readSurfaceInputs(const EncodeArguments& arguments, bool quiet) {
   std::string remark;
-  Result<SurfaceFile> mesh = readSurface(arguments.height, &remark);
+  Result<SurfaceFile> mesh = readSurface(arguments.height, &remark, arguments.texture.empty());
   if (!mesh.ok()) return mesh.status();
   if (!remark.empty()) tellNote(quoted(arguments.height) + ": " + remark, quiet);
   SurfaceInputs inputs{std::move(*mesh), std::nullopt, ""};

@@ -7,15 +7,11 @@
 #include <vector>
 
 #include "apps/tools/files/files.hpp"
+#include "apps/tools/files/stream.hpp"
 #include "apps/tools/report/patch_atlas.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::tools {
-
-/// Whether the heights of a stream lie over a base mesh.
-inline bool isObject(const tks_info& info) {
-  return info.base_mesh.position_bits > 0;
-}
 
 /// Whether an object has a texture on its patches.
 inline bool hasAtlas(const tks_info& info) {
