@@ -15,6 +15,7 @@
 #include "api/encoded_stream.hpp"
 #include "api/guarded.hpp"
 #include "base/forest.hpp"
+#include "base/portable_math.hpp"
 #include "base/watch.hpp"
 #include "codec/remesh/mesh_colours.hpp"
 #include "codec/remesh/mesh_distance.hpp"
@@ -65,8 +66,10 @@ Result<TriangleMesh> meshOf(const tks_triangle_mesh& given) {
   return mesh;
 }
 
-/// Of a mesh with a texture, what the image is worth beside the heights while a base is sought.
+/// Of a mesh with a texture, what its heights get while a base is sought, and no fewer bytes than
+/// the least.
 constexpr double kHeightsPart = 0.25;
+constexpr uint64_t kLeastHeightBytes = 1000;
 
 /// Places of either surface by which bases are compared; reports take more.
 constexpr size_t kTrialPlaces = 6000;
@@ -199,8 +202,8 @@ class ObjectEncoder {
       best = std::move(trial);
       found_finer = true;
     }
-    for (uint32_t coarser = triangles / 2; !found_finer && coarser >= kFewestTriangles;
-         coarser /= 2) {
+    for (uint32_t coarser = triangles / 2;
+         !found_finer && coarser >= kFewestTriangles && !progress_.stopped(); coarser /= 2) {
       Result<SharedTrial> trial = inBudget(coarser);
       const bool unmet = !best.ok();
       if (better(trial))
@@ -220,8 +223,9 @@ class ObjectEncoder {
 
   /// Of a budget, while a base is sought.
   uint64_t heightBytes() const {
-    const double part = image_ != nullptr ? kHeightsPart : 1;
-    return static_cast<uint64_t>(part * static_cast<double>(options_.bytes));
+    if (image_ == nullptr) return options_.bytes;
+    const double part = kHeightsPart * static_cast<double>(options_.bytes);
+    return std::min(options_.bytes, std::max(kLeastHeightBytes, static_cast<uint64_t>(part)));
   }
 
   Result<SharedTrial> inBudget(uint32_t triangles) {
@@ -274,7 +278,7 @@ class ObjectEncoder {
   Result<SharedTrial> withinError() {
     const double error = options_.max_error > 0
                              ? options_.max_error
-                             : source_.diagonal() * std::pow(10.0, -options_.psnr / 20);
+                             : source_.diagonal() * portable::pow(10.0, -options_.psnr / 20);
     Result<SharedTrial> best =
         misused("No base mesh of up to " + std::to_string(kMostTriangles) +
                 " triangles comes as near to the mesh as asked for: ask for a larger error.");
@@ -303,7 +307,7 @@ class ObjectEncoder {
     Result<SharedTrial> made = misused("The error that is asked for cannot be met.");
     for (int attempt = 0; attempt < kTries; ++attempt) {
       tks_encode_options options = options_;
-      options.psnr = std::max(1.0, 20 * std::log10(range / of_heights));
+      options.psnr = std::max(1.0, 20 * portable::log10(range / of_heights));
       made = coded(trial, options, nullptr);
       if (!made.ok() || (*made)->distance.error <= error) return made;
       of_heights *= kLess * std::min(1.0, error / (*made)->distance.error);

@@ -7,12 +7,15 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "apps/tools/files/meshes/surface_file.hpp"
 #include "bench/harness/arguments.hpp"
+#include "bench/meshes/surface_objects.hpp"
 #include "bench/meshes/surface_peers.hpp"
 
 namespace tetrakis::bench {
@@ -24,6 +27,7 @@ struct Options {
   std::vector<std::string> files;
   std::vector<double> errors = {3.5, 2.5, 1.75, 1.2};
   PeerSettings peers;
+  ObjectSettings objects;
   bool points = false;
 };
 
@@ -59,17 +63,56 @@ struct Row {
   std::vector<ErrorCurve> curves;
 };
 
-void print(const Row& row, const std::vector<double>& errors) {
-  std::printf("  %-22s", row.name);
-  for (const double error : errors) {
-    const std::optional<double> bytes = bytesAt(row.curves, error);
-    if (bytes)
-      std::printf(" %9.0f", *bytes);
+using BytesAtErrors = std::vector<std::optional<double>>;
+
+BytesAtErrors bytesOf(const Row& row, const std::vector<double>& errors) {
+  BytesAtErrors bytes;
+  for (const double error : errors) bytes.push_back(bytesAt(row.curves, error));
+  return bytes;
+}
+
+/// Numbers below the errors; "-" where there is none.
+void print(const char* name, const BytesAtErrors& values, int digits) {
+  std::printf("  %-22s", name);
+  for (const std::optional<double>& value : values) {
+    if (value)
+      std::printf(" %9.*f", digits, *value);
     else
       std::printf(" %9s", "-");
   }
   std::printf("\n");
 }
+
+/// Of the bytes of objects to those of peers, all files so far, for each error.
+class Ratios {
+ public:
+  explicit Ratios(size_t errors) : logarithms_(errors) {}
+
+  /// Those of one file, which it keeps.
+  BytesAtErrors add(const BytesAtErrors& objects, const BytesAtErrors& peers) {
+    BytesAtErrors ratios(objects.size());
+    for (size_t i = 0; i < ratios.size(); ++i) {
+      if (!objects[i] || !peers[i]) continue;
+      ratios[i] = *objects[i] / *peers[i];
+      logarithms_[i].push_back(std::log(*ratios[i]));
+    }
+    return ratios;
+  }
+
+  /// Geometric means over the files.
+  BytesAtErrors means() const {
+    BytesAtErrors means;
+    for (const std::vector<double>& all : logarithms_) {
+      const double sum = std::accumulate(all.begin(), all.end(), 0.0);
+      means.push_back(all.empty() ? std::nullopt
+                                  : std::optional(std::exp(sum / static_cast<double>(all.size()))));
+    }
+    return means;
+  }
+
+ private:
+  std::vector<std::vector<double>> logarithms_;
+};
 
 void printPoints(const std::vector<PeerCoding>& codings) {
   for (const PeerCoding& coding : codings)
@@ -89,7 +132,7 @@ Result<Row> peersRow(const TriangleMesh& mesh, const Options& options) {
   return row;
 }
 
-Status measure(const Options& options, const std::string& path) {
+Status measure(const Options& options, const std::string& path, Ratios& ratios) {
   Result<tools::SurfaceFile> file = tools::readSurface(path);
   if (!file.ok()) return file.status();
   const TriangleMesh mesh = weldedMesh(std::move(*file));
@@ -99,10 +142,18 @@ Status measure(const Options& options, const std::string& path) {
               mesh.points.size());
   const Result<Row> peers = peersRow(mesh, options);
   if (!peers.ok()) return peers.status();
-  std::printf("  %-22s", "bytes at an error of");
-  for (const double error : options.errors) std::printf(" %9.2f", error);
-  std::printf("\n");
-  print(*peers, options.errors);
+  const Result<ErrorCurve> objects = surfaceObjects(mesh, options.objects);
+  if (!objects.ok()) return objects.status();
+  if (options.points) {
+    for (const ErrorPoint& point : *objects)
+      std::printf("  an object: error %7.3f, %8.0f bytes\n", point.error, point.bytes);
+  }
+  print("bytes at an error of", {options.errors.begin(), options.errors.end()}, 2);
+  const BytesAtErrors ours = bytesOf({"", {*objects}}, options.errors);
+  const BytesAtErrors theirs = bytesOf(*peers, options.errors);
+  print(peers->name, theirs, 0);
+  print("tetrakis", ours, 0);
+  print("tetrakis / best other", ratios.add(ours, theirs), 3);
   std::fflush(stdout);
   return {};
 }
@@ -120,9 +171,12 @@ int main(int argc, char** argv) {
   arguments.flag({"--points", "also each coding that was tried"}, options.points);
   if (const auto code = arguments.parse(argc, argv)) return *code;
   int failed = 0;
+  Ratios ratios(options.errors.size());
   for (const std::string& file : meshFiles(options.files)) {
-    const tetrakis::Status status = measure(options, file);
+    const tetrakis::Status status = measure(options, file, ratios);
     if (!status.ok()) failed = exitCode(status);
   }
+  std::printf("geometric means\n");
+  print("tetrakis / best other", ratios.means(), 3);
   return failed;
 }

@@ -88,6 +88,10 @@ class GlobeMesh : public OwnedMesh<tks_globe_mesh, tks_free_globe_mesh> {
   std::span<const double> pixels() const { return {mesh_.pixel, size_t{2} * mesh_.vertex_count}; }
 };
 
+/// The mesh of an object (tks_object_mesh says what its arrays promise). Positions are in the unit
+/// of the heights, in the axes of the mesh that was encoded.
+using ObjectMesh = GlobeMesh;
+
 /// A mesh kept for many views (tks_mesh_tree). Move only; outlives its decoder.
 class MeshTree {
  public:
@@ -131,6 +135,11 @@ inline tks_encode_options makeEncodeOptions() {
   options.size = sizeof options;
   return options;
 }
+inline tks_triangle_mesh makeTriangleMesh() {
+  tks_triangle_mesh mesh{};
+  mesh.size = sizeof mesh;
+  return mesh;
+}
 inline tks_ground makeGround() {
   tks_ground ground{};
   ground.size = sizeof ground;
@@ -148,6 +157,20 @@ inline Result<Buffer> encode(const tks_heights* heights, const tks_image* image,
   char message[512] = "";
   tks_buffer buffer{};
   const tks_status status = tks_encode(heights, image, &options, &buffer, message, sizeof message);
+  if (status != TKS_OK) return Status(status, message);
+  return Buffer(buffer);
+}
+
+/// Encodes a mesh of triangles as an object, with its image unless that is null. report, unless
+/// null: becomes what became of the mesh. Errors: see tks_encode_object.
+inline Result<Buffer> encodeObject(const tks_triangle_mesh& mesh, const tks_image* image,
+                                   const tks_encode_options& options,
+                                   tks_object_report* report = nullptr) {
+  char message[512] = "";
+  tks_buffer buffer{};
+  if (report != nullptr) report->size = sizeof *report;
+  const tks_status status =
+      tks_encode_object(&mesh, image, &options, report, &buffer, message, sizeof message);
   if (status != TKS_OK) return Status(status, message);
   return Buffer(buffer);
 }
@@ -306,6 +329,14 @@ class Decoder {
   Result<GlobeMesh> codedGlobe(const tks_globe& on) { return globe(TKS_MESH_CODED, 0, on); }
   Result<GlobeMesh> budgetGlobe(const tks_globe& on, uint32_t max_triangles) {
     return globe(TKS_MESH_BUDGET, max_triangles, on);
+  }
+
+  /// The mesh of an object (tks_decode_object); max_triangles of TKS_MESH_BUDGET, 0: every sample.
+  Result<ObjectMesh> objectMesh(tks_mesh_kind kind, uint32_t max_triangles = 0) {
+    tks_object_mesh result{};
+    const tks_status status = tks_decode_object(decoder_.get(), kind, max_triangles, &result);
+    if (status != TKS_OK) return failure(status);
+    return ObjectMesh(result);
   }
 
   /// The first two, kept in a tree that gives the part that a view sees.

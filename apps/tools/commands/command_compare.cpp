@@ -8,6 +8,7 @@
 
 #include "apps/tools/commands/camera_pictures.hpp"
 #include "apps/tools/commands/command.hpp"
+#include "apps/tools/commands/compare_surface.hpp"
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/commands/options.hpp"
 #include "apps/tools/files/file_bytes.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 struct CompareArguments {
   StreamSource source;
-  std::string height, texture;
+  std::string height, texture, mesh;
   uint32_t triangles = 0;
   CameraChoice cameras;
   std::string pictures;
@@ -124,10 +125,25 @@ Status checkPromise(const tks_info& info, const Measurement& measurement) {
   return Status();
 }
 
+Status printJson(const CompareArguments& arguments, const Json& json) {
+  return print(arguments.json ? dump(json) : table(legible(json)));
+}
+
+Status compareMesh(const CompareArguments& arguments, OpenStream& stream, bool quiet) {
+  const Result<Json> json =
+      compareWithMesh(stream, {arguments.mesh, arguments.texture, arguments.triangles}, quiet);
+  return json.ok() ? printJson(arguments, *json) : json.status();
+}
+
 Status compare(const CompareArguments& arguments, bool quiet) {
-  const Result<OpenStream> stream = openStream(arguments.source);
+  if (arguments.triangles > 0 && arguments.height.empty() && arguments.mesh.empty())
+    return {TKS_USAGE, "--triangles is about a mesh: give --height or --mesh"};
+  Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
+  if (!arguments.mesh.empty()) return compareMesh(arguments, *stream, quiet);
   const tks_info& info = stream->decoder.info();
+  if (isObject(info))
+    return {TKS_USAGE, quoted(arguments.source.path) + " holds an object: compare it with --mesh"};
   const Result<Reference> reference = readReference(arguments, info, quiet);
   if (!reference.ok()) return reference.status();
   Result<Comparer> comparer = Comparer::create(*reference, info);
@@ -150,8 +166,7 @@ Status compare(const CompareArguments& arguments, bool quiet) {
   tellNote(coarsestNote(measurement->triangles.value_or(0), arguments.triangles), quiet);
   Json json = measurementJson(*measurement, comparer->cameras());
   if (reference->heights && reference->heights->rounding > 0) json["height_exact"] = false;
-  if (Status status = print(arguments.json ? dump(json) : table(legible(json))); !status.ok())
-    return status;
+  if (Status status = printJson(arguments, json); !status.ok()) return status;
   return arguments.triangles == 0 ? checkPromise(info, *measurement) : Status();
 }
 
@@ -164,11 +179,17 @@ void addCompare(CLI::App& app, CommandLine& line) {
   CLI::Option* const height =
       verb.add_option("--height", arguments->height, "The original heights")->type_name("REF");
   verb.add_option("--texture", arguments->texture, "The original texture")->type_name("REF");
-  addTriangles(verb, arguments->triangles, "Judge the mesh of at most so many triangles")
-      ->needs(height);
+  addTriangles(verb, arguments->triangles, "Judge the mesh of at most so many triangles");
   addCameraOptions(verb, arguments->cameras);
-  verb.add_option("--pictures", arguments->pictures, "Also write what the cameras see into DIR")
-      ->type_name("DIR");
+  CLI::Option* const pictures =
+      verb.add_option("--pictures", arguments->pictures, "Also write what the cameras see into DIR")
+          ->type_name("DIR");
+  verb.add_option("--mesh", arguments->mesh, "The original mesh of an object")
+      ->type_name("REF")
+      ->excludes(height)
+      ->excludes(pictures)
+      ->excludes("--cameras")
+      ->excludes("--view");
   verb.add_flag("--json", arguments->json, "JSON instead of a table");
   addForce(verb, arguments->force);
   verb.callback([arguments, &line] {

@@ -25,6 +25,7 @@
 #include "apps/tools/output/output.hpp"
 #include "apps/tools/report/draped_texture.hpp"
 #include "apps/tools/report/globe_mesh.hpp"
+#include "apps/tools/report/object_mesh.hpp"
 #include "apps/tools/report/surface_normals.hpp"
 #include "apps/tools/report/viewed_mesh.hpp"
 #include "base/coordinates.hpp"
@@ -50,7 +51,8 @@ std::string rawNote(const std::string& name, const HeightFile& heights) {
 
 /// What is guessed of the ground, where its proportions count.
 void tellGuesses(const tks_info& info, const DecodeOutputs& outputs, bool quiet) {
-  if (!info.has_heights || !(outputs.mesh || outputs.normals || outputs.engine)) return;
+  const bool of_ground = info.has_heights && !isObject(info);
+  if (!of_ground || !(outputs.mesh || outputs.normals || outputs.engine)) return;
   tellNote(guessedUnitNote(info), quiet);
   if (spacingOf(info) == std::array<double, 2>{})
     tellNote("the stream does not tell the spacing of its samples, which counts as " +
@@ -102,7 +104,7 @@ class Decoding {
   }
 
   Status writeTexture() {
-    const Result<ImageFile>& image = image_.get(memory_);
+    const Result<ImageFile>& image = picture();
     if (!image.ok()) return image.status();
     const QuarterTurn turn(textureAxes());
     if (outputs_.engine && !turn.none()) {  // as the heights
@@ -113,17 +115,27 @@ class Decoding {
         [&](const std::string& path) { return writeImage(path, *image); });
   }
 
+  /// The texture as files hold it: of an object as an atlas.
+  const Result<ImageFile>& picture() {
+    const Result<ImageFile>& image = image_.get(memory_);
+    if (!image.ok() || !hasAtlas(decoder_.info())) return image;
+    if (!atlas_) atlas_ = atlasOf(decoder_.info()).pictureOf(*image);
+    return *atlas_;
+  }
+
   Status writeSurfaceMesh() {
     const tks_info& info = decoder_.info();
     if (!info.has_heights)
       return Status(TKS_USAGE, "the stream has no heights, so there is no mesh");
     const ImageFile* texture = nullptr;
-    if (info.has_texture) {
-      const Result<ImageFile>& image = image_.get(memory_);
+    if (info.has_texture && (!isObject(info) || hasAtlas(info))) {
+      const Result<ImageFile>& image = picture();
       if (!image.ok()) return image.status();
       texture = &*image;
     }
-    Result<MeshFile> file = arguments_.globe ? globe() : surface(texture);
+    Result<MeshFile> file = isObject(info)     ? object()
+                            : arguments_.globe ? globe()
+                                               : surface(texture);
     if (!file.ok()) return file.status();
     tellNote(coarsestNote(static_cast<uint32_t>(file->triangles.size() / 3), arguments_.triangles),
              quiet_ || arguments_.globe);
@@ -133,6 +145,12 @@ class Decoding {
     return outputs_.mesh->stage([&](const std::string& path) {
       return writeMesh(path, *file, "", arguments_.mesh_options);
     });
+  }
+
+  Result<MeshFile> object() {
+    if (Status status = memory_.checkMesh(beside_bytes_); !status.ok()) return status;
+    return objectMesh(decoder_, arguments_.coded_mesh ? TKS_MESH_CODED : TKS_MESH_BUDGET,
+                      arguments_.triangles);
   }
 
   Result<MeshFile> globe() {
@@ -204,6 +222,7 @@ class Decoding {
   Json engine_json_;
   DecodeMemory memory_;
   DecodedTexture image_;
+  std::optional<Result<ImageFile>> atlas_;
   uint64_t beside_bytes_ = 0;  ///< that the texture takes meanwhile
 };
 
@@ -217,11 +236,30 @@ Status checkCube(const DecodeArguments& arguments, const tks_info& info) {
                 "--globe alone");
 }
 
+/// There is no ground below an object, and its patches are whole.
+Status checkObject(const DecodeArguments& arguments, const tks_info& info) {
+  if (!isObject(info)) return Status();
+  const std::pair<const char*, bool> options[] = {{"--globe", arguments.globe},
+                                                  {"--cameras", !arguments.camera.file.empty()},
+                                                  {"--view", !arguments.camera.view.empty()},
+                                                  {"--turn-edges", arguments.turn_edges},
+                                                  {"--normal-map", !arguments.normal_map.empty()},
+                                                  {"--size", !arguments.size.empty()},
+                                                  {"--window", !arguments.window.empty()},
+                                                  {"--level", arguments.level > 0}};
+  for (const auto& [name, given] : options)
+    if (given)
+      return Status(TKS_USAGE, std::string(name) + " is about terrain, and the stream holds an " +
+                                   "object: --mesh writes it");
+  return Status();
+}
+
 Status decode(const DecodeArguments& arguments, bool quiet) {
   if (Status status = checkArguments(arguments); !status.ok()) return status;
   Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
   stream->decoder.setThreads(arguments.threads);
+  if (Status status = checkObject(arguments, stream->decoder.info()); !status.ok()) return status;
   if (Status status = checkWindow(arguments, stream->decoder.info()); !status.ok()) return status;
   if (Status status = checkCube(arguments, stream->decoder.info()); !status.ok()) return status;
   const bool no_heights = arguments.height.empty() && arguments.normal_map.empty();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// tetrakis encode: heights, a texture or both into one embedded stream.
+// tetrakis encode: heights, a texture or both, or a mesh, into one embedded stream.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -11,10 +11,12 @@
 #include "apps/tools/commands/command.hpp"
 #include "apps/tools/commands/encode_memory.hpp"
 #include "apps/tools/commands/encode_notes.hpp"
+#include "apps/tools/commands/encode_surface.hpp"
 #include "apps/tools/commands/explained_plans.hpp"
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/meshes/surface_file.hpp"
 #include "apps/tools/files/place/given_crs.hpp"
 #include "apps/tools/files/place/ground_positions.hpp"
 #include "apps/tools/files/place/ground_spacing.hpp"
@@ -290,6 +292,10 @@ Result<EncodeOutputs> planOutputs(const EncodeArguments& arguments) {
 
 Status encode(const EncodeArguments& arguments, bool quiet) {
   if (Status status = checkArguments(arguments); !status.ok()) return status;
+  if (isMeshFile(arguments.height)) {
+    const Status status = checkSurfaceArguments(arguments);
+    return status.ok() ? encodeSurface(arguments, quiet) : status;
+  }
   Result<EncodeOutputs> outputs = planOutputs(arguments);
   if (!outputs.ok()) return outputs.status();
   Result<Reference> inputs = readInputs(arguments, quiet);
@@ -313,7 +319,8 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
 
 void addEncode(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<EncodeArguments>();
-  CLI::App& verb = *app.add_subcommand("encode", "Make a stream of heights, a texture or both");
+  CLI::App& verb =
+      *app.add_subcommand("encode", "Make a stream of heights, a texture or both, or a mesh");
   addArguments(verb, *arguments);
   verb.callback([arguments, &line] {
     line.action = [arguments, &line] { return encode(*arguments, line.quiet); };

@@ -67,6 +67,29 @@ Json forestJson(const tks_info& info) {
           {"grid_height", info.grid_height > 0 ? Json(info.grid_height) : Json()}};
 }
 
+/// The box holds the corners of the base mesh, so that the object may reach a little beyond it.
+Json objectJson(const tks_info& info) {
+  const tks_base_mesh& base = info.base_mesh;
+  if (!isObject(info)) return {};
+  std::array<std::vector<double>, 2> box{std::vector<double>(3), std::vector<double>(3)};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    int32_t least = base.corners[axis], most = least;
+    for (size_t i = axis; i < size_t{12} * info.forest.patches; i += 3) {
+      least = std::min(least, base.corners[i]);
+      most = std::max(most, base.corners[i]);
+    }
+    box[0][axis] = base.origin[axis] + base.cell * least;
+    box[1][axis] = base.origin[axis] + base.cell * most;
+  }
+  const uint64_t side = (uint64_t{1} << info.forest.depth) + 1;
+  return {{"patches", info.forest.patches},
+          {"samples_of_patch", side * side},
+          {"position_bits", base.position_bits},
+          {"cell", base.cell},
+          {"base_from", box[0]},
+          {"base_to", box[1]}};
+}
+
 Json heightsJson(const tks_info& info) {
   if (!info.has_heights) return {};
   return {{"width", info.width},
@@ -138,6 +161,7 @@ Json infoJson(const tks_info& info) {
           {"index", kIndexes.at(static_cast<size_t>(info.index))},
           {"lossless", info.lossless != 0},
           {"triangles", info.triangles > 0 ? Json(info.triangles) : Json()},
+          {"object", objectJson(info)},
           {"heights", heightsJson(info)},
           {"texture", textureJson(info)}};
 }

@@ -84,7 +84,7 @@ Json planJson(const ReceiverPlan& plan, std::optional<double> psnr) {
 Status plan(const PlanArguments& arguments, bool quiet) {
   const Result<Receiver> receiver = receiverOf(arguments);
   if (!receiver.ok()) return receiver.status();
-  Result<OpenStream> stream = openStream(arguments.source);
+  Result<OpenStream> stream = openTerrain(arguments.source);
   if (!stream.ok()) return stream.status();
   stream->decoder.setThreads(hardwareThreads());
   const Result<ReceiverPlan> plan = planFor(octets(stream->bytes), *receiver);

@@ -107,7 +107,7 @@ Status profile(const ProfileArguments& arguments, bool quiet) {
   if (arguments.points < 2) return Status(TKS_USAGE, "--points must be at least 2");
   Result<std::vector<LinePoint>> points = parseLine(arguments.line);
   if (!points.ok()) return points.status();
-  Result<OpenStream> stream = openStream(arguments.source);
+  Result<OpenStream> stream = openTerrain(arguments.source);
   if (!stream.ok()) return stream.status();
   Decoder& decoder = stream->decoder;
   decoder.setThreads(hardwareThreads());

@@ -25,7 +25,7 @@ Status reorder(const ReorderArguments& arguments) {
   if (!stays.ok()) return stays;
   Result<Output> output = Output::plan(arguments.output, arguments.force, ".tks");
   if (!output.ok()) return output.status();
-  Result<OpenStream> stream = openStream(arguments.source);
+  Result<OpenStream> stream = openTerrain(arguments.source);
   if (!stream.ok()) return stream.status();
   Decoder& decoder = stream->decoder;
   decoder.setThreads(hardwareThreads());

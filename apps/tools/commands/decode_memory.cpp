@@ -47,8 +47,9 @@ uint64_t DecodeMemory::heights() const {
 uint64_t DecodeMemory::texture() const {
   const uint64_t in_mesh = arguments_.mesh.empty() ? 0 : 1;
   const uint64_t turned = arguments_.size.empty() ? 0 : 1;
+  const uint64_t atlas = isObject(info_) ? 2 : 0;  // gutters make small patches larger
   return stream_.bytes.size() +
-         (3 + in_mesh + turned) * imageBytes(info_, textureWindow(arguments_, info_));
+         (3 + in_mesh + turned + atlas) * imageBytes(info_, textureWindow(arguments_, info_));
 }
 
 uint64_t DecodeMemory::mesh() const {

@@ -10,10 +10,12 @@ namespace tetrakis::tools {
 namespace {
 
 void addInputs(CLI::App& verb, EncodeArguments& arguments) {
-  verb.add_option("HEIGHT", arguments.height,
-                  "Heights (.tif .png .exr .hgt .raw:WxH:TYPE); - is standard input")
+  verb.add_option(
+          "HEIGHT", arguments.height,
+          "Heights (.tif .png .exr .hgt .raw:WxH:TYPE); - is standard input; or a mesh (.glb "
+          ".gltf .obj .ply .stl)")
       ->type_name("");
-  verb.add_option("--texture", arguments.texture, "Texture over the same ground")
+  verb.add_option("--texture", arguments.texture, "Texture over the same ground, or on the mesh")
       ->type_name("IMAGE");
   verb.add_option("-o,--output", arguments.output, "Where to write; - is standard output")
       ->required()

@@ -76,6 +76,14 @@ Result<OpenStream> openStream(const StreamSource& source) {
   return OpenStream{std::move(*bytes), std::move(*decoder)};
 }
 
+Result<OpenStream> openTerrain(const StreamSource& source) {
+  Result<OpenStream> stream = openStream(source);
+  if (stream.ok() && isObject(stream->decoder.info()))
+    return Status(TKS_USAGE, quoted(source.path) +
+                                 " holds an object, which has no ground: decode --mesh writes it");
+  return stream;
+}
+
 Extent shownHeights(const tks_info& info) {
   return isGridOnCube(info) ? Extent{info.grid_width, info.grid_height}
                             : Extent{info.width, info.height};

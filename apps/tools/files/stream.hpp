@@ -40,6 +40,14 @@ Result<Decoder> openDecoder(std::span<const uint8_t> bytes);
 /// Reads, checks (strict), cuts and opens. A cut that leaves no whole header gives TKS_TRUNCATED.
 Result<OpenStream> openStream(const StreamSource& source);
 
+/// Whether the heights of a stream lie over a base mesh.
+inline bool isObject(const tks_info& info) {
+  return info.base_mesh.position_bits > 0;
+}
+
+/// openStream() for what takes heights over ground: TKS_USAGE if the stream holds an object.
+Result<OpenStream> openTerrain(const StreamSource& source);
+
 /// Columns and rows of heights as files hold them: those of the grid that a cube was made of.
 Extent shownHeights(const tks_info& info);
 

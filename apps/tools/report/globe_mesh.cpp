@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <span>
 #include <vector>
 
 #include "apps/tools/files/place/ground_spacing.hpp"
 #include "apps/tools/files/place/texture_place.hpp"
+#include "apps/tools/report/joined_normals.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -27,32 +27,13 @@ Vector upright(std::span<const double> p) {
   return {p[0], p[2], -p[1]};
 }
 
-/// Twice the area of the triangle along its normal.
-Vector normalOf(const std::array<Vector, 3>& corners) {
-  Vector a{}, b{};
-  for (size_t k = 0; k < 3; ++k) {
-    a[k] = corners[1][k] - corners[0][k];
-    b[k] = corners[2][k] - corners[0][k];
-  }
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-/// Of length 1, of vertices at one place the same: the sum over the triangles there.
-std::vector<float> smoothNormals(const GlobeMesh& mesh) {
-  const auto at = [&](uint32_t v) { return upright(mesh.positions().subspan(size_t{3} * v, 3)); };
-  std::map<Vector, Vector> sums;
-  for (size_t t = 0; t < mesh.triangles().size(); t += 3) {
-    const std::array corners = {at(mesh.triangles()[t]), at(mesh.triangles()[t + 1]),
-                                at(mesh.triangles()[t + 2])};
-    const Vector normal = normalOf(corners);
-    for (const Vector& corner : corners)
-      for (size_t k = 0; k < 3; ++k) sums[corner][k] += normal[k];
-  }
-  std::vector<float> normals;
-  for (uint32_t v = 0; v < mesh.vertexCount(); ++v) {
-    const Vector& sum = sums[at(v)];
-    const double length = std::hypot(sum[0], sum[1], sum[2]);
-    for (const double part : sum) normals.push_back(static_cast<float>(part / length));
+/// Turned likewise, of vertices at one place the same.
+std::vector<float> uprightNormals(const GlobeMesh& mesh) {
+  std::vector<float> normals = joinedNormals(mesh.positions(), mesh.triangles());
+  for (size_t i = 0; i < normals.size(); i += 3) {
+    const float north = normals[i + 2];
+    normals[i + 2] = -normals[i + 1];
+    normals[i + 1] = north;
   }
   return normals;
 }
@@ -109,7 +90,7 @@ Result<MeshFile> globeMesh(Decoder& decoder, const GlobeRequest& request) {
     for (const double part : upright(mesh->positions().subspan(size_t{3} * v, 3)))
       file.positions.push_back(static_cast<float>(part));
   file.triangles.assign(mesh->triangles().begin(), mesh->triangles().end());
-  file.normals = smoothNormals(*mesh);
+  file.normals = uprightNormals(*mesh);
   if (info.has_texture) file.texcoords = textureCoordinates(info, *mesh);
   return file;
 }

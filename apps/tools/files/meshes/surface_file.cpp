@@ -74,7 +74,7 @@ bool isMeshFile(const std::string& path) {
   return begin == "glTF" || begin == "ply\n" || begin == "ply\r";
 }
 
-Result<SurfaceFile> readSurface(const std::string& path, std::string* note) {
+Result<SurfaceFile> readSurface(const std::string& path, std::string* note, bool with_texture) {
   if (!isMeshFile(path))
     return Status(TKS_USAGE, quoted(path) + " is no mesh: .glb, .gltf, .obj, .ply and .stl are");
   if (!std::ifstream(path).good() || !fs::is_regular_file(path))
@@ -86,7 +86,7 @@ Result<SurfaceFile> readSurface(const std::string& path, std::string* note) {
   }
   std::vector<std::string> remarks = remarksOn(mesh->facts);
   SurfaceFile surface = surfaceOf(*mesh, path);
-  if (!surface.texcoords.empty()) {
+  if (with_texture && !surface.texcoords.empty()) {
     FoundTexture found = findTexture(*mesh, path);
     surface.texture = std::move(found.image);
     if (!found.remark.empty()) remarks.push_back(found.remark);

@@ -35,6 +35,8 @@ bool isMeshFile(const std::string& path);
 /// taken which lies beside it under the same name. TKS_IO: the file cannot be read; TKS_USAGE: it
 /// is damaged or no mesh, has no triangles, or coordinates that are not finite; TKS_LIMIT: it has
 /// more than 2^26 triangles, or takes more memory or time than it may.
-Result<SurfaceFile> readSurface(const std::string& path, std::string* note = nullptr);
+/// with_texture: false leaves the texture where it is.
+Result<SurfaceFile> readSurface(const std::string& path, std::string* note = nullptr,
+                                bool with_texture = true);
 
 }  // namespace tetrakis::tools

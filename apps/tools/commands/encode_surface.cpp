@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tools/commands/encode_surface.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "apps/tools/commands/encode_notes.hpp"
+#include "apps/tools/commands/notes.hpp"
+#include "apps/tools/files/meshes/surface_colours.hpp"
+#include "apps/tools/files/meshes/surface_file.hpp"
+#include "apps/tools/files/text.hpp"
+#include "apps/tools/output/output.hpp"
+#include "apps/tools/output/output_names.hpp"
+#include "apps/tools/output/progress.hpp"
+
+namespace tetrakis::tools {
+namespace {
+
+/// What the encoder is to take.
+struct SurfaceInputs {
+  SurfaceFile mesh;
+  std::optional<ImageFile> image;
+  std::string unit;
+};
+
+/// The texture that is given, or that of the mesh, which goes with a number of bytes alone.
+Status addTexture(const EncodeArguments& arguments, bool quiet, SurfaceInputs& inputs) {
+  if (!arguments.texture.empty()) {
+    if (inputs.mesh.texcoords.empty())
+      return {TKS_USAGE, quoted(arguments.height) +
+                             " has no texture coordinates, so that --texture cannot lie on it"};
+    std::string remark;
+    const Result<ImageFile> image = readImage(arguments.texture, &remark);
+    if (!image.ok()) return image.status();
+    tellNote(remark, quiet);
+    inputs.image = withoutAlpha(*image);
+    if (arguments.white_level > 0) inputs.image->white_level = arguments.white_level;
+    inputs.image->place = {};
+  } else if (inputs.mesh.texture && arguments.bytes > 0) {
+    inputs.image = shownTexture(inputs.mesh);
+  } else if (inputs.mesh.texture) {
+    tellNote("the texture is left out: it goes with --bytes alone", quiet);
+  }
+  return {};
+}
+
+Result<SurfaceInputs> readSurfaceInputs(const EncodeArguments& arguments, bool quiet) {
+  std::string remark;
+  Result<SurfaceFile> mesh = readSurface(arguments.height, &remark, arguments.texture.empty());
+  if (!mesh.ok()) return mesh.status();
+  if (!remark.empty()) tellNote(quoted(arguments.height) + ": " + remark, quiet);
+  SurfaceInputs inputs{std::move(*mesh), std::nullopt, ""};
+  inputs.unit = arguments.unit ? canonicalUnit(*arguments.unit) : inputs.mesh.y_is_up ? "m" : "";
+  if (Status status = addTexture(arguments, quiet, inputs); !status.ok()) return status;
+  return inputs;
+}
+
+/// A view of the inputs.
+tks_triangle_mesh asTriangleMesh(const SurfaceInputs& inputs) {
+  const SurfaceFile& file = inputs.mesh;
+  tks_triangle_mesh mesh = makeTriangleMesh();
+  mesh.vertex_count = static_cast<uint32_t>(file.points.size());
+  mesh.triangle_count = static_cast<uint32_t>(file.triangles.size());
+  mesh.positions = file.points.front().data();
+  mesh.triangles = file.triangles.front().data();
+  if (!inputs.unit.empty()) mesh.unit = inputs.unit.c_str();
+  if (!file.name.empty()) mesh.description = file.name.c_str();
+  if (inputs.image) mesh.texcoords = file.texcoords.front().data();
+  return mesh;
+}
+
+Result<tks_encode_options> surfaceOptions(const EncodeArguments& arguments,
+                                          const std::string& unit) {
+  tks_encode_options options = makeEncodeOptions();
+  options.bytes = arguments.bytes;
+  options.psnr = arguments.psnr;
+  options.threads = arguments.threads;
+  options.index = arguments.index ? TKS_INDEX_PACKETS : TKS_INDEX_NONE;
+  options.weights = arguments.weights == "visual" ? TKS_WEIGHTS_VISUAL : TKS_WEIGHTS_PSNR;
+  if (arguments.max_error.empty()) return options;
+  const Result<double> bound = parseLength(arguments.max_error, unit);
+  if (!bound.ok()) return bound.status();
+  options.max_error = *bound;
+  return options;
+}
+
+/// Three digits are what distances between 20 000 places tell.
+std::string threeDigits(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// With its unit, if that is known.
+std::string inUnit(double value, const std::string& unit) {
+  return threeDigits(value) + (unit.empty() ? "" : ' ' + unit);
+}
+
+std::string squares(uint32_t patches, uint32_t depth) {
+  const std::string side = std::to_string((uint64_t{1} << depth) + 1);
+  return counted(patches, "patch of ", "patches of ") + side + " x " + side;
+}
+
+Result<Buffer> encodeMesh(const EncodeArguments& arguments, const SurfaceInputs& inputs, bool quiet,
+                          tks_object_report& report) {
+  Result<tks_encode_options> options = surfaceOptions(arguments, inputs.unit);
+  if (!options.ok()) return options.status();
+  Progress progress("encoding", quiet);
+  options->progress = &Progress::report;
+  options->user = &progress;
+  const tks_triangle_mesh mesh = asTriangleMesh(inputs);
+  const tks_image image = inputs.image ? asImage(*inputs.image) : tks_image{};
+  return encodeObject(mesh, inputs.image ? &image : nullptr, *options, &report);
+}
+
+}  // namespace
+
+Status checkSurfaceArguments(const EncodeArguments& arguments) {
+  if (arguments.lossless)
+    return {TKS_USAGE,
+            "a mesh is resampled, so that --lossless does not go with it: give --bytes, --psnr or "
+            "--max-error"};
+  if (!arguments.texture.empty() && arguments.bytes == 0)
+    return {TKS_USAGE, "a mesh with --texture takes --bytes as its target"};
+  const std::pair<const char*, bool> options[] = {
+      {"--triangles", arguments.triangles > 0},
+      {"--cameras", !arguments.cameras.file.empty()},
+      {"--view", !arguments.cameras.view.empty()},
+      {"--engine", arguments.engine != "modelled"},
+      {"--regions", arguments.regions != "auto" && arguments.regions != "off"},
+      {"--windows", arguments.windows},
+      {"--domain", arguments.domain != "auto"},
+      {"--depth", arguments.depth > 0},
+      {"--scale", arguments.scale.has_value()},
+      {"--offset", arguments.offset.has_value()},
+      {"--nodata", arguments.nodata.has_value()},
+      {"--step", arguments.step > 0},
+      {"--spacing", !arguments.spacing.empty()},
+      {"--vertical-datum", arguments.vertical_datum.has_value()},
+      {"--crs", arguments.crs.has_value()},
+      {"--explain", arguments.explain},
+      {"--report", !arguments.report.empty()}};
+  for (const auto& [name, given] : options)
+    if (given)
+      return {TKS_USAGE, std::string(name) + " is about terrain, and " + quoted(arguments.height) +
+                             " is a mesh"};
+  return {};
+}
+
+std::string cleaningNote(const tks_object_report& report) {
+  std::string note;
+  if (report.dropped_triangles > 0)
+    note = counted(report.dropped_triangles, "triangle has equal corners or is there twice",
+                   "triangles have equal corners or are there twice") +
+           " and " + (report.dropped_triangles == 1 ? "is" : "are") + " left out";
+  if (report.cut_edges > 0)
+    note += (note.empty() ? "" : "; ") +
+            counted(report.cut_edges, "edge joins more triangles than two, or two that face apart,",
+                    "edges join more triangles than two, or two that face apart,") +
+            " and " + (report.cut_edges == 1 ? "is" : "are") + " cut open";
+  return note;
+}
+
+std::string objectNote(const tks_object_report& report, const std::string& unit) {
+  const std::string exact = std::isfinite(report.psnr) ? fixed(report.psnr, 1) : "infinitely many";
+  return squares(report.patches, report.depth) + " samples" +
+         (report.texture_depth > 0
+              ? ", " + std::to_string((1u << report.texture_depth) + 1) + " texels a side"
+              : std::string()) +
+         "; RMS distance to the mesh " + inUnit(report.error, unit) + " (" + exact +
+         " dB of its diagonal), largest " + inUnit(report.largest, unit);
+}
+
+Status encodeSurface(const EncodeArguments& arguments, bool quiet) {
+  Status status = checkInputsStay({arguments.height, arguments.texture}, arguments.output);
+  if (!status.ok()) return status;
+  Result<Output> output = Output::plan(arguments.output, arguments.force, ".tks");
+  if (!output.ok()) return output.status();
+  const Result<SurfaceInputs> inputs = readSurfaceInputs(arguments, quiet);
+  if (!inputs.ok()) return inputs.status();
+  tks_object_report report{};
+  const Result<Buffer> stream = encodeMesh(arguments, *inputs, quiet, report);
+  if (!stream.ok()) return stream.status();
+  const std::span<const uint8_t> bytes = stream->bytes();
+  status = output->stage(std::as_bytes(bytes));
+  if (status.ok()) status = output->commit();
+  if (!status.ok() || quiet) return status;
+  tellNote(cleaningNote(report), quiet);
+  tellNote(objectNote(report, inputs->unit), quiet);
+  const Result<Decoder> decoder = openDecoder(bytes);
+  if (!decoder) return decoder.status();
+  tellLine(summary(arguments.output, decoder->info()));
+  return {};
+}
+
+}  // namespace tetrakis::tools

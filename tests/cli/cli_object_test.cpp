@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes of any shape through the command line: there, cut, and back again.
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "apps/tools/files/meshes/surface_file.hpp"
+#include "tests/cli/cli_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using nlohmann::json;
+
+class CliObject : public CliTest {
+ protected:
+  /// A ball with bumps and a texture, blob.glb, blob.obj or blob.ply, and blob.tks.
+  void makeObject(const std::string& mesh, const std::string& options) {
+    ASSERT_EQ(cli("synth --kind blob --triangles 800 -o " + mesh).code, 0);
+    const Outcome run = cli("encode " + mesh + " -o blob.tks " + options);
+    ASSERT_EQ(run.code, 0) << run.err;
+    note_ = run.err;
+  }
+
+  static tools::ImageFile plain(std::array<int, 3> colour) {
+    tools::ImageFile image{4, 4, 3, TKS_U8, {}};
+    for (int texel = 0; texel < 16; ++texel)
+      for (const int value : colour) image.data.push_back(static_cast<std::byte>(value));
+    return image;
+  }
+
+  json compared(const std::string& options) {
+    const Outcome run = cli("compare blob.tks --json " + options);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return json::parse(run.out, nullptr, false);
+  }
+
+  std::string note_;  ///< what encode told
+};
+
+TEST_F(CliObject, TexturedMeshesComeBack) {
+  makeObject("blob.glb", "--bytes 6k");
+  EXPECT_LE(content("blob.tks").size(), size_t{6} << 10);
+  EXPECT_NE(note_.find("RMS distance to the mesh"), std::string::npos) << note_;
+  for (const char* name : {"out.glb", "out.obj"}) {
+    ASSERT_EQ(cli(std::string("decode blob.tks --mesh ") + name + " --triangles 2000").code, 0);
+    const auto mesh = tools::readSurface(path(name));
+    ASSERT_TRUE(mesh.ok()) << mesh.status().message();
+    EXPECT_TRUE(mesh->texture.has_value());
+    EXPECT_LE(mesh->triangles.size(), 2000u);
+    EXPECT_GT(mesh->triangles.size(), 1500u);
+    // Points of equal places are one, so that a closed surface of genus 0 has half of its triangles
+    // and two more.
+    EXPECT_EQ(mesh->points.size(), mesh->triangles.size() / 2 + 2);
+  }
+}
+
+TEST_F(CliObject, MorePrefixMeansLessError) {
+  makeObject("blob.glb", "--bytes 6k");
+  double last = 1e9;
+  for (const char* bytes : {"700", "1200", "2500", "6k"}) {
+    const json figures = compared(std::string("--mesh blob.glb --bytes ") + bytes);
+    EXPECT_LE(figures["rms_distance"], last) << bytes;
+    last = figures["rms_distance"];
+  }
+  const json all = compared("--mesh blob.glb"),
+             coarse = compared("--mesh blob.glb --triangles 500");
+  EXPECT_GT(all["surface_psnr"], 55);
+  EXPECT_GT(all["colour_psnr"], 25);
+  EXPECT_GT(coarse["rms_distance"], all["rms_distance"]);
+  EXPECT_LE(coarse["triangles"], 500);
+}
+
+TEST_F(CliObject, AtlasGoesIntoAFileOfItsOwn) {
+  makeObject("blob.glb", "--bytes 4k");
+  ASSERT_EQ(cli("decode blob.tks --mesh out.obj --texture atlas.png").code, 0);
+  EXPECT_EQ(content("atlas.png"), content("out.png"));
+  ASSERT_EQ(cli("decode blob.tks --texture alone.png").code, 0);
+  EXPECT_EQ(content("alone.png"), content("atlas.png"));
+}
+
+TEST_F(CliObject, ErrorsAreTargets) {
+  makeObject("blob.ply", "--psnr 55 --unit cm");
+  const json figures = compared("--mesh blob.ply");
+  EXPECT_GT(figures["surface_psnr"], 54.5);
+  EXPECT_LT(figures["surface_psnr"], 62);
+  EXPECT_TRUE(figures["colour_psnr"].is_null());
+  ASSERT_EQ(cli("encode blob.ply --max-error 0.1mm --unit cm -o b.tks").code, 0);
+  EXPECT_EQ(json::parse(cli("info b.tks --json").out)["heights"]["max_error"], 0.01);
+}
+
+TEST_F(CliObject, TextureThatHasNoTargetIsLeftOutWithANote) {
+  makeObject("blob.glb", "--psnr 50");
+  EXPECT_NE(note_.find("the texture is left out"), std::string::npos) << note_;
+  EXPECT_TRUE(json::parse(cli("info blob.tks --json").out)["texture"].is_null());
+}
+
+TEST_F(CliObject, GivenTextureReplacesThatOfTheMesh) {
+  makeObject("blob.glb", "--bytes 4k");
+  ASSERT_TRUE(tools::writeImage(path("red.png"), plain({200, 10, 10})).ok());
+  ASSERT_EQ(cli("encode blob.glb --texture red.png --bytes 4k -o blob.tks -f").code, 0);
+  EXPECT_GT(compared("--mesh blob.glb --texture red.png")["colour_psnr"], 40);
+  EXPECT_LT(compared("--mesh blob.glb")["colour_psnr"], 20);
+}
+
+TEST_F(CliObject, InfoTellsOfTheBaseMesh) {
+  makeObject("blob.glb", "--bytes 3k");
+  const json info = json::parse(cli("info blob.tks --json").out);
+  EXPECT_EQ(info["object"]["patches"], info["heights"]["forest"]["patches"]);
+  EXPECT_EQ(info["object"]["samples_of_patch"], 17 * 17);
+  EXPECT_EQ(info["heights"]["unit"], "m");
+  for (int axis = 0; axis < 3; ++axis)
+    EXPECT_LT(info["object"]["base_from"][axis], info["object"]["base_to"][axis]);
+}
+
+TEST_F(CliObject, OptionsOfTerrainAreRefused) {
+  makeObject("blob.obj", "--bytes 2k");
+  makeStream();
+  const std::set<std::string> before = names();
+  for (const char* arguments : {"encode blob.obj -o b.tks --lossless",
+                                "encode blob.obj -o b.tks --bytes 2k --regions 64",
+                                "encode blob.obj -o b.tks --bytes 2k --view low",
+                                "encode blob.obj -o b.tks --bytes 2k --domain cube",
+                                "encode blob.obj -o b.tks --bytes 2k --spacing 3",
+                                "encode blob.obj -o b.tks --bytes 2k --crs EPSG:4326",
+                                "encode blob.obj -o b.tks --bytes 2k --step 1",
+                                "encode blob.obj -o b.tks --bytes 2k --triangles 100",
+                                "encode blob.obj -o b.tks --bytes 2k --report r",
+                                "encode blob.obj -o b.tks --psnr 50 --texture blob.png",
+                                "encode blob.obj -o b.tks --bytes 20",
+                                "decode blob.tks --mesh b.glb --globe",
+                                "decode blob.tks --mesh b.glb --view low",
+                                "decode blob.tks --normal-map b.png",
+                                "decode blob.tks --height b.r16 --size unreal",
+                                "decode blob.tks --height b.tif --level 1",
+                                "decode blob.tks --height b.tif --window 0,0,2,2",
+                                "compare blob.tks --texture blob.png",
+                                "compare blob.tks --mesh blob.obj --view low",
+                                "compare a.tks --mesh blob.obj",
+                                "plan blob.tks --channel 1M --renderer 1M",
+                                "reorder blob.tks --view low -o b.tks",
+                                "profile blob.tks --line 1,1,2,2 --points 3",
+                                "view blob.tks --no-browser",
+                                "tiles blob.tks -o b"}) {
+    const Outcome run = cli(arguments);
+    EXPECT_EQ(run.code, 1) << arguments << "\n" << run.err;
+    EXPECT_TRUE(run.err.starts_with("tetrakis: ")) << arguments << "\n" << run.err;
+    EXPECT_EQ(names(), before) << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::test
