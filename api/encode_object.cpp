@@ -262,7 +262,7 @@ class ObjectEncoder {
       wanted = std::min(wanted, kTexelsForByte * static_cast<double>(options_.bytes));
     int depth = 1;
     const double patches = object.base.forest->patches();
-    while (depth < TKS_MOST_OBJECT_DEPTH && patches * std::exp2(2 * depth) < wanted &&
+    while (depth < TKS_MOST_OBJECT_DEPTH && patches * std::ldexp(1.0, 2 * depth) < wanted &&
            object.base.forest->patches() < Forest::mostPatches(depth + 1))
       ++depth;
     PatchTexture out{{}, {}, Forest(depth, object.base.forest->sides())};
