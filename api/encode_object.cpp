@@ -202,8 +202,8 @@ class ObjectEncoder {
       best = std::move(trial);
       found_finer = true;
     }
-    for (uint32_t coarser = triangles / 2;
-         !found_finer && coarser >= kFewestTriangles && !progress_.stopped(); coarser /= 2) {
+    for (uint32_t coarser = triangles / 2; !found_finer && coarser >= kFewestTriangles;
+         coarser /= 2) {
       Result<SharedTrial> trial = inBudget(coarser);
       const bool unmet = !best.ok();
       if (better(trial))
