@@ -97,8 +97,7 @@ std::vector<double> forestGains(const ForestLattice& lattice, Coordinates coordi
 }
 
 std::vector<ForestVertex> forestBudgetVertices(const ForestLattice& lattice,
-                                               Coordinates coordinates,
-                                               uint32_t max_triangles) {
+                                               Coordinates coordinates, uint32_t max_triangles) {
   if (max_triangles <= lattice.baseTriangles()) return {};
   const Forest& forest = lattice.forest();
   const int skipped = spareLevels(forest, max_triangles);

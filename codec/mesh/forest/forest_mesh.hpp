@@ -29,8 +29,7 @@ inline std::vector<double> forestGains(const ForestLattice& lattice,
 /// vertices of the next corner, coarse ones first. It chooses among every 2^k-th sample of each
 /// patch if many more are left for each triangle.
 std::vector<ForestVertex> forestBudgetVertices(const ForestLattice& lattice,
-                                               Coordinates coordinates,
-                                               uint32_t max_triangles);
+                                               Coordinates coordinates, uint32_t max_triangles);
 
 inline std::vector<ForestVertex> forestBudgetVertices(const ForestLattice& lattice,
                                                       std::span<const int32_t> heights,
