@@ -37,7 +37,8 @@ void addBoundary(const TriangleMesh& mesh, uint32_t side, std::vector<Quadric>& 
     quadrics[point].addPlane(1 / size * outwards, mesh.points[a], kBoundary * dot(edge, edge));
 }
 
-/// Of a triangle with one corner at the origin, whose area normal is `size` long; 1 for equal sides.
+/// Of a triangle with one corner at the origin, whose area normal is `size` long; 1 for equal
+/// sides.
 double qualityOf(const Point& a, const Point& b, double size) {
   const Point c = b - a;
   return 2 * std::sqrt(3.0) * size / (dot(a, a) + dot(b, b) + dot(c, c));

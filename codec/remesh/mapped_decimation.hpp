@@ -23,8 +23,8 @@ struct DecimatedMesh {
 class MappedDecimation {
  public:
   /// Collapses until there are no more than `fewest` triangles, or no point can go. `mesh`: as
-  /// `cleaned()` returns it; outlives this. Components keep a tetrahedron at least, or two triangles
-  /// if they have a boundary.
+  /// `cleaned()` returns it; outlives this. Components keep a tetrahedron at least, or two
+  /// triangles if they have a boundary.
   MappedDecimation(const TriangleMesh& mesh, uint32_t fewest);
 
   /// Triangles at the end.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// MeshColours takes the colours of a mesh's image to the patches of a forest: each texel has the colour of
-// the place where its sample was cast, on the triangle that lies there, so that charts of the image
-// that touch each other do not mix.
+// MeshColours takes the colours of a mesh's image to the patches of a forest: each texel has the
+// colour of the place where its sample was cast, on the triangle that lies there, so that charts of
+// the image that touch each other do not mix.
 #pragma once
 
 #include <array>

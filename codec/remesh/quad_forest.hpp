@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// quadForest() makes a forest of quads: a patch for each, whose sides are glued where two quads have
-// an edge in opposite directions. Patches are numbered and turned so that their glue takes few bits.
+// quadForest() makes a forest of quads: a patch for each, whose sides are glued where two quads
+// have an edge in opposite directions. Patches are numbered and turned so that their glue takes few
+// bits.
 #pragma once
 
 #include <array>

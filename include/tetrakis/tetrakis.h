@@ -422,7 +422,8 @@ tks_status tks_encode(const tks_heights* heights, const tks_image* image,
                       size_t message_size);
 
 /* A mesh of triangles to encode as an object: a scan, a sculpture. Triangles need not fit together:
- * points at equal places are joined, degenerate and double triangles dropped, and edges of more than
+ * points at equal places are joined, degenerate and double triangles dropped, and edges of more
+ * than
  * two triangles cut. */
 typedef struct tks_triangle_mesh {
   size_t size;                           /* sizeof(tks_triangle_mesh) */
@@ -432,9 +433,9 @@ typedef struct tks_triangle_mesh {
                                              counter-clockwise seen from outside */
   const char* unit;                      /* UTF-8, NULL: unknown */
   const char* description;               /* UTF-8, a name; NULL: none */
-  const float* texcoords;                /* 6 * triangle_count, beside an image: where the corners of
-                                            each triangle lie on it. (0, 0) is its upper left corner,
-                                            (1, 1) its lower right one; it repeats beyond these */
+  const float* texcoords;                /* 6 * triangle_count, beside an image: where corners of
+                                            triangles lie on it. (0, 0) is its upper left corner,
+                                            (1, 1) its lower right; it repeats beyond these */
 } tks_triangle_mesh;
 
 /* What became of a mesh. Distances are between its surface and that of the decoded stream, in its
@@ -457,21 +458,20 @@ typedef struct tks_object_report {
  * (tks_base_mesh), which tks_decode_object makes meshes of. The mesh is resampled: its triangles do
  * not come back. Of `options` these count: bytes (the base mesh with the least error is sought), or
  * psnr (of the surface: 20 log10(diagonal / error), as tks_object_report has it; the fewest bytes
- * are sought), or max_error (every sample of the base keeps its height within that distance, and the
- * resampling error is at most a third of it); index, progress, threads. `report` may be NULL.
+ * are sought), or max_error (every sample of the base keeps its height within that distance, and
+ * the resampling error is at most a third of it); index, progress, threads. `report` may be NULL.
  *
- * image: the texture of the mesh, which has texcoords, or NULL. Its texels are resampled on the same
- * patches, so that receivers need no coordinates, and it has no seams: about as many of them as the
- * mesh uses of the image, or fewer where `bytes` are few, which is the only target beside an image.
- * Of its place nothing counts.
+ * image: the texture of the mesh, which has texcoords, or NULL. Its texels are resampled on the
+ * same patches, so that receivers need no coordinates, and it has no seams: about as many of them
+ * as the mesh uses of the image, or fewer where `bytes` are few, which is the only target beside an
+ * image. Of its place nothing counts.
  *
  * TKS_USAGE, with a sentence in message: a mesh, or options, that break the rules; no triangle is
  * left after cleaning; the base mesh takes more than 4096 patches, since there are too many parts;
  * the target cannot be met. */
 tks_status tks_encode_object(const tks_triangle_mesh* mesh, const tks_image* image,
-                             const tks_encode_options* options,
-                             tks_object_report* report, tks_buffer* out, char* message,
-                             size_t message_size);
+                             const tks_encode_options* options, tks_object_report* report,
+                             tks_buffer* out, char* message, size_t message_size);
 
 /* Samples that lie farther from all others than these do from each other, so that they can only
  * stand for heights that are missing. Single samples are such only at the ends of an integer type;

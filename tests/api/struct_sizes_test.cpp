@@ -79,7 +79,8 @@ class StructSizes : public testing::Test {
                 -60,
                 {},
                 0,
-                0};
+                0,
+                {}};
     image_ = {sizeof image_,
               9,
               5,

@@ -22,8 +22,8 @@ struct SceneMaterial {
 SceneMaterial materialOf(const aiMaterial& material);
 
 /// Fills all of `mesh` but what tells of the file: triangles in the order of the scene's nodes,
-/// from the root down, with their orientation under mirrors kept. Polygons must be triangles already.
-/// Sets `failure` where there are no triangles or too many, or coordinates are no numbers.
+/// from the root down, with their orientation under mirrors kept. Polygons must be triangles
+/// already. Sets `failure` where there are no triangles or too many, or coordinates are no numbers.
 void joinScene(const aiScene& scene, MeshImport& mesh);
 
 }  // namespace tetrakis::tools
