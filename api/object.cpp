@@ -13,6 +13,7 @@
 #include "api/written.hpp"
 #include "codec/basemesh/base_mesh.hpp"
 #include "codec/basemesh/bent_base.hpp"
+#include "codec/mesh/meshes.hpp"
 
 namespace tetrakis::inline api {
 namespace {
