@@ -13,8 +13,8 @@ namespace {
 
 class CliObject : public CliTest {
  protected:
-  /// A ball with bumps and a texture, blob.glb, blob.obj or blob.ply, and blob.tks; the tests of one
-  /// process encode it once.
+  /// A ball with bumps and a texture, blob.glb, blob.obj or blob.ply, and blob.tks; the tests of
+  /// one process encode it once.
   void makeObject(const std::string& mesh, const std::string& options) {
     static std::map<std::string, std::pair<std::string, std::string>> made;
     ASSERT_EQ(cli("synth --kind blob --triangles 500 -o " + mesh).code, 0);

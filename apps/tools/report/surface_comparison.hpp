@@ -17,8 +17,8 @@ struct SurfaceMeasurement {
   /// Of 20 000 places of either surface to the other one, in the unit of the mesh, of which the
   /// original is the first.
   MeshDistance distance;
-  /// In dB, of R, G and B of 255: at those places of either surface, with the colours of the nearest
-  /// places of the other one, whichever way is worse. Infinite without error. Nothing where one of
+  /// In dB, of R, G and B of 255: at those places of either surface, with the colours of the
+  /// nearest places of the other one, whichever way is worse. Infinite without error. Nothing where one of
   /// both has no texture.
   std::optional<double> colour_psnr;
 };
