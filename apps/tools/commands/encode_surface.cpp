@@ -9,6 +9,7 @@
 
 #include "apps/tools/commands/encode_notes.hpp"
 #include "apps/tools/commands/notes.hpp"
+#include "apps/tools/files/memory_limit.hpp"
 #include "apps/tools/files/meshes/surface_colours.hpp"
 #include "apps/tools/files/meshes/surface_file.hpp"
 #include "apps/tools/files/text.hpp"
@@ -56,6 +57,14 @@ Result<SurfaceInputs> readSurfaceInputs(const EncodeArguments& arguments, bool q
   inputs.unit = arguments.unit ? canonicalUnit(*arguments.unit) : inputs.mesh.y_is_up ? "m" : "";
   if (Status status = addTexture(arguments, quiet, inputs); !status.ok()) return status;
   return inputs;
+}
+
+/// Measured: what encoding takes beside the streams that are tried.
+Status checkSurfaceMemory(const SurfaceInputs& inputs) {
+  constexpr uint64_t kTriangle = 600, kImages = 3;
+  const uint64_t image = inputs.image ? inputs.image->data.size() : 0;
+  return checkMemoryFor("encoding so many triangles",
+                        kTriangle * inputs.mesh.triangles.size() + kImages * image);
 }
 
 /// A view of the inputs.
@@ -181,6 +190,8 @@ Status encodeSurface(const EncodeArguments& arguments, bool quiet) {
   if (!output.ok()) return output.status();
   const Result<SurfaceInputs> inputs = readSurfaceInputs(arguments, quiet);
   if (!inputs.ok()) return inputs.status();
+  status = checkSurfaceMemory(*inputs);
+  if (!status.ok()) return status;
   tks_object_report report{};
   const Result<Buffer> stream = encodeMesh(arguments, *inputs, quiet, report);
   if (!stream.ok()) return stream.status();

@@ -12,7 +12,8 @@ ImageFile withoutAlpha(const ImageFile& image);
 
 /// The texture of a mesh that has one, without its alpha, multiplied by the mesh's base colour.
 /// That is a factor of light where glTF gives it, and of the values that are stored where others
-/// do. Black counts as white: programs write it beside textures, which would leave nothing of them.
+/// do.
+/// Black counts as white: programs write it beside textures, which would leave nothing of them.
 ImageFile shownTexture(const SurfaceFile& surface);
 
 }  // namespace tetrakis::tools
