@@ -18,8 +18,8 @@ struct SurfaceMeasurement {
   /// original is the first.
   MeshDistance distance;
   /// In dB, of R, G and B of 255: at those places of either surface, with the colours of the
-  /// nearest places of the other one, whichever way is worse. Infinite without error. Nothing where one of
-  /// both has no texture.
+  /// nearest places of the other one, whichever way is worse. Infinite without error. Nothing where
+  /// one of both has no texture.
   std::optional<double> colour_psnr;
 };
 
