@@ -280,6 +280,33 @@ std::vector<Called> globeCalls() {
            }}};
 }
 
+std::vector<Called> objectCalls() {
+  return {{"tks_decode_object", [](Desk& d) {
+             tks_free_object_mesh(&d.globe);
+             return tks_decode_object(d.decoder, TKS_MESH_BUDGET, 60, &d.globe);
+           }}};
+}
+
+/// Of a tetrahedron.
+Called encodingAnObject() {
+  static const double positions[] = {0, 0, 0, 4, 0, 0, 0, 4, 0, 0, 0, 4};
+  static const uint32_t triangles[] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  Called encode{"tks_encode_object", [](Desk& d) {
+                  tks_free_buffer(&d.buffer);
+                  tks_triangle_mesh mesh{};
+                  mesh.size = sizeof mesh;
+                  mesh.vertex_count = 4;
+                  mesh.triangle_count = 4;
+                  mesh.positions = positions;
+                  mesh.triangles = triangles;
+                  const tks_encode_options options = budget(400);
+                  return tks_encode_object(&mesh, nullptr, &options, nullptr, &d.buffer, d.message,
+                                           sizeof d.message);
+                }};
+  encode.remembers = false;
+  return encode;
+}
+
 Bytes streamRound() {
   const samples::Raster raster = samples::make({samples::Pattern::kRidges, 18, 9, 1, TKS_I16});
   tks_heights heights = raster.heights();
@@ -347,6 +374,12 @@ TEST(ExhaustedMemory, OfMeshes) {
   exhaustAll(globeCalls(), vectorOf("forest_smallest_3x18"));
 }
 
+TEST(ExhaustedMemory, OfObjects) {
+  exhaustAll(objectCalls(), vectorOf("object_open_17x68"));
+  exhaustAll(objectCalls(), vectorOf("object_joint_9x54_17x102"));
+  exhaust(encodingAnObject(), {});
+}
+
 TEST(ExhaustedMemory, OfEncoders) {
   for (const Called& called : encodingCalls()) exhaust(called, {});
 }
@@ -381,12 +414,13 @@ TEST(ExhaustedMemory, OfThreads) {
 
 /// All functions that the header declares.
 TEST(ExhaustedMemory, IsTriedOfEveryFunction) {
-  std::set<std::string> tried = {"tks_free_buffer",    "tks_free_mesh",      "tks_free_ranges",
-                                 "tks_close",          "tks_free_mesh_tree", "tks_message",
-                                 "tks_free_globe_mesh"};
+  std::set<std::string> tried = {
+      "tks_free_buffer",     "tks_free_mesh",        "tks_free_ranges",
+      "tks_close",           "tks_free_mesh_tree",   "tks_message",
+      "tks_free_globe_mesh", "tks_free_object_mesh", "tks_encode_object"};
   for (const auto& calls : {firstCalls(), decoderCalls(), indexCalls(), givingCalls(), meshCalls(),
-                            globeCalls(), fittingCalls(), positionCalls(), cubeCalls(),
-                            encodingCalls(), heightCalls(), textureCalls()})
+                            globeCalls(), objectCalls(), fittingCalls(), positionCalls(),
+                            cubeCalls(), encodingCalls(), heightCalls(), textureCalls()})
     for (const Called& called : calls) tried.insert(called.name);
   std::ifstream file(TETRAKIS_HEADER);
   const std::string header{std::istreambuf_iterator<char>(file), {}};

@@ -62,7 +62,7 @@ for library in "$libraries"/libtetrakis*.so; do
 done
 if [[ -e "$libraries/libtetrakis_decoder.so" ]]; then
   declared="$(sed -n 's/.*\b\(tks_[a-z_]*\)(.*/\1/p' "$prefix/include/tetrakis/tetrakis.h" |
-    grep -vx 'tks_cube_from_grid\|tks_encode\|tks_fit_positions\|tks_find_[a-z_]*' |
+    grep -vx 'tks_cube_from_grid\|tks_encode\|tks_encode_object\|tks_fit_positions\|tks_find_[a-z_]*' |
     grep -vx 'tks_free_buffer\|tks_reorder' |
     sort -u)"
   for function in $declared; do
