@@ -28,8 +28,13 @@ class MeshColours {
   MeshColours(const CleanedMesh& mesh, std::span<const float> texcoords, const MeshImage& image)
       : mesh_(mesh), texcoords_(texcoords), image_(image) {}
 
-  /// MeshColours of the image that the mesh shows.
+  /// Texels of the image that the mesh shows.
   double shown() const;
+
+  /// Of the same mesh under other texels, interleaved, of the same size; they outlive it.
+  MeshColours withTexels(std::span<const uint16_t> texels) const {
+    return {mesh_, texcoords_, {image_.width, image_.height, image_.channels, {}, texels}};
+  }
 
   /// The colour at each place, bilinear between the middles of texels.
   std::vector<uint16_t> at(std::span<const SurfacePoint> places) const;

@@ -44,6 +44,9 @@ class ObjectSource {
   uint32_t fewestTriangles() const { return decimation_.fewest(); }
   double diagonal() const { return diagonal_; }
 
+  /// The mesh with at most so many triangles, or the fewest there can be.
+  DecimatedMesh decimated(uint32_t triangles) const { return decimation_.base(triangles); }
+
   /// Bases have no fewer triangles than the decimation could leave.
   ResampledObject resampled(const ObjectShape& shape) const;
 

@@ -54,12 +54,12 @@ QuadForest quadForest(std::span<const Quad> quads) {
   const std::vector<uint32_t> given = gluedSides(quads);
   QuadForest forest{std::vector<uint32_t>(given.size(), Forest::kBorder), {}, {}};
   std::vector<uint32_t> number(given.size());  // of each side, as renamed
-  for (const MetPatch& met : patchesAsMet(given)) {
+  for (const MetFace& met : facesAsMet(given, Forest::kSides)) {
     const auto patch = static_cast<uint32_t>(forest.quads.size());
-    forest.quads.push_back(met.patch);
+    forest.quads.push_back(met.face);
     forest.first_corners.push_back(static_cast<uint8_t>((4 - met.entered) % 4));
     for (uint32_t i = 0; i < Forest::kSides; ++i)
-      number[Forest::kSides * met.patch + (met.entered + i) % 4] = Forest::kSides * patch + i;
+      number[Forest::kSides * met.face + (met.entered + i) % 4] = Forest::kSides * patch + i;
   }
   for (size_t side = 0; side < given.size(); ++side)
     if (given[side] != Forest::kBorder) forest.sides[number[side]] = number[given[side]];

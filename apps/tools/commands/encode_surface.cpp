@@ -68,7 +68,7 @@ Status checkSurfaceMemory(const SurfaceInputs& inputs) {
 }
 
 /// A view of the inputs.
-tks_triangle_mesh asTriangleMesh(const SurfaceInputs& inputs) {
+tks_triangle_mesh asTriangleMesh(const SurfaceInputs& inputs, const std::string& kind) {
   const SurfaceFile& file = inputs.mesh;
   tks_triangle_mesh mesh = makeTriangleMesh();
   mesh.vertex_count = static_cast<uint32_t>(file.points.size());
@@ -78,6 +78,9 @@ tks_triangle_mesh asTriangleMesh(const SurfaceInputs& inputs) {
   if (!inputs.unit.empty()) mesh.unit = inputs.unit.c_str();
   if (!file.name.empty()) mesh.description = file.name.c_str();
   if (inputs.image) mesh.texcoords = file.texcoords.front().data();
+  mesh.kind = kind == "auto"        ? TKS_OBJECT_AUTO
+              : kind == "triangles" ? TKS_OBJECT_TRIANGLES
+                                    : TKS_OBJECT_RESAMPLED;
   return mesh;
 }
 
@@ -120,7 +123,7 @@ Result<Buffer> encodeMesh(const EncodeArguments& arguments, const SurfaceInputs&
   Progress progress("encoding", quiet);
   options->progress = &Progress::report;
   options->user = &progress;
-  const tks_triangle_mesh mesh = asTriangleMesh(inputs);
+  const tks_triangle_mesh mesh = asTriangleMesh(inputs, arguments.kind);
   const tks_image image = inputs.image ? asImage(*inputs.image) : tks_image{};
   return encodeObject(mesh, inputs.image ? &image : nullptr, *options, &report);
 }
@@ -175,10 +178,13 @@ std::string cleaningNote(const tks_object_report& report) {
 
 std::string objectNote(const tks_object_report& report, const std::string& unit) {
   const std::string exact = std::isfinite(report.psnr) ? fixed(report.psnr, 1) : "infinitely many";
-  return squares(report.patches, report.depth) + " samples" +
-         (report.texture_depth > 0
-              ? ", " + std::to_string((1u << report.texture_depth) + 1) + " texels a side"
-              : std::string()) +
+  const std::string texels =
+      report.texture_depth > 0
+          ? ", " + std::to_string((1u << report.texture_depth) + 1) + " texels a side"
+          : std::string();
+  return (report.kind == TKS_OBJECT_TRIANGLES
+              ? counted(report.coded_triangles, "triangle", "triangles")
+              : squares(report.patches, report.depth) + " samples" + texels) +
          "; RMS distance to the mesh " + inUnit(report.error, unit) + " (" + exact +
          " dB of its diagonal), largest " + inUnit(report.largest, unit);
 }

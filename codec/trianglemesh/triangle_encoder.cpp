@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/trianglemesh/triangle_encoder.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "bitstream/coder/range_encoder.hpp"
+#include "bitstream/stream/glue.hpp"
+#include "codec/trianglemesh/triangle_pass.hpp"
+
+namespace tetrakis::inline trianglemesh {
+namespace {
+
+using Triangles = std::span<const std::array<uint32_t, 3>>;
+
+std::vector<uint32_t> gluedSides(Triangles triangles) {
+  struct End {
+    uint32_t low, high, side;
+    bool operator<(const End& other) const {
+      return std::tie(low, high, side) < std::tie(other.low, other.high, other.side);
+    }
+  };
+  std::vector<End> ends;
+  ends.reserve(3 * triangles.size());
+  for (uint32_t side = 0; side < 3 * triangles.size(); ++side) {
+    const auto& t = triangles[side / 3];
+    const auto [low, high] = std::minmax({t[side % 3], t[(side + 1) % 3]});
+    ends.push_back({low, high, side});
+  }
+  std::sort(ends.begin(), ends.end());
+  std::vector<uint32_t> sides(ends.size(), kBorder);
+  for (size_t i = 0; i + 1 < ends.size(); ++i) {
+    if (ends[i].low != ends[i + 1].low || ends[i].high != ends[i + 1].high) continue;
+    sides[ends[i].side] = ends[i + 1].side;
+    sides[ends[i + 1].side] = ends[i].side;
+  }
+  return sides;
+}
+
+/// The least number, no less than `value`, whose field in a header takes three bytes.
+double roundedUp(double value) {
+  constexpr uint64_t kLow = (uint64_t{1} << 44) - 1;
+  const auto bits = std::bit_cast<uint64_t>(value);
+  return std::bit_cast<double>((bits + kLow) & ~kLow);
+}
+
+/// Where a grid begins along an axis, and how far it goes.
+struct Range {
+  double low = 0, high = 0;
+};
+
+std::array<Range, 3> boxAround(std::span<const std::array<double, 3>> points) {
+  std::array<Range, 3> box;
+  for (size_t axis = 0; axis < 3; ++axis) {
+    box[axis] = {points[0][axis], points[0][axis]};
+    for (const auto& point : points) {
+      box[axis].low = std::min(box[axis].low, point[axis]);
+      box[axis].high = std::max(box[axis].high, point[axis]);
+    }
+  }
+  return box;
+}
+
+/// Cells that are as small as places of so many bits, and origins, allow.
+double cellOf(const std::array<Range, 3>& box, int bits) {
+  double extent = 0, farthest = 0;
+  for (const auto& [low, high] : box) {
+    extent = std::max(extent, high - low);
+    farthest = std::max({farthest, std::abs(low), std::abs(high)});
+  }
+  const double places = std::ldexp(1.0, bits) - 2;  // both ends are rounded
+  const double least = 2 * farthest / static_cast<double>(TriangleMeshHeader::kMostOrigin);
+  return roundedUp(std::max({extent / places, least, 1e-300}));
+}
+
+int64_t rounded(double value) {
+  return static_cast<int64_t>(std::floor(value + 0.5));
+}
+
+}  // namespace
+
+TriangleEncoder::TriangleEncoder(const PlainMesh& mesh, uint8_t texcoord_fraction) : mesh_(mesh) {
+  header_.triangles = mesh.triangles.size();
+  numberTriangles();
+  if (mesh.texcoords.empty()) return;
+  cutSeams();
+  roundTexcoords(texcoord_fraction);
+}
+
+/// As a walk meets them, which takes the fewest bits.
+void TriangleEncoder::numberTriangles() {
+  const std::vector<uint32_t> sides = gluedSides(mesh_.triangles);
+  std::vector<uint32_t> number(sides.size());  // of each corner that is given
+  for (const MetFace& met : facesAsMet(sides, 3)) {
+    for (uint32_t i = 0; i < 3; ++i) {
+      const uint32_t corner = 3 * met.face + (met.entered + i) % 3;
+      number[corner] = static_cast<uint32_t>(given_.size());
+      given_.push_back(corner);
+    }
+  }
+  for (const uint32_t corner : given_)
+    coded_.sides.push_back(sides[corner] == kBorder ? kBorder : number[sides[corner]]);
+  first_corners_ = cornerFans(coded_.sides).first;
+}
+
+std::array<float, 2> TriangleEncoder::texcoordAt(uint32_t corner) const {
+  std::array<float, 2> at = mesh_.texcoords[given_[corner] / 3][given_[corner] % 3];
+  for (float& value : at) {
+    constexpr float kMost = 1 << 18;  // fits in kMostTexcoordBits with a fraction of 0
+    value = std::isfinite(value) ? std::clamp(value, -kMost, kMost) : 0;
+  }
+  return at;
+}
+
+void TriangleEncoder::cutSeams() {
+  coded_.cut = coded_.sides;
+  for (uint32_t side = 0; side < coded_.sides.size(); ++side) {
+    const uint32_t other = coded_.sides[side];
+    if (other == kBorder) continue;
+    const bool same = texcoordAt(side) == texcoordAt(after(other)) &&
+                      texcoordAt(after(side)) == texcoordAt(other);
+    if (!same) coded_.cut[side] = kBorder;
+  }
+}
+
+/// Each part of the texture between seams is moved by whole numbers to where the texture begins.
+std::vector<std::array<int64_t, 2>> TriangleEncoder::roundedTexcoords(int fraction) const {
+  const double units = std::ldexp(1.0, fraction);
+  std::vector<std::array<int64_t, 2>> rounded_at(given_.size());
+  std::vector<uint8_t> seen(given_.size() / 3);
+  std::vector<uint32_t> part;  // its triangles
+  for (uint32_t first = 0; first < seen.size(); ++first) {
+    if (seen[first] != 0) continue;
+    part.assign(1, first);
+    seen[first] = 1;
+    std::array<float, 2> least = texcoordAt(3 * first);
+    for (size_t i = 0; i < part.size(); ++i) {
+      for (uint32_t corner = 3 * part[i]; corner < 3 * part[i] + 3; ++corner) {
+        for (size_t axis = 0; axis < 2; ++axis)
+          least[axis] = std::min(least[axis], texcoordAt(corner)[axis]);
+        const uint32_t other = coded_.cut[corner];
+        if (other == kBorder || seen[other / 3] != 0) continue;
+        seen[other / 3] = 1;
+        part.push_back(other / 3);
+      }
+    }
+    for (const uint32_t triangle : part)
+      for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
+        for (size_t axis = 0; axis < 2; ++axis)
+          rounded_at[corner][axis] =
+              rounded((double{texcoordAt(corner)[axis]} - std::floor(least[axis])) * units);
+  }
+  return rounded_at;
+}
+
+void TriangleEncoder::roundTexcoords(uint8_t fraction) {
+  CornerFans wedges = cornerFans(coded_.cut);
+  for (int tried = fraction;; --tried) {
+    const std::vector<std::array<int64_t, 2>> at = roundedTexcoords(tried);
+    int bits = 1;
+    std::array<int64_t, 2> least{};
+    for (size_t axis = 0; axis < 2; ++axis) {
+      int64_t low = at[0][axis], high = low;
+      for (const auto& texcoord : at) {
+        low = std::min(low, texcoord[axis]);
+        high = std::max(high, texcoord[axis]);
+      }
+      least[axis] = low;
+      bits = std::max(bits, static_cast<int>(std::bit_width(static_cast<uint64_t>(high - low))));
+    }
+    if (bits > TriangleMeshHeader::kMostTexcoordBits) continue;
+    header_.texcoord_bits = static_cast<uint8_t>(bits);
+    header_.texcoord_fraction = static_cast<uint8_t>(tried);
+    header_.texcoord_origin = least;
+    for (const uint32_t corner : wedges.first)
+      coded_.texcoords.push_back({static_cast<int32_t>(at[corner][0] - least[0]),
+                                  static_cast<int32_t>(at[corner][1] - least[1])});
+    return;
+  }
+}
+
+TriangleMeshHeader TriangleEncoder::encode(uint8_t place_bits) const {
+  TriangleMeshHeader header = header_;
+  const std::array<Range, 3> box = boxAround(mesh_.points);
+  header.place_bits = place_bits;
+  header.cell = cellOf(box, place_bits);
+  const auto cells = [&](double place) { return rounded(place / header.cell); };
+  for (size_t axis = 0; axis < 3; ++axis) header.origin[axis] = cells(box[axis].low);
+  CodedTriangles coded = coded_;
+  for (const uint32_t corner : first_corners_) {
+    const uint32_t given = given_[corner];
+    const auto& point = mesh_.points[mesh_.triangles[given / 3][given % 3]];
+    Place& place = coded.places.emplace_back();
+    for (size_t axis = 0; axis < 3; ++axis)
+      place[axis] = static_cast<int32_t>(cells(point[axis]) - header.origin[axis]);
+  }
+  DecisionEncoding io;
+  runTriangles(io, header, coded);
+  const std::vector<uint8_t> code = io.finish();
+  header.code.assign(code.begin(), code.end());
+  return header;
+}
+
+}  // namespace tetrakis::inline trianglemesh
