@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "bitstream/stream/header.hpp"
+#include "codec/remesh/half_edges.hpp"
 #include "codec/trianglemesh/triangle_encoder.hpp"
 
 namespace tetrakis::inline api {
@@ -47,7 +48,8 @@ class TriangleTrial {
       : given_(given),
         mesh_(given.source.decimated(triangles).mesh),
         texcoords_(texcoordsOf(given)),
-        encoder_({mesh_.points, mesh_.triangles, texcoords_}, texcoordFraction(given.image)) {}
+        encoder_({mesh_.points, mesh_.triangles, gluedSides(mesh_.triangles).opposite, texcoords_},
+                 texcoordFraction(given.image)) {}
 
   /// Without a texture: the whole stream. Nothing where no decoder reads as long a header.
   std::optional<std::vector<uint8_t>> streamOf(uint8_t bits) const {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "bitstream/coder/range_encoder.hpp"
@@ -13,32 +12,6 @@
 
 namespace tetrakis::inline trianglemesh {
 namespace {
-
-using Triangles = std::span<const std::array<uint32_t, 3>>;
-
-std::vector<uint32_t> gluedSides(Triangles triangles) {
-  struct End {
-    uint32_t low, high, side;
-    bool operator<(const End& other) const {
-      return std::tie(low, high, side) < std::tie(other.low, other.high, other.side);
-    }
-  };
-  std::vector<End> ends;
-  ends.reserve(3 * triangles.size());
-  for (uint32_t side = 0; side < 3 * triangles.size(); ++side) {
-    const auto& t = triangles[side / 3];
-    const auto [low, high] = std::minmax({t[side % 3], t[(side + 1) % 3]});
-    ends.push_back({low, high, side});
-  }
-  std::sort(ends.begin(), ends.end());
-  std::vector<uint32_t> sides(ends.size(), kBorder);
-  for (size_t i = 0; i + 1 < ends.size(); ++i) {
-    if (ends[i].low != ends[i + 1].low || ends[i].high != ends[i + 1].high) continue;
-    sides[ends[i].side] = ends[i + 1].side;
-    sides[ends[i + 1].side] = ends[i].side;
-  }
-  return sides;
-}
 
 /// The least number, no less than `value`, whose field in a header takes three bytes.
 double roundedUp(double value) {
@@ -92,7 +65,7 @@ TriangleEncoder::TriangleEncoder(const PlainMesh& mesh, uint8_t texcoord_fractio
 
 /// As a walk meets them, which takes the fewest bits.
 void TriangleEncoder::numberTriangles() {
-  const std::vector<uint32_t> sides = gluedSides(mesh_.triangles);
+  const std::vector<uint32_t>& sides = mesh_.sides;
   std::vector<uint32_t> number(sides.size());  // of each corner that is given
   for (const MetFace& met : facesAsMet(sides, 3)) {
     for (uint32_t i = 0; i < 3; ++i) {

@@ -12,10 +12,11 @@
 
 namespace tetrakis::inline trianglemesh {
 
-/// A mesh that is an oriented manifold with boundary. All outlives the encoder.
+/// A mesh that is an oriented manifold with boundary. All but the sides outlives the encoder.
 struct PlainMesh {
   std::span<const std::array<double, 3>> points;       ///< finite
   std::span<const std::array<uint32_t, 3>> triangles;  ///< one or more
+  std::vector<uint32_t> sides;  ///< of each side, 3t + i, the one that it is glued to, or kBorder
   /// Three pairs a triangle, or none. Whole numbers more or less are the same place of a texture;
   /// what is not finite, or beyond 2^18, lies anywhere.
   std::span<const std::array<std::array<float, 2>, 3>> texcoords;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/tools/report/joined_normals.hpp"
+#include "apps/tools/report/surface_normals.hpp"
 
 namespace tetrakis::tools {
 
