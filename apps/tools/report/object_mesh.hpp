@@ -26,7 +26,7 @@ inline PatchAtlas atlasOf(const tks_info& info) {
 
 /// Where the vertices lie on the picture of the texture, two numbers each, from (0, 0) at its top
 /// left corner to (1, 1); of an object with an atlas on that. Empty where there is no texture.
-std::vector<float> textureCoordinates(const tks_info& info, const ObjectMesh& mesh);
+std::vector<float> objectTexcoords(const tks_info& info, const ObjectMesh& mesh);
 
 /// With at most max_triangles (0: every sample; or the mesh that the bytes themselves code).
 /// Normals are those of the mesh, the same on both sides of a seam. The errors of tks_decode_object.

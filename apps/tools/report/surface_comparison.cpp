@@ -97,7 +97,7 @@ Result<PaintedMesh> decodedMesh(Decoder& decoder, uint32_t max_triangles) {
     const auto corners = mesh->triangles().subspan(i, 3);
     painted.mesh.triangles.push_back({corners[0], corners[1], corners[2]});
   }
-  const std::vector<float> places = textureCoordinates(decoder.info(), *mesh);
+  const std::vector<float> places = objectTexcoords(decoder.info(), *mesh);
   if (places.empty()) return painted;
   const Result<ImageFile> raster = decodeImage(decoder);
   if (!raster.ok()) return raster.status();
