@@ -119,6 +119,7 @@ export function* partsOf(opened, info, request) {
 /** The buffers of a frame, to be handed over between threads instead of copied. */
 export function buffersOf(frame) {
   const {mesh, globe, object, texture, surface} = frame;
-  const arrays = [mesh, globe, object, texture, surface].flatMap((part) => Object.values(part ?? {}));
-  return arrays.filter(ArrayBuffer.isView).map((array) => array.buffer);
+  const parts = [mesh, globe, object, texture, surface];
+  const values = parts.flatMap((part) => Object.values(part ?? {}));
+  return values.filter(ArrayBuffer.isView).map((array) => array.buffer);
 }
