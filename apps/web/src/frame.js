@@ -108,10 +108,8 @@ export function* partsOf(opened, info, request) {
   }
   if (request.texture && info.hasTexture) {
     const at = shown(0), data = opened.rgba(at);
-    const {level, width, height} =
-      atlas ?? {level: textureLevel, width: at.textureWidth, height: at.textureHeight};
-    parts.texture = {level, width, height, geotransform: at.textureGeotransform,
-      data: atlas?.pictureOf(data) ?? data};
+    parts.texture = atlas?.pictureOf(data) ?? {level: textureLevel, width: at.textureWidth,
+      height: at.textureHeight, geotransform: at.textureGeotransform, data};
   }
   return parts;
 }

@@ -208,7 +208,10 @@ export interface Raster<T> {
   level: number;
   width: number;
   height: number;
-  geotransform: number[];
+  /** Of an atlas there is none. */
+  geotransform?: number[];
+  /** Of an atlas: texels around each patch. */
+  gutter?: number;
   data: T;
 }
 

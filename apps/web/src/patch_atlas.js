@@ -30,6 +30,8 @@ function halved(data, patches, side) {
   return out;
 }
 
+const GUTTER = 1;
+
 export class PatchAtlas {
   /** `level`: how often every second texel of a side is left out; side: of the patches as they are,
    * 2^depth + 1. */
@@ -51,7 +53,7 @@ export class PatchAtlas {
   }
 
   get cell() {
-    return this.side + 2;
+    return this.side + 2 * GUTTER;
   }
   get width() {
     return this.columns * this.cell;
@@ -64,14 +66,14 @@ export class PatchAtlas {
    * the middle of the first texel of the patch, to 1, that of the last one. */
   at(patch, x, y) {
     const across = (place, part, whole) =>  // over the gutter to the middle of the first texel
-      (place * this.cell + 1.5 + part * (this.side - 1)) / whole;
+      (place * this.cell + GUTTER + 0.5 + part * (this.side - 1)) / whole;
     return [
       across(patch % this.columns, x, this.width),
       across(Math.floor(patch / this.columns), y, this.height),
     ];
   }
 
-  /** RGBA of the raster as RGBA of the picture. Places behind the last patch show it again. */
+  /** Of RGBA of the raster, as `texture` of a frame. Places behind the last patch show it again. */
   pictureOf(raster) {
     let data = raster;
     for (let side = this.whole; side > this.side; side = (side + 1) / 2)
@@ -80,17 +82,18 @@ export class PatchAtlas {
     const picture = new Uint32Array(this.width * this.height);
     for (let place = 0; place < this.columns * this.rows; ++place)
       this.#put(picture, place, texels, Math.min(place, this.patches - 1));
-    return new Uint8ClampedArray(picture.buffer);
+    const {level, width, height} = this, rgba = new Uint8ClampedArray(picture.buffer);
+    return {level, width, height, gutter: GUTTER, data: rgba};
   }
   #put(picture, place, texels, patch) {
     const {side, cell, width} = this, left = (place % this.columns) * cell;
     const top = Math.floor(place / this.columns) * cell;
     for (let y = 0; y < cell; ++y) {
-      const row = Math.min(Math.max(y - 1, 0), side - 1);
+      const row = Math.min(Math.max(y - GUTTER, 0), side - 1);
       const from = (patch * side + row) * side, to = (top + y) * width + left;
-      picture.set(texels.subarray(from, from + side), to + 1);
-      picture[to] = texels[from];
-      picture[to + side + 1] = texels[from + side - 1];
+      picture.fill(texels[from], to, to + GUTTER);
+      picture.set(texels.subarray(from, from + side), to + GUTTER);
+      picture.fill(texels[from + side - 1], to + GUTTER + side, to + cell);
     }
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // An object, such as a scan, in a scene of three.js: a mesh that refines by the camera. Its
 // coordinates are those of the mesh that was encoded, in its unit, less `centre`.
-import {BufferAttribute, BufferGeometry, DoubleSide, LinearFilter, Vector3} from 'three';
+import {BufferAttribute, BufferGeometry, DoubleSide, Vector3} from 'three';
 
 import {fitCamera} from './fit.js';
 import {PatchAtlas} from './patch_atlas.js';
@@ -19,15 +19,6 @@ function geometryOf({positions, normals, texcoords, triangles}) {
   if (normals) geometry.setAttribute('normal', new BufferAttribute(normals, 3));
   else geometry.computeVertexNormals();
   return geometry;
-}
-
-/** Without mip levels, which would mix patches: frames have an atlas of the size that is seen. */
-export function atlasTextureOf(raster) {
-  const texture = textureOf(raster);
-  texture.generateMipmaps = false;
-  texture.minFilter = LinearFilter;
-  texture.anisotropy = 1;
-  return texture;
 }
 
 function areaOf({positions, triangles}) {
@@ -64,7 +55,7 @@ export class TksObject extends RefiningMesh {
       }
       this.#next = geometryOf(object);
     }
-    if (texture) this.take(atlasTextureOf(texture), () => this.#showNext());
+    if (texture) this.take(textureOf(texture), () => this.#showNext());
     else this.#showNext();
   }
   #showNext() {

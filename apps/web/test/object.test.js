@@ -194,8 +194,8 @@ test('an atlas shows each texel at its place, and repeats borders around patches
     for (const side of [3, 9]) {
       const texels = Uint8ClampedArray.from({length: 4 * patches * side * side},
         (_, i) => Math.imul(i + 1, 0x9e3779b1) >>> 24);
-      const atlas = new PatchAtlas(patches, side), {width, height} = atlas;
-      const picture = {width, height, data: atlas.pictureOf(texels)}, last = side - 1;
+      const atlas = new PatchAtlas(patches, side), last = side - 1;
+      const {width, height, data} = atlas.pictureOf(texels);
       for (let patch = 0; patch < patches; ++patch) {
         for (let i = 0; i < (side + 2) ** 2; ++i) {
           const x = i % (side + 2) - 1, y = Math.floor(i / (side + 2)) - 1;
@@ -203,7 +203,7 @@ test('an atlas shows each texel at its place, and repeats borders around patches
           const within = (place) => Math.min(Math.max(place, 0), last);
           const from = 4 * ((patch * side + within(y)) * side + within(x));
           const to = 4 * (Math.floor(v * height) * width + Math.floor(u * width));
-          assert.deepEqual(picture.data.subarray(to, to + 4), texels.subarray(from, from + 4));
+          assert.deepEqual(data.subarray(to, to + 4), texels.subarray(from, from + 4));
         }
       }
     }
