@@ -18,7 +18,7 @@ function isSame(words, a, b) {
 }
 
 /** For each vertex the first one at its very position (Float64Array). */
-export function firstAtPosition(positions) {
+function firstAtPosition(positions) {
   const count = positions.length / 3, first = new Uint32Array(count);
   const words = new Uint32Array(positions.map((value) => value + 0).buffer);  // -0 is 0
   const last = 2 ** Math.ceil(Math.log2(2 * count + 2)) - 1;

@@ -43,8 +43,8 @@ export function geometryOf(frame) {
   return geometry;
 }
 
-/** A texture of RGBA rows, the first row at v = 0. Of an atlas it has no mip levels, which would mix
- * patches: frames have one of the size that is seen. */
+/** A texture of RGBA rows, the first row at v = 0. That of an atlas has no mip levels, which would
+ * mix patches: frames have one of the size that is seen. */
 export function textureOf({width, height, gutter, data}) {
   const bytes = new Uint8Array(data.buffer, data.byteOffset, data.length);
   const texture = new DataTexture(bytes, width, height, RGBAFormat);

@@ -13,6 +13,7 @@ import {fromArrayBuffer} from 'geotiff';
 import {TksLoader as DeckLoader} from '../src/deck.js';
 import {encode} from '../src/encode.js';
 import {goesRound, open} from '../src/index.js';
+import {TksProtocol} from '../src/maplibre.js';
 import {centreOf} from '../src/object.js';
 import {PatchAtlas} from '../src/patch_atlas.js';
 import {earthOnCube} from './earth.js';
@@ -168,7 +169,7 @@ function filtered({width, height, data}, u, v) {
   });
 }
 
-test('patches of an atlas meet in equal colours, at each size that a texture may have', async () => {
+test('patches of an atlas meet in equal colours, at each size that it may have', async () => {
   await withStream(await bytesOf('object_joint_9x54_17x102.tks'), async (terrain) => {
     const levels = [];
     for (const texels of [4096, 57, 56, 30, 20, 1]) {
@@ -210,7 +211,7 @@ test('an atlas shows each texel at its place, and repeats borders around patches
   }
 });
 
-test('an object without a texture has no place on one; deck.gl refuses objects', async () => {
+test('an object without a texture has no place on one, and no adapter one on Earth', async () => {
   const bytes = await bytesOf('object_torus_9x144.tks');
   await withStream(bytes, async (terrain) => {
     const {object, texture} = await terrain.decode();
@@ -218,6 +219,7 @@ test('an object without a texture has no place on one; deck.gl refuses objects',
     await assert.rejects(terrain.decode({globe: {}}), {code: 'usage'});
   });
   await assert.rejects(DeckLoader.parse(bytes.buffer, {}), {code: 'unsupported'});
+  await assert.rejects(new TksProtocol().add('torus', bytes), {code: 'unsupported'});
 });
 
 /** The accessors of a .glb's mesh as arrays, and its indices. */
