@@ -4,7 +4,7 @@
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {existsSync} from 'node:fs';
-import {mkdtemp, readFile, rm} from 'node:fs/promises';
+import {mkdtemp, readFile, rm, writeFile} from 'node:fs/promises';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {test} from 'node:test';
@@ -242,14 +242,49 @@ function partsOf(glb) {
   };
 }
 
-test('mesh and atlas are those of the command line', {skip, timeout: 60000}, async () => {
+/** Calls use({folder, run, file}): a folder, the command line in it, and how its files are read. */
+async function withFolder(use) {
   const folder = await mkdtemp(join(tmpdir(), 'tetrakis-'));
-  const run = (...args) => execFileSync(CLI, [...args, '-q'], {cwd: folder});
   try {
+    await use({
+      folder, run: (...args) => execFileSync(CLI, [...args, '-q'], {cwd: folder}),
+      file: async (name) => new Uint8Array(await readFile(join(folder, name))),
+    });
+  } finally {
+    await rm(folder, {recursive: true});
+  }
+}
+
+test('an object far from the origin lies where it lay', {skip, timeout: 60000}, async () => {
+  await withFolder(async ({folder, run, file}) => {
+    const away = [500, 60, -2000], corners = [[], [], []];
+    run('synth', '--kind', 'blob', '--triangles', '500', '-o', 'blob.obj');
+    const near = new TextDecoder().decode(await file('blob.obj'));
+    await writeFile(join(folder, 'far.obj'), near.replace(/^v (.*)$/gm, (_, numbers) =>
+      'v ' + numbers.split(' ').slice(0, 3).map((number, axis) => {
+        corners[axis].push(Number(number) + away[axis]);
+        return corners[axis].at(-1);
+      }).join(' ')));
+    run('encode', 'far.obj', '--bytes', '12k', '-o', 'far.tks');
+    await withStream(await file('far.tks'), async (terrain) => {
+      const {object: {centre, positions}} = await terrain.decode();
+      for (const axis of [0, 1, 2]) {
+        const own = positions.filter((_, i) => i % 3 === axis);
+        assert.ok(own.every((value) => Math.abs(value) < 12), 'some diagonals');
+        for (const most of [Math.min, Math.max]) {
+          const differs = most(...own) + centre[axis] - most(...corners[axis]);
+          assert.ok(Math.abs(differs) < 0.02, `${differs}`);
+        }
+      }
+    });
+  });
+});
+
+test('mesh and atlas are those of the command line', {skip, timeout: 60000}, async () => {
+  await withFolder(async ({run, file}) => {
     run('synth', '--kind', 'knot', '--triangles', '2000', '-o', 'knot.glb');
     run('encode', 'knot.glb', '--bytes', '12k', '-o', 'knot.tks');
     run('decode', 'knot.tks', '--triangles', '3000', '--mesh', 'out.glb', '--texture', 'out.tif');
-    const file = async (name) => new Uint8Array(await readFile(join(folder, name)));
     const {buffer} = await file('out.tif'), tiff = await fromArrayBuffer(buffer);
     const image = await tiff.getImage(), rgb = await image.readRasters({interleave: true});
     const glb = partsOf(await file('out.glb'));
@@ -263,7 +298,5 @@ test('mesh and atlas are those of the command line', {skip, timeout: 60000}, asy
       assert.deepEqual([texture.width, texture.height], [image.getWidth(), image.getHeight()]);
       assert.deepEqual(Array.from(texture.data.filter((_, i) => i % 4 < 3)), Array.from(rgb));
     });
-  } finally {
-    await rm(folder, {recursive: true});
-  }
+  });
 });
