@@ -100,6 +100,9 @@ async function parse(input, {tks, terrain: layer} = {}) {
   try {
     const {info} = terrain;
     if (!info.hasHeights) throw new TksError('usage', 'This stream is an image: it has no mesh.');
+    if (info.isObject) {
+      throw new TksError('unsupported', 'This stream is an object, which lies on no ground.');
+    }
     const frame = await terrain.decode({bytes, triangles, texels, normals: true});
     return {
       // TerrainLayer says in `terrain` where it wants the mesh.

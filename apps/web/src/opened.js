@@ -7,8 +7,12 @@ import {MESSAGE_BYTES, SAMPLES} from './instance.js';
 /** Magic, version, profile, level and a varint: these tell how many bytes the header takes. */
 const MOST_BEFORE_BODY = 17;
 const BUDGET_MESH = 1;
+/** No tks_mesh_kind. */
+const NO_MESH = 2;
 /** tks_globe: its size, and four numbers. */
 const GLOBE_BYTES = 40;
+/** tks_object_mesh, at the least. */
+const OBJECT_MESH_BYTES = 24;
 /** Texels that become RGBA at a time: the module has no memory for all of them beside a texture. */
 const TEXELS = 2 ** 18;
 
@@ -36,6 +40,16 @@ export class Opened {
       [this.decoder] = instance.view(Uint32Array, out, 1);
     });
     this.hasIndex = calls.web_has_index(this.decoder) !== 0;
+    this.isObject = this.#hasBaseMesh();
+  }
+  /** Whether the heights lie over a base mesh: asked for a mesh of a kind that there is not, the
+   * decoder refuses heights without one first. */
+  #hasBaseMesh() {
+    const {instance, decoder} = this, {calls} = instance;
+    if (!calls.tks_decode_object) return false;
+    instance.with(OBJECT_MESH_BYTES, (out) =>
+      calls.tks_decode_object(decoder, NO_MESH, 0, out));
+    return /kind of mesh/.test(instance.text(calls.tks_message(decoder)));
   }
   /** Of what is no header so many bytes that decoders refuse them. */
   static #headerBytes(instance, first) {
@@ -125,6 +139,8 @@ export class Opened {
         info[name] = info[name] !== 0;
     }
     for (const name of ['domain', 'textureDomain']) info[name] = DOMAINS[info[name]];
+    info.isObject = this.isObject;
+    if (this.isObject) info.domain = 'forest';  // of six patches, perhaps, but no globe
     const gather = (letter) =>
       Array.from({length: 6}, (_, i) => {
         const value = info[letter + i];
@@ -213,6 +229,27 @@ export class Opened {
       triangles: instance.copy(Uint32Array, triangles, 3 * faces),
     };
     instance.calls.tks_free_globe_mesh(out);
+    return mesh;
+  }
+
+  /** The mesh of an object: positions in its unit, and the samples that they lie on. */
+  object(triangles) {
+    const {instance, decoder} = this;
+    return instance.with(OBJECT_MESH_BYTES, (out) => {
+      this.check(instance.calls.tks_decode_object(decoder, BUDGET_MESH, triangles, out));
+      return this.#objectAt(out);
+    });
+  }
+  /** tks_object_mesh at `out`: two counts, four addresses. */
+  #objectAt(out) {
+    const {instance} = this;
+    const [vertices, faces, positions, pixels, , triangles] = instance.copy(Uint32Array, out, 6);
+    const mesh = {
+      positions: instance.copy(Float64Array, positions, 3 * vertices),
+      pixels: instance.copy(Float64Array, pixels, 2 * vertices),
+      triangles: instance.copy(Uint32Array, triangles, 3 * faces),
+    };
+    instance.calls.tks_free_object_mesh(out);
     return mesh;
   }
 
