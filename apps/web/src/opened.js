@@ -240,10 +240,11 @@ export class Opened {
       return this.#objectAt(out);
     });
   }
-  /** tks_object_mesh at `out`: two counts, four addresses. */
+  /** tks_object_mesh at `out`: two counts, five addresses. */
   #objectAt(out) {
     const {instance} = this;
-    const [vertices, faces, positions, pixels, , triangles] = instance.copy(Uint32Array, out, 6);
+    const [vertices, faces, positions, pixels, , , triangles] =
+      instance.copy(Uint32Array, out, 7);
     const mesh = {
       positions: instance.copy(Float64Array, positions, 3 * vertices),
       pixels: instance.copy(Float64Array, pixels, 2 * vertices),
