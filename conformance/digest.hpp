@@ -14,8 +14,11 @@ namespace tetrakis::conformance {
 /// 64 lower-case hexadecimal digits.
 std::string sampleDigest(std::span<const std::byte> samples, tks_sample sample);
 
-/// Likewise of x, y, z of all corners, triangle by triangle, and of their texcoords u, v behind
-/// these, if there are any: doubles.
+/// Likewise of doubles.
+std::string doublesDigest(std::span<const double> values);
+
+/// Of x, y, z of all corners, triangle by triangle, and of their texcoords u, v behind
+/// these, if there are any.
 std::string cornerDigest(const ObjectMesh& mesh);
 
 }  // namespace tetrakis::conformance

@@ -70,7 +70,7 @@ VectorCase plainCase() {
 }
 
 /// One that is beside the other, mirrored on the texture, and of a single triangle.
-VectorCase texturedCase() {
+VectorCase paintedCase() {
   Mesh mesh = tube(8, 5, false);
   for (size_t t = 0; t < 30; ++t)
     for (auto& texcoord : mesh.texcoords[t]) texcoord[0] = 1 - texcoord[0];
@@ -103,7 +103,7 @@ VectorCase unsoundCase() {
 }  // namespace
 
 std::vector<VectorCase> triangleCases() {
-  return {plainCase(), texturedCase(), oneCase(), unsoundCase()};
+  return {plainCase(), paintedCase(), oneCase(), unsoundCase()};
 }
 
 }  // namespace tetrakis::conformance
