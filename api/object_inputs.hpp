@@ -15,8 +15,8 @@
 
 namespace tetrakis::inline api {
 
-/// Base meshes are tried that have this many triangles, or 2^k times as many.
-inline constexpr uint32_t kFewestTriangles = 125, kMostTriangles = 8000;
+/// Meshes are decimated to so many triangles, unless their topology needs more.
+inline constexpr uint32_t kFewestTriangles = 16;
 
 /// Places of either surface by which trials are compared; reports take more.
 inline constexpr size_t kTrialPlaces = 6000;

@@ -16,6 +16,9 @@
 namespace tetrakis::inline api {
 namespace {
 
+/// Base meshes are tried that have this many triangles, or 2^k times as many.
+constexpr uint32_t kCoarsestBase = 125, kFinestBase = 8000;
+
 /// Bytes of a budget for each triangle of the base that is tried first.
 constexpr double kBytesForTriangle = 5;
 
@@ -88,7 +91,7 @@ class ResampledSearch {
   /// ones, as long as they are better.
   Result<SharedTrial> withinBytes() {
     const double wished = static_cast<double>(heightBytes()) / kBytesForTriangle;
-    uint32_t triangles = kFewestTriangles;
+    uint32_t triangles = kCoarsestBase;
     while (triangles < mostTriangles() && triangles * std::sqrt(2.0) < wished) triangles *= 2;
     Result<SharedTrial> best = inBudget(triangles);
     const auto better = [&](const Result<SharedTrial>& trial) {
@@ -102,8 +105,7 @@ class ResampledSearch {
       best = std::move(trial);
       found_finer = true;
     }
-    for (uint32_t coarser = triangles / 2; !found_finer && coarser >= kFewestTriangles;
-         coarser /= 2) {
+    for (uint32_t coarser = triangles / 2; !found_finer && coarser >= kCoarsestBase; coarser /= 2) {
       Result<SharedTrial> trial = inBudget(coarser);
       const bool unmet = !best.ok();
       if (better(trial))
@@ -116,8 +118,8 @@ class ResampledSearch {
 
   /// The first size of a base that all triangles of the mesh fit in, or the largest one.
   uint32_t mostTriangles() const {
-    uint32_t most = kFewestTriangles;
-    while (most < kMostTriangles && most < given_.source.cleaned().mesh.triangles.size()) most *= 2;
+    uint32_t most = kCoarsestBase;
+    while (most < kFinestBase && most < given_.source.cleaned().mesh.triangles.size()) most *= 2;
     return most;
   }
 
@@ -202,9 +204,9 @@ class ResampledSearch {
   Result<SharedTrial> withinError() {
     const double error = given_.wantedError();
     Result<SharedTrial> best =
-        misusedObject("No base mesh of up to " + std::to_string(kMostTriangles) +
+        misusedObject("No base mesh of up to " + std::to_string(kFinestBase) +
                       " triangles comes as near to the mesh as asked for: ask for a larger error.");
-    for (uint32_t triangles = kFewestTriangles; triangles <= mostTriangles(); triangles *= 2) {
+    for (uint32_t triangles = kCoarsestBase; triangles <= mostTriangles(); triangles *= 2) {
       Trial trial{resampled(triangles), {}};
       trial.coded.resampling_error =
           distanceOf(trial.object, trial.object.surface.heights, kTrialPlaces).error;

@@ -17,7 +17,7 @@
 namespace tetrakis::inline api {
 namespace {
 
-constexpr uint8_t kFewestBits = 6, kMostBits = TriangleMeshHeader::kMostPlaceBits;
+constexpr uint8_t kFewestBits = 5, kMostBits = TriangleMeshHeader::kMostPlaceBits;
 
 /// A triangle takes more bits, whatever its mesh.
 constexpr double kLeastTriangleBits = 2;
