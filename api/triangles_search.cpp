@@ -12,6 +12,7 @@
 
 #include "bitstream/stream/header.hpp"
 #include "codec/remesh/half_edges.hpp"
+#include "codec/remesh/mapped_decimation.hpp"
 #include "codec/trianglemesh/triangle_encoder.hpp"
 
 namespace tetrakis::inline api {
@@ -44,9 +45,9 @@ std::span<const std::array<float, 2>> pairs(const tks_triangle_mesh& mesh) {
 /// One number of triangles, which is tried on several grids.
 class TriangleTrial {
  public:
-  TriangleTrial(const GivenObject& given, uint32_t triangles)
+  TriangleTrial(const GivenObject& given, const MappedDecimation& decimation, uint32_t triangles)
       : given_(given),
-        mesh_(given.source.decimated(triangles).mesh),
+        mesh_(decimation.base(triangles).mesh),
         texcoords_(texcoordsOf(given)),
         encoder_({mesh_.points, mesh_.triangles, gluedSides(mesh_.triangles).opposite, texcoords_},
                  texcoordFraction(given.image)) {}
@@ -112,10 +113,13 @@ struct Found {
 class TrianglesSearch {
  public:
   explicit TrianglesSearch(GivenObject& given)
-      : given_(given), all_(static_cast<uint32_t>(given.source.cleaned().mesh.triangles.size())) {}
+      : given_(given),
+        all_(static_cast<uint32_t>(given.source.cleaned().mesh.triangles.size())),
+        decimation_(given.source.cleaned().mesh, keepsAll() ? all_ : kFewestTriangles,
+                    DecimationAim::kNear) {}
 
   Result<CodedObject> run() {
-    if (all_ > TriangleMeshHeader::kMostTriangles && (given_.image != nullptr || isBound()))
+    if (all_ > TriangleMeshHeader::kMostTriangles && keepsAll())
       return misusedObject("The mesh has " + std::to_string(all_) + " triangles; at most " +
                            std::to_string(TriangleMeshHeader::kMostTriangles) + " are coded.");
     if (given_.image != nullptr) return withTexture();
@@ -128,6 +132,7 @@ class TrianglesSearch {
   using Tried = std::optional<Found> (TrianglesSearch::*)(const TriangleTrial&);
 
   bool isBound() const { return given_.options.max_error > 0; }
+  bool keepsAll() const { return given_.image != nullptr || isBound(); }
 
   /// From the most triangles that may do to ever fewer, as long as that is better.
   Result<CodedObject> best(Tried on_its_grid) {
@@ -139,7 +144,7 @@ class TrianglesSearch {
     uint32_t found_triangles = 0;
     for (double count = most; count >= 4; count /= kFewer) {
       given_.progress.tell();
-      const TriangleTrial trial(given_, static_cast<uint32_t>(count));
+      const TriangleTrial trial(given_, decimation_, static_cast<uint32_t>(count));
       if (trial.triangles() > std::max(count, 4.0)) break;  // it has no fewer
       std::optional<Found> made = (this->*on_its_grid)(trial);
       if (!made && (found || !by_bytes)) break;
@@ -154,7 +159,7 @@ class TrianglesSearch {
       return misusedObject(by_bytes ? "No mesh of triangles fits in so few bytes."
                                     : "No mesh of triangles comes as near to the mesh as asked "
                                       "for: ask for a larger error.");
-    return codedAs(TriangleTrial(given_, found_triangles), std::move(found->stream));
+    return codedAs(TriangleTrial(given_, decimation_, found_triangles), std::move(found->stream));
   }
 
   /// The finest grid of a budget.
@@ -199,7 +204,7 @@ class TrianglesSearch {
 
   /// All triangles, each of whose corners is rounded by no more than the bound.
   Result<CodedObject> withinBound() {
-    const TriangleTrial trial(given_, all_);
+    const TriangleTrial trial(given_, decimation_, all_);
     for (uint8_t bits = kFewestBits; bits <= kMostBits; ++bits) {
       std::optional<std::vector<uint8_t>> stream = trial.streamOf(bits);
       if (!stream) return tooMany();
@@ -212,7 +217,7 @@ class TrianglesSearch {
 
   /// All triangles, and the image for the rest of the budget.
   Result<CodedObject> withTexture() {
-    const TriangleTrial trial(given_, all_);
+    const TriangleTrial trial(given_, decimation_, all_);
     uint8_t bits = kBesideTexture;
     const double most = kTrianglesPart * static_cast<double>(given_.options.bytes);
     std::optional<std::vector<uint8_t>> alone = trial.streamOf(bits);
@@ -264,6 +269,7 @@ class TrianglesSearch {
 
   GivenObject& given_;
   uint32_t all_;
+  MappedDecimation decimation_;
 };
 
 }  // namespace

@@ -10,9 +10,10 @@ namespace tetrakis::inline remesh {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kEvenness = 1e-3;  // weight of area times squared length
-constexpr double kBoundary = 30;    // weight of the plane at a boundary edge, times squared length
-constexpr double kSliver = 0.3;     // lower qualities of triangles are penalised
+// Weights of area times squared length: where triangles are to be even, and else.
+constexpr double kEvenness = 1e-3, kLittleEvenness = 1e-7;
+constexpr double kBoundary = 30;  // weight of the plane at a boundary edge, times squared length
+constexpr double kSliver = 0.3;   // lower qualities of triangles are penalised
 /// Triangles of this quality are refused, unless the ring has some that are nearly as thin already.
 constexpr double kNoArea = 1e-6;
 constexpr double kTurn = 0.2;        // least cosine between the normals before and after a collapse
@@ -46,8 +47,8 @@ double qualityOf(const Point& a, const Point& b, double size) {
 
 }  // namespace
 
-CollapseCost::CollapseCost(const TriangleMesh& mesh)
-    : points_(mesh.points), quadrics_(mesh.points.size()) {
+CollapseCost::CollapseCost(const TriangleMesh& mesh, DecimationAim aim)
+    : points_(mesh.points), even_(aim == DecimationAim::kEven), quadrics_(mesh.points.size()) {
   for (const Triangle& t : mesh.triangles) addTriangle(mesh, t, quadrics_);
   const GluedSides glued = gluedSides(mesh.triangles);
   for (uint32_t side = 0; side < glued.opposite.size(); ++side) {
@@ -68,7 +69,7 @@ double CollapseCost::shapePenalty(const Ring& ring, uint32_t target) const {
     if (dot(normal, old) < kTurn * size * length(old)) return kInfinite;
     worst = std::min(worst, quality);
   }
-  return kSliver / worst;
+  return even_ ? kSliver / worst : 1;
 }
 
 void CollapseCost::find(const ShrinkingMesh& shrinking, const Ring& ring,
@@ -93,8 +94,10 @@ void CollapseCost::find(const ShrinkingMesh& shrinking, const Ring& ring,
     const uint32_t neighbours = shrinking.neighbours(to) + own - (ring.closed ? 4 : 3);
     const Point way = points_[to] - centre;
     const double error = quadrics_[ring.centre].at(points_[to]);  // that of `to` itself isn't new
-    const double crowd = neighbours > kNeighbours ? 1.0 + (neighbours - kNeighbours) : 1.0;
-    costs[i] = (error + kEvenness * area * dot(way, way)) * crowd * shapePenalty(ring, i);
+    const bool crowded = even_ && neighbours > kNeighbours;
+    const double crowd = crowded ? 1.0 + (neighbours - kNeighbours) : 1.0;
+    costs[i] = (error + (even_ ? kEvenness : kLittleEvenness) * area * dot(way, way)) * crowd *
+               shapePenalty(ring, i);
   }
 }
 

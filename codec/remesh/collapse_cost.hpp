@@ -2,7 +2,8 @@
 // CollapseCost tells what it costs to collapse a point into a neighbour. The cost is the quadric
 // error, with planes that stand upright on boundaries, plus a small part of the area around the
 // point times the squared length of the edge, which makes triangles more even where the surface is
-// flat. Penalties multiply this sum if triangles become slivers or a point gets many neighbours.
+// flat. Where even triangles are wanted, penalties multiply this sum if triangles become slivers or
+// a point gets many neighbours.
 #pragma once
 
 #include <vector>
@@ -13,11 +14,17 @@
 
 namespace tetrakis::inline remesh {
 
+/// What triangles are wanted for.
+enum class DecimationAim {
+  kEven,  ///< a base mesh, over whose triangles a surface lies
+  kNear   ///< a surface of its own, of as few triangles as an error allows
+};
+
 class CollapseCost {
  public:
   /// `mesh` is the one that rings are taken of, before its first collapse. It fits in a cube of
   /// about side 1, and outlives this.
-  explicit CollapseCost(const TriangleMesh& mesh);
+  CollapseCost(const TriangleMesh& mesh, DecimationAim aim);
 
   /// Sets costs[i] to what it costs to move the centre of the ring to its point i. The cost is
   /// infinite if a triangle would turn over or lose its area.
@@ -30,6 +37,7 @@ class CollapseCost {
   double shapePenalty(const Ring& ring, uint32_t target) const;
 
   const std::vector<Point>& points_;
+  bool even_;
   std::vector<Quadric> quadrics_;
   // Of the ring that find() works on:
   std::vector<Point> normals_;

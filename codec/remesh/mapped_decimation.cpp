@@ -29,8 +29,8 @@ TriangleMesh ofUnitSize(const TriangleMesh& mesh) {
 /// Collapses points, the cheapest one first.
 class Decimator {
  public:
-  Decimator(const TriangleMesh& mesh, CollapseMap& map)
-      : mesh_(mesh), shrinking_(mesh), cost_(mesh), map_(map), stamps_(mesh.points.size()) {}
+  Decimator(const TriangleMesh& mesh, DecimationAim aim, CollapseMap& map)
+      : mesh_(mesh), shrinking_(mesh), cost_(mesh, aim), map_(map), stamps_(mesh.points.size()) {}
 
   uint32_t run(uint32_t fewest) {
     // A point that could not go may be able to after collapses elsewhere: so all points are offered
@@ -126,10 +126,10 @@ class Decimator {
 
 }  // namespace
 
-MappedDecimation::MappedDecimation(const TriangleMesh& mesh, uint32_t fewest)
+MappedDecimation::MappedDecimation(const TriangleMesh& mesh, uint32_t fewest, DecimationAim aim)
     : mesh_(mesh), map_(mesh.triangles.size()) {
   const TriangleMesh scaled = ofUnitSize(mesh);
-  fewest_ = Decimator(scaled, map_).run(fewest);
+  fewest_ = Decimator(scaled, aim, map_).run(fewest);
 }
 
 DecimatedMesh MappedDecimation::base(uint32_t most_triangles) const {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "codec/remesh/collapse_cost.hpp"
 #include "codec/remesh/collapse_map.hpp"
 #include "codec/remesh/triangle_mesh.hpp"
 
@@ -25,7 +26,8 @@ class MappedDecimation {
   /// Collapses points until there are no more than `fewest` triangles, or no point can be
   /// collapsed. `mesh` is one that `cleaned()` has returned; it outlives this. A closed component
   /// keeps at least four triangles, and one with a boundary at least two.
-  MappedDecimation(const TriangleMesh& mesh, uint32_t fewest);
+  MappedDecimation(const TriangleMesh& mesh, uint32_t fewest,
+                   DecimationAim aim = DecimationAim::kEven);
 
   /// The number of triangles that were left at the end.
   uint32_t fewest() const { return fewest_; }

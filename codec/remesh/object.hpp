@@ -45,9 +45,6 @@ class ObjectSource {
   uint32_t fewestTriangles() const { return decimation_.fewest(); }
   double diagonal() const { return diagonal_; }
 
-  /// The mesh with at most so many triangles, or the fewest there can be.
-  DecimatedMesh decimated(uint32_t triangles) const { return decimation_.base(triangles); }
-
   /// The mesh over a base of that shape. If the decimation could not leave so few triangles, the
   /// base is the smallest that there is.
   ResampledObject resampled(const ObjectShape& shape) const;
