@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "base/portable_math.hpp"
 #include "bitstream/stream/header.hpp"
 #include "codec/remesh/half_edges.hpp"
 #include "codec/remesh/mapped_decimation.hpp"
@@ -18,7 +19,14 @@
 namespace tetrakis::inline api {
 namespace {
 
-constexpr uint8_t kFewestBits = 5, kMostBits = TriangleMeshHeader::kMostPlaceBits;
+/// Grids are numbered: four steps double the places along a side, of which there are 2^(step / 4).
+constexpr int kSteps = 4;
+constexpr int kCoarsest = 5 * kSteps, kFinest = kSteps * TriangleMeshHeader::kMostPlaceBits;
+constexpr int kTriedFirst = 11 * kSteps;
+
+uint32_t placesOf(int grid) {
+  return static_cast<uint32_t>(portable::pow(2.0, grid / double{kSteps}) + 0.5);
+}
 
 /// A triangle takes more bits, whatever its mesh.
 constexpr double kLeastTriangleBits = 2;
@@ -26,9 +34,9 @@ constexpr double kLeastTriangleBits = 2;
 /// Each number of triangles that is tried is the one before by this.
 constexpr double kFewer = 1.41421356;
 
-/// Of a budget, the most for triangles beside a texture, and the bits that they are begun with.
+/// Of a budget, the most for triangles beside a texture, and the grid that is tried first.
 constexpr double kTrianglesPart = 0.5;
-constexpr uint8_t kBesideTexture = 12;
+constexpr int kBesideTexture = 12 * kSteps;
 
 /// Texture coordinates are rounded to parts of texels: to halves.
 uint8_t texcoordFraction(const tks_image* image) {
@@ -53,16 +61,16 @@ class TriangleTrial {
                  texcoordFraction(given.image)) {}
 
   /// Without a texture: the whole stream. Nothing where no decoder reads as long a header.
-  std::optional<std::vector<uint8_t>> streamOf(uint8_t bits) const {
+  std::optional<std::vector<uint8_t>> streamOf(int grid) const {
     StreamHeader header;
-    addTo(header, bits);
+    addTo(header, grid);
     std::vector<uint8_t> stream = writeHeader(header);
     if (stream.size() > kMaxHeaderBytes) return {};
     return stream;
   }
 
-  void addTo(StreamHeader& header, uint8_t bits) const {
-    header.triangle_mesh = encoder_.encode(bits);
+  void addTo(StreamHeader& header, int grid) const {
+    header.triangle_mesh = encoder_.encode(placesOf(grid));
     if (given_.mesh.unit != nullptr) header.metadata.unit = given_.mesh.unit;
     if (given_.mesh.description != nullptr)
       header.georeference.description = given_.mesh.description;
@@ -165,16 +173,16 @@ class TrianglesSearch {
   /// The finest grid of a budget.
   std::optional<Found> finestWithinBytes(const TriangleTrial& trial) {
     std::vector<uint8_t> fitting;
-    uint8_t low = kFewestBits, high = kMostBits;  // finer than high: too many bytes
+    int low = kCoarsest, high = kFinest;  // finer than high: too many bytes
     while (low <= high) {
-      const auto bits = static_cast<uint8_t>(
-          fitting.empty() && low == kFewestBits && high == kMostBits ? 11 : (low + high) / 2);
-      std::optional<std::vector<uint8_t>> stream = trial.streamOf(bits);
+      const bool is_first = low == kCoarsest && high == kFinest;
+      const int grid = is_first ? kTriedFirst : (low + high) / 2;
+      std::optional<std::vector<uint8_t>> stream = trial.streamOf(grid);
       if (!stream || stream->size() > given_.options.bytes) {
-        high = static_cast<uint8_t>(bits - 1);
+        high = grid - 1;
       } else {
         fitting = std::move(*stream);
-        low = static_cast<uint8_t>(bits + 1);
+        low = grid + 1;
       }
     }
     if (fitting.empty()) return {};
@@ -186,17 +194,17 @@ class TrianglesSearch {
   std::optional<Found> coarsestWithinError(const TriangleTrial& trial) {
     const double error = given_.wantedError();
     std::optional<Found> met;
-    uint8_t low = kFewestBits, high = kMostBits;  // coarser than low: too large an error
+    int low = kCoarsest, high = kFinest;  // coarser than low: too large an error
     while (low <= high) {
-      const auto bits = static_cast<uint8_t>((low + high) / 2);
-      std::optional<std::vector<uint8_t>> stream = trial.streamOf(bits);
+      const int grid = (low + high) / 2;
+      std::optional<std::vector<uint8_t>> stream = trial.streamOf(grid);
       if (!stream) break;
       const double reached = trial.distanceOf(*stream, kDistanceSamples).error;
       if (reached > error) {
-        low = static_cast<uint8_t>(bits + 1);
+        low = grid + 1;
       } else {
         met = Found{std::move(*stream), reached};
-        high = static_cast<uint8_t>(bits - 1);
+        high = grid - 1;
       }
     }
     return met;
@@ -205,8 +213,8 @@ class TrianglesSearch {
   /// All triangles, each of whose corners is rounded by no more than the bound.
   Result<CodedObject> withinBound() {
     const TriangleTrial trial(given_, decimation_, all_);
-    for (uint8_t bits = kFewestBits; bits <= kMostBits; ++bits) {
-      std::optional<std::vector<uint8_t>> stream = trial.streamOf(bits);
+    for (int grid = kCoarsest; grid <= kFinest; ++grid) {
+      std::optional<std::vector<uint8_t>> stream = trial.streamOf(grid);
       if (!stream) return tooMany();
       const double cell = readHeader(*stream)->header.triangle_mesh.cell;
       if (cell * std::sqrt(0.75) > given_.options.max_error) continue;
@@ -218,11 +226,11 @@ class TrianglesSearch {
   /// All triangles, and the image for the rest of the budget.
   Result<CodedObject> withTexture() {
     const TriangleTrial trial(given_, decimation_, all_);
-    uint8_t bits = kBesideTexture;
+    int grid = kBesideTexture;
     const double most = kTrianglesPart * static_cast<double>(given_.options.bytes);
-    std::optional<std::vector<uint8_t>> alone = trial.streamOf(bits);
-    while (bits > kFewestBits && alone && static_cast<double>(alone->size()) > most)
-      alone = trial.streamOf(--bits);
+    std::optional<std::vector<uint8_t>> alone = trial.streamOf(grid);
+    while (grid > kCoarsest && alone && static_cast<double>(alone->size()) > most)
+      alone = trial.streamOf(--grid);
     if (!alone) return tooMany();
     if (static_cast<double>(alone->size()) > most)
       return misusedObject("The triangles of the mesh leave too few bytes to its texture.");
@@ -234,7 +242,7 @@ class TrianglesSearch {
     if (!texture.ok()) return texture.status();
     Result<ParsedHeader> parsed = readHeader(*texture);
     if (!parsed.ok()) return parsed.status();
-    trial.addTo(parsed->header, bits);
+    trial.addTo(parsed->header, grid);
     std::vector<uint8_t> stream = writeHeader(parsed->header);
     stream.insert(stream.end(), texture->begin() + static_cast<ptrdiff_t>(parsed->bytes),
                   texture->end());

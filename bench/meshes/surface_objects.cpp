@@ -6,7 +6,7 @@
 namespace tetrakis::bench {
 
 Result<ErrorCurve> surfaceObjects(const TriangleMesh& mesh) {
-  constexpr double kUnit = 1e4, kFewest = 1500, kMost = 64 << 10, kRatio = 1.5;
+  constexpr double kUnit = 1e4, kFewest = 400, kMost = 64 << 10, kRatio = 1.5;
   tks_triangle_mesh given = makeTriangleMesh();
   given.vertex_count = static_cast<uint32_t>(mesh.points.size());
   given.triangle_count = static_cast<uint32_t>(mesh.triangles.size());

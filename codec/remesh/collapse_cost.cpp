@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 // Weights of area times squared length: where triangles are to be even, and else.
-constexpr double kEvenness = 1e-3, kLittleEvenness = 1e-7;
+constexpr double kEvenness = 1e-3, kLittleEvenness = 1e-6;
 constexpr double kBoundary = 30;  // weight of the plane at a boundary edge, times squared length
 constexpr double kSliver = 0.3;   // lower qualities of triangles are penalised
 /// Triangles of this quality are refused, unless the ring has some that are nearly as thin already.

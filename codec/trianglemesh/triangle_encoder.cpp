@@ -37,16 +37,15 @@ std::array<Range, 3> boxAround(std::span<const std::array<double, 3>> points) {
   return box;
 }
 
-/// Cells that are as small as places of so many bits, and origins, allow.
-double cellOf(const std::array<Range, 3>& box, int bits) {
+/// Cells that are as small as so many places, and origins, allow.
+double cellOf(const std::array<Range, 3>& box, uint32_t places) {
   double extent = 0, farthest = 0;
   for (const auto& [low, high] : box) {
     extent = std::max(extent, high - low);
     farthest = std::max({farthest, std::abs(low), std::abs(high)});
   }
-  const double places = std::ldexp(1.0, bits) - 2;  // both ends are rounded
   const double least = 2 * farthest / static_cast<double>(TriangleMeshHeader::kMostOrigin);
-  return roundedUp(std::max({extent / places, least, 1e-300}));
+  return roundedUp(std::max({extent / (places - 2.0), least, 1e-300}));  // both ends are rounded
 }
 
 int64_t rounded(double value) {
@@ -155,11 +154,11 @@ void TriangleEncoder::roundTexcoords(uint8_t fraction) {
   }
 }
 
-TriangleMeshHeader TriangleEncoder::encode(uint8_t place_bits) const {
+TriangleMeshHeader TriangleEncoder::encode(uint32_t places) const {
   TriangleMeshHeader header = header_;
   const std::array<Range, 3> box = boxAround(mesh_.points);
-  header.place_bits = place_bits;
-  header.cell = cellOf(box, place_bits);
+  header.place_bits = static_cast<uint8_t>(std::bit_width(places - 1));
+  header.cell = cellOf(box, places);
   const auto cells = [&](double place) { return rounded(place / header.cell); };
   for (size_t axis = 0; axis < 3; ++axis) header.origin[axis] = cells(box[axis].low);
   CodedTriangles coded = coded_;

@@ -28,9 +28,9 @@ class TriangleEncoder {
   /// more coarsely where they take more than kMostTexcoordBits.
   TriangleEncoder(const PlainMesh& mesh, uint8_t texcoord_fraction);
 
-  /// Corners on a grid of 2^place_bits places along the longest side of the box around the mesh.
-  /// place_bits: 2 to kMostPlaceBits.
-  TriangleMeshHeader encode(uint8_t place_bits) const;
+  /// Corners on a grid of so many places along the longest side of the box around the mesh.
+  /// places: 3 to 2^kMostPlaceBits.
+  TriangleMeshHeader encode(uint32_t places) const;
 
  private:
   void numberTriangles();

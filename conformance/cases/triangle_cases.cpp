@@ -16,10 +16,10 @@ struct Mesh {
   std::vector<Triangle> triangles;
   std::vector<std::array<std::array<float, 2>, 3>> texcoords;
 
-  TriangleMeshHeader encoded(uint8_t place_bits, uint8_t texcoord_fraction = 0) const {
+  TriangleMeshHeader encoded(uint32_t places, uint8_t texcoord_fraction = 0) const {
     return TriangleEncoder({points, triangles, gluedSides(triangles).opposite, texcoords},
                            texcoord_fraction)
-        .encode(place_bits);
+        .encode(places);
   }
 };
 
@@ -62,7 +62,7 @@ VectorCase plainCase() {
   Mesh mesh = tube(9, 8, true);
   mesh.texcoords.clear();
   StreamHeader header;
-  header.triangle_mesh = mesh.encoded(11);
+  header.triangle_mesh = mesh.encoded(1 << 11);
   header.metadata.unit = "mm";
   header.georeference.description = "a ring";
   return crafted("triangles_144", "triangles as they are, with a hole and no texture",
@@ -79,7 +79,7 @@ VectorCase paintedCase() {
   mesh.triangles.push_back({first, first + 1, first + 2});
   mesh.texcoords.push_back({{{-3.5f, 0.25f}, {2.5f, 0.25f}, {0.5f, 17}}});
   StreamHeader header = textureHeader(20, 16, 3, TKS_U8, 8);
-  header.triangle_mesh = mesh.encoded(9, 7);
+  header.triangle_mesh = mesh.encoded(1 << 9, 7);
   return crafted("triangles_textured_81", "triangles, open and in two pieces, under a texture",
                  streamOf(header, noise(90, 241)));
 }
@@ -88,7 +88,7 @@ VectorCase paintedCase() {
 VectorCase oneCase() {
   Mesh mesh{{{1e6, -2e6, 3e6}, {1e6 + 1, -2e6, 3e6}, {1e6, -2e6, 3e6 + 0.5}}, {{0, 1, 2}}, {}};
   StreamHeader header;
-  header.triangle_mesh = mesh.encoded(20);
+  header.triangle_mesh = mesh.encoded(1 << 20);
   return crafted("triangles_1", "one triangle on the finest grid", writeHeader(header));
 }
 

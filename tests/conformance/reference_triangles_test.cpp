@@ -33,10 +33,10 @@ std::vector<Corners> texcoordsOf(const TriangleMesh& mesh, uint32_t seams) {
 }
 
 TriangleMeshHeader headerOf(const TriangleMesh& mesh, const std::vector<Corners>& texcoords,
-                            uint8_t bits) {
+                            uint32_t places) {
   return TriangleEncoder(
              {mesh.points, mesh.triangles, gluedSides(mesh.triangles).opposite, texcoords}, 9)
-      .encode(bits);
+      .encode(places);
 }
 
 /// Whether both say that it is sound.
@@ -72,10 +72,9 @@ std::vector<TriangleMesh> meshes() {
 
 TEST(ReferenceTriangles, Agrees) {
   for (const TriangleMesh& mesh : meshes()) {
-    for (const auto& [bits, seams] : {std::pair(3, 1u), {8, 4u}, {13, 50u}, {20, 1000u}}) {
-      const auto place_bits = static_cast<uint8_t>(bits);
-      EXPECT_TRUE(agreeOn(headerOf(mesh, {}, place_bits)));
-      EXPECT_TRUE(agreeOn(headerOf(mesh, texcoordsOf(mesh, seams), place_bits)));
+    for (const auto& [places, seams] : {std::pair(6u, 1u), {256, 4}, {9000, 50}, {1 << 20, 1000}}) {
+      EXPECT_TRUE(agreeOn(headerOf(mesh, {}, places)));
+      EXPECT_TRUE(agreeOn(headerOf(mesh, texcoordsOf(mesh, seams), places)));
       if (HasFailure()) return;
     }
   }
@@ -86,7 +85,7 @@ TEST(ReferenceTriangles, AgreesOnDamagedCodewords) {
   std::mt19937 random(5);
   int sound = 0, unsound = 0;
   for (const TriangleMesh& mesh : meshes()) {
-    const TriangleMeshHeader whole = headerOf(mesh, texcoordsOf(mesh, 5), 12);
+    const TriangleMeshHeader whole = headerOf(mesh, texcoordsOf(mesh, 5), 4096);
     for (int i = 0; i < 60; ++i) {
       TriangleMeshHeader damaged = whole;
       damaged.code.resize(random() % (whole.code.size() + 1));
@@ -106,7 +105,7 @@ TEST(ReferenceTriangles, AgreesOnStreams) {
   const Bytes texture = encode(nullptr, &image, budget(500));
   const size_t start = readHeader(texture)->bytes;
   StreamHeader header = readHeader(texture)->header;
-  header.triangle_mesh = headerOf(mesh, texcoordsOf(mesh, 4), 9);
+  header.triangle_mesh = headerOf(mesh, texcoordsOf(mesh, 4), 512);
   Bytes stream = writeHeader(header);
   stream.insert(stream.end(), texture.begin() + static_cast<ptrdiff_t>(start), texture.end());
   expectAgreementOnPrefixes(stream);

@@ -109,8 +109,8 @@ std::vector<Shape> shapesOf(const TriangleMeshHeader& header, const CodedTriangl
 
 TEST(TriangleMeshes, ComeBackAsTheyAre) {
   for (const TriangleMesh& mesh : meshes()) {
-    for (const uint8_t bits : {uint8_t{2}, uint8_t{7}, uint8_t{12}, uint8_t{20}}) {
-      const TriangleMeshHeader header = encoderOf(mesh, {}).encode(bits);
+    for (const uint32_t places : {3u, 100u, 4096u, 1u << 20}) {
+      const TriangleMeshHeader header = encoderOf(mesh, {}).encode(places);
       const Result<CodedTriangles> decoded = decodeTriangles(header);
       ASSERT_TRUE(decoded.ok());
       EXPECT_TRUE(shapesOf(header, *decoded, 1) == shapesOf(mesh, {}, header.cell, 1));
@@ -123,7 +123,7 @@ TEST(TriangleMeshes, ComeBackWithTheirTexture) {
   for (const TriangleMesh& mesh : meshes()) {
     for (const uint32_t torn : {0u, 1u, 10u}) {
       const std::vector<Corners> texcoords = texcoordsOf(mesh, torn);
-      const TriangleMeshHeader header = encoderOf(mesh, texcoords).encode(10);
+      const TriangleMeshHeader header = encoderOf(mesh, texcoords).encode(1024);
       EXPECT_EQ(header.texcoord_fraction, 12);
       const Result<CodedTriangles> decoded = decodeTriangles(header);
       ASSERT_TRUE(decoded.ok());
@@ -135,21 +135,21 @@ TEST(TriangleMeshes, ComeBackWithTheirTexture) {
 
 TEST(TriangleMeshes, ShareVerticesAndWedgesWhereTheyDid) {
   const TriangleMesh mesh = cleaned(made::torus(12, 9)).mesh;
-  const Result<CodedTriangles> plain = decodeTriangles(encoderOf(mesh, {}).encode(10));
+  const Result<CodedTriangles> plain = decodeTriangles(encoderOf(mesh, {}).encode(1024));
   EXPECT_EQ(plain->places.size(), mesh.points.size());
   EXPECT_TRUE(plain->wedges.empty());
   const Result<CodedTriangles> whole =
-      decodeTriangles(encoderOf(mesh, texcoordsOf(mesh, 0)).encode(10));
+      decodeTriangles(encoderOf(mesh, texcoordsOf(mesh, 0)).encode(1024));
   EXPECT_EQ(whole->texcoords.size(), mesh.points.size());
   const Result<CodedTriangles> torn =
-      decodeTriangles(encoderOf(mesh, texcoordsOf(mesh, 10)).encode(10));
+      decodeTriangles(encoderOf(mesh, texcoordsOf(mesh, 10)).encode(1024));
   EXPECT_GT(torn->texcoords.size(), 2 * mesh.points.size());
 }
 
 /// What Draco takes of regular meshes, and more, would be too much.
 TEST(TriangleMeshes, TakeFewBitsForEachVertex) {
   const TriangleMesh mesh = cleaned(made::sphere(5)).mesh;
-  const TriangleMeshHeader header = encoderOf(mesh, {}).encode(11);
+  const TriangleMeshHeader header = encoderOf(mesh, {}).encode(2048);
   EXPECT_LT(8.0 * static_cast<double>(header.code.size()),
             9.0 * static_cast<double>(mesh.points.size()));
 }
@@ -159,7 +159,7 @@ TEST(TriangleMeshes, TextureCoordinatesOfAnyNumberAreTaken) {
   for (const float odd : {1e30f, -1e30f, std::nanf(""), INFINITY, 3e5f, -1e-30f}) {
     std::vector<Corners> texcoords = texcoordsOf(mesh, 0);
     texcoords[5][1] = {odd, -odd};
-    const TriangleMeshHeader header = encoderOf(mesh, texcoords).encode(10);
+    const TriangleMeshHeader header = encoderOf(mesh, texcoords).encode(1024);
     EXPECT_TRUE(decodeTriangles(header).ok());
     EXPECT_LE(header.texcoord_bits, TriangleMeshHeader::kMostTexcoordBits);
   }
@@ -170,13 +170,13 @@ TEST(TriangleMeshes, FarFromTheOriginLieOnTheFinestGridThereIs) {
   for (Point& point : mesh.points) point = 1e-6 * point + Point{1e6, -3e7, 0};
   mesh = cleaned(mesh).mesh;
   ASSERT_FALSE(mesh.triangles.empty());
-  EXPECT_TRUE(decodeTriangles(encoderOf(mesh, {}).encode(20)).ok());
+  EXPECT_TRUE(decodeTriangles(encoderOf(mesh, {}).encode(1 << 20)).ok());
 }
 
 /// Ends early: corrupt. Damaged: a mesh, or corrupt.
 TEST(TriangleMeshes, OfAnyCodewordEnd) {
   for (const TriangleMesh& mesh : meshes()) {
-    const TriangleMeshHeader sound = encoderOf(mesh, texcoordsOf(mesh, 1)).encode(8);
+    const TriangleMeshHeader sound = encoderOf(mesh, texcoordsOf(mesh, 1)).encode(256);
     for (size_t bytes = 0; bytes + 5 < sound.code.size(); bytes += 1 + bytes / 20) {
       TriangleMeshHeader cut = sound;
       cut.code.resize(bytes);
