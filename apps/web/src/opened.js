@@ -234,7 +234,8 @@ export class Opened {
     const {instance} = this;
     const [vertices, faces, positions, pixels, texcoords, , triangles] =
       instance.copy(Uint32Array, out, OBJECT_MESH_BYTES / 4);
-    const pairs = (address) => (address ? instance.copy(Float64Array, address, 2 * vertices) : null);
+    const pairs = (address) =>
+      (address ? instance.copy(Float64Array, address, 2 * vertices) : null);
     const mesh = {
       positions: instance.copy(Float64Array, positions, 3 * vertices),
       pixels: pairs(pixels),
