@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The modules decode the very samples and triangles that the native decoder does: every cut of every
-// conformance vector, by the digests of its manifest.
+// The modules decode the very samples and triangles that the native decoder does: every cut of
+// every conformance vector, by the digests of its manifest.
 import assert from 'node:assert/strict';
 import {createHash} from 'node:crypto';
 import {readFile} from 'node:fs/promises';
