@@ -4,7 +4,7 @@
 import {groundAxes, normalsOn, straightAxes, trianglesOn} from './axes.js';
 import {TksError, groundScale, open} from './index.js';
 import {FIRST_BYTES, GROWTH} from './pace.js';
-import {isPlaced, placeOf, turnsTo} from './place.js';
+import {checkGround, isPlaced, placeOf, turnsTo} from './place.js';
 
 export {TksError};
 
@@ -99,10 +99,8 @@ async function parse(input, {tks, terrain: layer} = {}) {
   const terrain = await open(input, decoder);
   try {
     const {info} = terrain;
+    checkGround(info);
     if (!info.hasHeights) throw new TksError('usage', 'This stream is an image: it has no mesh.');
-    if (info.isObject) {
-      throw new TksError('unsupported', 'This stream is an object, which lies on no ground.');
-    }
     const frame = await terrain.decode({bytes, triangles, texels, normals: true});
     return {
       // TerrainLayer says in `terrain` where it wants the mesh.

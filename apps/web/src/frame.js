@@ -56,6 +56,7 @@ const TRIANGLES_OF_BYTE = 4;
 
 /** As many as were asked for, and no more than the bytes of a prefix feed. */
 function trianglesFor({triangles}, opened, info) {
+  if (info.objectTriangles) return info.objectTriangles;  // there is no mesh of fewer
   const isComplete = opened.size >= info.streamBytes;
   return isComplete ? triangles
     : Math.min(triangles, Math.max(2, TRIANGLES_OF_BYTE * info.geometryBytes));
@@ -73,7 +74,7 @@ function globeOf({globe}, info) {
 export function* partsOf(opened, info, request) {
   const parts = {}, {textureLevel, surfaceLevel} = levelsOf(opened, info, request);
   const atlas = atlasOf(info, request.texels);
-  if (request.mesh && request.globe && info.hasHeights) {
+  if (request.mesh && request.globe && (info.hasHeights || info.isObject)) {
     parts.globe = opened.globe(trianglesFor(request, opened, info), globeOf(request, info));
     yield;
     if (request.normals) parts.globe.normals = joinedNormals(parts.globe);
@@ -110,6 +111,7 @@ export function* partsOf(opened, info, request) {
     const at = shown(0), data = opened.rgba(at);
     parts.texture = atlas?.pictureOf(data) ?? {level: textureLevel, width: at.textureWidth,
       height: at.textureHeight, geotransform: at.textureGeotransform, data};
+    if (info.objectTriangles) parts.texture.repeats = true;
   }
   return parts;
 }

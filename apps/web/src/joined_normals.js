@@ -18,7 +18,7 @@ function isSame(words, a, b) {
 }
 
 /** For each vertex the first one at its very position (Float64Array). */
-function firstAtPosition(positions) {
+export function firstAtPosition(positions) {
   const count = positions.length / 3, first = new Uint32Array(count);
   const words = new Uint32Array(positions.map((value) => value + 0).buffer);  // -0 is 0
   const last = 2 ** Math.ceil(Math.log2(2 * count + 2)) - 1;
@@ -32,30 +32,39 @@ function firstAtPosition(positions) {
   return first;
 }
 
-/** For each position twice the sum of the areas of its triangles, as vectors along their normals,
- * at the first vertex there. */
-function sumsOf(positions, triangles, first) {
-  const sums = new Float64Array(positions.length);
+/** For each triangle a vector along its normal, of twice its area. */
+export function areasOf({positions, triangles}) {
+  const areas = new Float64Array(triangles.length);
   for (let t = 0; t < triangles.length; t += 3) {
     const a = 3 * triangles[t], b = 3 * triangles[t + 1], c = 3 * triangles[t + 2];
     for (let axis = 0; axis < 3; ++axis) {
       const next = (axis + 1) % 3, last = (axis + 2) % 3;
-      const area =
+      areas[t + axis] =
         (positions[b + next] - positions[a + next]) * (positions[c + last] - positions[a + last]) -
         (positions[b + last] - positions[a + last]) * (positions[c + next] - positions[a + next]);
-      for (let k = 0; k < 3; ++k) sums[3 * first[triangles[t + k]] + axis] += area;
     }
   }
-  return sums;
+  return areas;
 }
 
-/** Unit normals: of each position the mean of its triangles', by their areas. */
-export function joinedNormals({positions, triangles}) {
-  const first = firstAtPosition(positions), sums = sumsOf(positions, triangles, first);
-  const normals = new Float32Array(positions.length);
-  for (let v = 0; v < first.length; ++v) {
-    const at = 3 * first[v], length = Math.hypot(sums[at], sums[at + 1], sums[at + 2]) || 1;
-    for (let axis = 0; axis < 3; ++axis) normals[3 * v + axis] = sums[at + axis] / length;
+/** Unit normals of `count` groups of corners: of each the mean of its triangles', by their areas.
+ * groups: for each corner of a triangle its group. */
+export function meansOf(areas, groups, count) {
+  const sums = new Float64Array(3 * count), means = new Float32Array(3 * count);
+  groups.forEach((group, corner) => {
+    const triangle = corner - (corner % 3);
+    for (let axis = 0; axis < 3; ++axis) sums[3 * group + axis] += areas[triangle + axis];
+  });
+  for (let at = 0; at < sums.length; at += 3) {
+    const length = Math.hypot(sums[at], sums[at + 1], sums[at + 2]) || 1;
+    for (let axis = 0; axis < 3; ++axis) means[at + axis] = sums[at + axis] / length;
   }
-  return normals;
+  return means;
+}
+
+/** Unit normals of vertices, of which those at one position are a group. */
+export function joinedNormals(mesh) {
+  const first = firstAtPosition(mesh.positions);
+  const means = meansOf(areasOf(mesh), mesh.triangles.map((v) => first[v]), first.length);
+  return means.map((_, i) => means[3 * first[Math.floor(i / 3)] + (i % 3)]);
 }

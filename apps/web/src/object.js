@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Objects: what frames have of the meshes that the decoder makes of them.
+import {creased} from './creased_mesh.js';
 import {isForest} from './domains.js';
 import {joinedNormals} from './joined_normals.js';
 import {PatchAtlas} from './patch_atlas.js';
@@ -55,12 +56,18 @@ function texcoordsOf(atlas, pixels, width) {
   return texcoords;
 }
 
-/** `mesh`: of the decoder; atlas: of its texture, or null; centre: that of the frames before, or
- * null. */
-export function objectOf({positions, pixels, triangles}, {width}, {atlas, centre, normals}) {
-  const middle = centre ?? centreOf(positions);
+/** The mesh with its normals. */
+const withNormals = (mesh, {objectTriangles}) =>
+  (objectTriangles ? creased(mesh) : {...mesh, normals: joinedNormals(mesh)});
+
+/** `decoded`: of the decoder; atlas: of its texture, or null; centre: that of the frames before, or
+ * null; normals: whether there are to be some. */
+export function objectOf(decoded, info, {atlas, centre, normals}) {
+  const mesh = normals ? withNormals(decoded, info) : decoded;
+  const {positions, texcoords, triangles} = mesh, middle = centre ?? centreOf(positions);
   const object = {centre: middle, positions: relativeTo(middle, positions), triangles};
-  if (atlas) object.texcoords = texcoordsOf(atlas, pixels, width);
-  if (normals) object.normals = joinedNormals({positions, triangles});
+  if (atlas) object.texcoords = texcoordsOf(atlas, mesh.pixels, info.width);
+  else if (texcoords) object.texcoords = Float32Array.from(texcoords);
+  if (normals) object.normals = mesh.normals;
   return object;
 }

@@ -7,12 +7,10 @@ import {MESSAGE_BYTES, SAMPLES} from './instance.js';
 /** Magic, version, profile, level and a varint: these tell how many bytes the header takes. */
 const MOST_BEFORE_BODY = 17;
 const BUDGET_MESH = 1;
-/** No tks_mesh_kind. */
-const NO_MESH = 2;
 /** tks_globe: its size, and four numbers. */
 const GLOBE_BYTES = 40;
-/** tks_object_mesh, at the least. */
-const OBJECT_MESH_BYTES = 24;
+/** tks_object_mesh: two counts, five addresses. */
+const OBJECT_MESH_BYTES = 28;
 /** Texels that become RGBA at a time: the module has no memory for all of them beside a texture. */
 const TEXELS = 2 ** 18;
 
@@ -40,16 +38,6 @@ export class Opened {
       [this.decoder] = instance.view(Uint32Array, out, 1);
     });
     this.hasIndex = calls.web_has_index(this.decoder) !== 0;
-    this.isObject = this.#hasBaseMesh();
-  }
-  /** Whether the heights lie over a base mesh: asked for a mesh of a kind that there is not, the
-   * decoder refuses heights without one first. */
-  #hasBaseMesh() {
-    const {instance, decoder} = this, {calls} = instance;
-    if (!calls.tks_decode_object) return false;
-    instance.with(OBJECT_MESH_BYTES, (out) =>
-      calls.tks_decode_object(decoder, NO_MESH, 0, out));
-    return /kind of mesh/.test(instance.text(calls.tks_message(decoder)));
   }
   /** Of what is no header so many bytes that decoders refuse them. */
   static #headerBytes(instance, first) {
@@ -139,8 +127,7 @@ export class Opened {
         info[name] = info[name] !== 0;
     }
     for (const name of ['domain', 'textureDomain']) info[name] = DOMAINS[info[name]];
-    info.isObject = this.isObject;
-    if (this.isObject) info.domain = 'forest';  // of six patches, perhaps, but no globe
+    info.isObject = info.basePositionBits > 0 || info.objectTriangles > 0;
     const gather = (letter) =>
       Array.from({length: 6}, (_, i) => {
         const value = info[letter + i];
@@ -232,22 +219,27 @@ export class Opened {
     return mesh;
   }
 
-  /** The mesh of an object: positions in its unit, and the samples that they lie on. */
+  /** The mesh of an object: positions in its unit, and the samples that they lie on; or their
+   * places on a texture, of triangles that are coded as they are. */
   object(triangles) {
-    const {instance, decoder} = this;
+    const {instance, decoder} = this, {calls} = instance;
+    if (!calls.tks_decode_object) throw new TksError('usage', 'This module makes no meshes.');
     return instance.with(OBJECT_MESH_BYTES, (out) => {
-      this.check(instance.calls.tks_decode_object(decoder, BUDGET_MESH, triangles, out));
+      this.check(calls.tks_decode_object(decoder, BUDGET_MESH, triangles, out));
       return this.#objectAt(out);
     });
   }
-  /** tks_object_mesh at `out`: two counts, five addresses. */
+  /** tks_object_mesh at `out`. */
   #objectAt(out) {
     const {instance} = this;
-    const [vertices, faces, positions, pixels, , , triangles] =
-      instance.copy(Uint32Array, out, 7);
+    const [vertices, faces, positions, pixels, texcoords, , triangles] =
+      instance.copy(Uint32Array, out, OBJECT_MESH_BYTES / 4);
+    const pairs = (address) =>
+      (address ? instance.copy(Float64Array, address, 2 * vertices) : null);
     const mesh = {
       positions: instance.copy(Float64Array, positions, 3 * vertices),
-      pixels: instance.copy(Float64Array, pixels, 2 * vertices),
+      pixels: pairs(pixels),
+      texcoords: pairs(texcoords),
       triangles: instance.copy(Uint32Array, triangles, 3 * faces),
     };
     instance.calls.tks_free_object_mesh(out);

@@ -69,8 +69,8 @@ export class TksTerrain extends RefiningMesh {
   viewOf(camera: Camera, viewportHeight: number): View;
 }
 
-/** A scan, a sculpture (info.isObject), in the coordinates and the unit of the mesh that was
- * encoded, less `centre`. */
+/** A scan, a sculpture, a designed part (info.isObject), in the coordinates and the unit of the
+ * mesh that was encoded, less `centre`. */
 export class TksObject extends RefiningMesh {
   constructor(terrain: Terrain, options?: ObjectOptions);
   /** (0, 0, 0) of what has the origin in its box. Set `position` to it where an object shall lie

@@ -55,6 +55,11 @@ export class RefiningMesh extends Mesh {
     return this.terrain.info.hasIndex;
   }
 
+  /** Whether frames of more bytes have the mesh that is shown. */
+  get hasFinalMesh() {
+    return false;
+  }
+
   /** Shows what opening brought. */
   async begin() {
     const triangles = Math.min(FIRST_FRAME.triangles, this.triangles);
@@ -180,8 +185,9 @@ export class RefiningMesh extends Mesh {
       const {triangles} = this, {signal} = this.#stop, here = this.terrain.loaded.bytes;
       const have = await this.terrain.load(bytes, {view, triangles, signal});
       if (have !== this.#wanted || texels !== this.#texels || !this.frame) {
+        const mesh = !this.hasFinalMesh;
         const frame =
-          await this.terrain.decode({bytes: have, texels, triangles, normals: true, signal});
+          await this.terrain.decode({bytes: have, texels, triangles, mesh, normals: true, signal});
         if (signal.aborted) return false;
         this.show(frame, {glide: this.#isDrawn(STEADY)});
       }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Objects by the JS API: which streams hold one, closed meshes at any prefix, normals without
-// seams, and texture coordinates and atlases as `tetrakis decode` writes them (TETRAKIS_CLI).
+// seams, and texture coordinates and textures as `tetrakis decode` writes them (TETRAKIS_CLI).
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
 import {existsSync} from 'node:fs';
@@ -65,7 +65,9 @@ test('info tells objects from other forests, and their unit', async () => {
   for (const name of [...Object.keys(OBJECTS), 'object_open_17x68.tks']) {
     await withStream(await bytesOf(name), ({info}) => {
       assert.equal(info.isObject, true, name);
-      assert.equal(info.domain, 'forest');
+      for (const domain of [info.domain, info.hasTexture ? info.textureDomain : 'forest'])
+        assert.equal(domain, 'forest', name);
+      assert.equal(info.objectTriangles, 0);
       assert.equal(typeof info.unit, 'string');
       assert.equal(goesRound(info), false);
     });
@@ -265,38 +267,123 @@ test('an object far from the origin lies where it lay', {skip, timeout: 60000}, 
         corners[axis].push(Number(number) + away[axis]);
         return corners[axis].at(-1);
       }).join(' ')));
-    run('encode', 'far.obj', '--bytes', '12k', '-o', 'far.tks');
-    await withStream(await file('far.tks'), async (terrain) => {
-      const {object: {centre, positions}} = await terrain.decode();
-      for (const axis of [0, 1, 2]) {
-        const own = positions.filter((_, i) => i % 3 === axis);
-        assert.ok(own.every((value) => Math.abs(value) < 12), 'some diagonals');
-        for (const most of [Math.min, Math.max]) {
-          const differs = most(...own) + centre[axis] - most(...corners[axis]);
-          assert.ok(Math.abs(differs) < 0.02, `${differs}`);
+    for (const kind of ['resampled', 'triangles']) {
+      run('encode', 'far.obj', '--bytes', '12k', '--class', kind, '-o', 'far.tks', '-f');
+      await withStream(await file('far.tks'), async (terrain) => {
+        const {object: {centre, positions}} = await terrain.decode();
+        for (const axis of [0, 1, 2]) {
+          const own = positions.filter((_, i) => i % 3 === axis);
+          assert.ok(own.every((value) => Math.abs(value) < 12), 'some diagonals');
+          for (const most of [Math.min, Math.max]) {
+            const differs = most(...own) + centre[axis] - most(...corners[axis]);
+            assert.ok(Math.abs(differs) < 0.02, `${differs}`);
+          }
         }
+      });
+    }
+  });
+});
+
+for (const [kind, count] of [['resampled', 3000], ['triangles', 1980]]) {
+  test(`mesh and texture are those of the command line: ${kind}`, {skip, timeout: 60000},
+    async () => {
+      await withFolder(async ({run, file}) => {
+        run('synth', '--kind', 'knot', '--triangles', '2000', '-o', 'knot.glb');
+        run('encode', 'knot.glb', '--bytes', '12k', '--class', kind, '-o', 'knot.tks');
+        run('decode', 'knot.tks', '--triangles', '3000', '--mesh', 'out.glb',
+          '--texture', 'out.tif');
+        const {buffer} = await file('out.tif'), tiff = await fromArrayBuffer(buffer);
+        const image = await tiff.getImage(), rgb = await image.readRasters({interleave: true});
+        const glb = partsOf(await file('out.glb'));
+        await withStream(await file('knot.tks'), async (terrain) => {
+          const isAsItIs = kind === 'triangles';
+          const {object, texture} = await terrain.decode({triangles: 3000, normals: !isAsItIs});
+          assert.ok(Math.abs(object.triangles.length / 3 - count) < 30);
+          assert.deepEqual(object.centre, [0, 0, 0]);
+          for (const name of ['positions', 'texcoords', 'triangles'])
+            assert.deepEqual(Array.from(object[name]), glb[name], name);
+          object.normals?.forEach((part, i) => assert.ok(Math.abs(part - glb.normals[i]) < 1e-6));
+          assert.deepEqual([texture.width, texture.height], [image.getWidth(), image.getHeight()]);
+          assert.deepEqual(Array.from(texture.data.filter((_, i) => i % 4 < 3)), Array.from(rgb));
+          assert.equal(texture.repeats, isAsItIs || undefined);
+        });
+      });
+    });
+}
+
+test('triangles that are coded as they are come all at once', {skip, timeout: 60000}, async () => {
+  await withFolder(async ({run, file}) => {
+    run('synth', '--kind', 'knot', '--triangles', '2000', '-o', 'knot.glb');
+    run('encode', 'knot.glb', '--bytes', '20k', '--class', 'triangles', '-o', 'knot.tks');
+    const bytes = await file('knot.tks');
+    await withStream(bytes, async (terrain) => {
+      const {info} = terrain, whole = await terrain.decode({normals: true});
+      assert.deepEqual([info.isObject, info.hasHeights, info.domain], [true, false, 'plane']);
+      assert.equal(info.objectTriangles, whole.object.triangles.length / 3);
+      const psnrs = [];
+      for (let part = 0; part <= 1; part += 0.25) {
+        const frame = await terrain.decode(
+          {bytes: part * bytes.length, triangles: 2, texels: 64, normals: true});
+        assert.deepEqual(frame.object, whole.object);
+        assert.ok(Math.max(frame.texture.width, frame.texture.height) <= 64);
+        psnrs.push(frame.info.texturePsnr);
       }
+      psnrs.forEach((psnr, i) => assert.ok(i === 0 || psnr > psnrs[i - 1], `${psnrs}`));
+      assert.equal((await terrain.decode({mesh: false})).object, undefined);
+      await assert.rejects(terrain.decode({globe: {}}), {code: 'usage'});
+    });
+    await assert.rejects(DeckLoader.parse(bytes.buffer, {}), {code: 'unsupported'});
+    const bounds = [7, 46, 8, 47];
+    await assert.rejects(new TksProtocol().add('knot', bytes, {bounds}), {code: 'unsupported'});
+  });
+});
+
+test('places on a texture that repeats lie beyond its corners', {skip}, async () => {
+  await withFolder(async ({folder, run, file}) => {
+    const places = ['-0.5 -1', '2.5 -1', '2.5 2'], corners = ['0 0 0', '4 0 0', '0 3 0'];
+    const lines = [...corners.map((corner) => `v ${corner}`),
+      ...places.map((place) => `vt ${place}`), 'f 1/1 2/2 3/3'];
+    await writeFile(join(folder, 'tiled.obj'), lines.join('\n'));
+    run('synth', '--size', '33', '-o', 'ground');
+    run('encode', 'tiled.obj', '--texture', 'ground/texture.png', '--bytes', '4k',
+      '--class', 'triangles', '-o', 'tiled.tks');
+    await withStream(await file('tiled.tks'), async (terrain) => {
+      const {object, info, texture} = await terrain.decode({normals: true});
+      assert.equal(texture.repeats, true);
+      assert.equal(object.positions.length, 9);
+      const shifts = new Set();  // by as many whole textures for all corners
+      for (let v = 0; v < 3; ++v) {
+        const [x, y] = object.positions.subarray(3 * v);
+        const [u, up] = places[x > 2 ? 1 : y > 1 ? 2 : 0].split(' ').map(Number);
+        const [east, south] = object.texcoords.subarray(2 * v);
+        const shift = [Math.round(east - u), Math.round(south - (1 - up))];
+        assert.ok(Math.abs(east - u - shift[0]) <= 0.5 / info.textureWidth);
+        assert.ok(Math.abs(south - (1 - up) - shift[1]) <= 0.5 / info.textureHeight);
+        shifts.add(shift.join());
+      }
+      assert.equal(shifts.size, 1);
     });
   });
 });
 
-test('mesh and atlas are those of the command line', {skip, timeout: 60000}, async () => {
-  await withFolder(async ({run, file}) => {
-    run('synth', '--kind', 'knot', '--triangles', '2000', '-o', 'knot.glb');
-    run('encode', 'knot.glb', '--bytes', '12k', '-o', 'knot.tks');
-    run('decode', 'knot.tks', '--triangles', '3000', '--mesh', 'out.glb', '--texture', 'out.tif');
-    const {buffer} = await file('out.tif'), tiff = await fromArrayBuffer(buffer);
-    const image = await tiff.getImage(), rgb = await image.readRasters({interleave: true});
-    const glb = partsOf(await file('out.glb'));
-    await withStream(await file('knot.tks'), async (terrain) => {
-      const {object, texture} = await terrain.decode({triangles: 3000, normals: true});
-      assert.deepEqual(object.centre, [0, 0, 0]);
-      for (const name of ['positions', 'texcoords', 'triangles']) {
-        assert.deepEqual(Array.from(object[name]), glb[name], name);
-      }
-      object.normals.forEach((part, i) => assert.ok(Math.abs(part - glb.normals[i]) < 1e-6));
-      assert.deepEqual([texture.width, texture.height], [image.getWidth(), image.getHeight()]);
-      assert.deepEqual(Array.from(texture.data.filter((_, i) => i % 4 < 3)), Array.from(rgb));
+test('a part without a texture is all header', {skip, timeout: 60000}, async () => {
+  await withFolder(async ({folder, run, file}) => {
+    const corners = ['0 0 0', '2 0 0', '0 3 0', '0 0 5'];
+    await writeFile(join(folder, 'part.obj'), corners.map((corner) => `v ${corner}\n`).join('') +
+      'f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n');
+    run('encode', 'part.obj', '--bytes', '2k', '--class', 'triangles', '-o', 'part.tks');
+    await withStream(await file('part.tks'), async (terrain) => {
+      const {object, texture, complete} = await terrain.decode({bytes: 0});
+      assert.deepEqual([object.texcoords, texture, complete], [undefined, undefined, true]);
+      assert.deepEqual(shapeOf(object), [2, 0]);
+      const places = new Set();
+      const rounded = object.positions.map((part) => Math.round(part * 1e3));
+      for (let v = 0; v < rounded.length; v += 3) places.add(rounded.subarray(v, v + 3).join());
+      const expected = corners.map((corner) => corner.split(' ').map((part) => part * 1e3).join());
+      assert.deepEqual([...places].sort(), expected.sort());
+      // Of a corner of three sharp edges there is a vertex for each side.
+      const {object: {normals}} = await terrain.decode({normals: true});
+      assert.equal(normals.length, 3 * 12);
     });
   });
 });

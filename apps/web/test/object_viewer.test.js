@@ -2,9 +2,10 @@
 // Objects in the viewer, in headless Chromium: seen from all sides, with the controls that they
 // have. Scans need a built `tetrakis` (TETRAKIS_CLI).
 import assert from 'node:assert/strict';
-import {execFileSync} from 'node:child_process';
+import {execFileSync, spawn} from 'node:child_process';
+import {once} from 'node:events';
 import {existsSync} from 'node:fs';
-import {mkdtemp, readFile, rm} from 'node:fs/promises';
+import {mkdtemp, readFile, rm, writeFile} from 'node:fs/promises';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
@@ -20,6 +21,9 @@ const vectors = new URL('../../../conformance/vectors/', import.meta.url).pathna
 /** Keeps the pictures, to be looked at. */
 const PICTURES = process.env.TETRAKIS_PICTURES;
 const ONLY_PICTURE = 'aside, header, #bearings { display: none !important }';
+/** A part of eight flat sides and no texture, as Wavefront OBJ. */
+const wedge = 'v 0 0 0\nv 3 0 0\nv 3 1 0\nv 0 2 0\nv 0 0 2\nv 3 0 2\n' +
+  'f 1 3 2\nf 1 4 3\nf 1 2 6\nf 1 6 5\nf 2 3 6\nf 4 1 5\nf 3 4 5\nf 3 5 6\n';
 let folder, site;
 
 before(async () => {
@@ -31,8 +35,14 @@ before(async () => {
   if (!skip) {
     const run = (...args) => execFileSync(CLI, [...args, '-q'], {cwd: folder});
     run('synth', '--kind', 'scan', '--triangles', '3000', '-o', 'scan.glb');
-    run('encode', 'scan.glb', '--bytes', '30k', '-o', 'scan.tks');
-    files['scan.tks'] = await readFile(join(folder, 'scan.tks'));
+    run('synth', '--kind', 'knot', '--triangles', '3000', '-o', 'knot.glb');
+    await writeFile(join(folder, 'part.obj'), wedge);
+    for (const [name, kind] of [['scan.glb', 'resampled'], ['knot.glb', 'triangles'],
+      ['part.obj', 'triangles']]) {
+      const stream = name.replace(/\..*/, '.tks');
+      run('encode', name, '--bytes', '30k', '--class', kind, '-o', stream);
+      files[stream] = await readFile(join(folder, stream));
+    }
   }
   site = await viewerSite(files);
 });
@@ -113,7 +123,7 @@ test('a drag goes below an object, and the address keeps the camera', TIMEOUT, a
     await page.mouse.down();
     await page.mouse.move(MIDDLE.x + 20, 40, {steps: 5});
     await page.mouse.up();
-    await page.waitForTimeout(1500);
+    await page.waitForFunction(() => location.hash.includes('eye'));  // the camera rests
     const [eye, target] = ['eye', 'target'].map((name) => given(page, name));
     assert.ok(eye[1] < target[1], `${eye} looks at ${target}`);
     await assertSeen(page, 'below');
@@ -150,19 +160,20 @@ async function saved(page, kind) {
   return readFile(await download.path());
 }
 
+/** The document of a binary glTF. */
+const documentOf = (glb) => JSON.parse(glb.subarray(20, 20 + glb.readUInt32LE(12)).toString());
+
 test('mesh and atlas can be saved', TIMEOUT, async () => {
   await site.withPage('tks=joint.tks', async (page) => {
     const glb = await saved(page, 'glb'), png = await saved(page, 'png');
-    const {nodes, accessors, images} =
-      JSON.parse(glb.subarray(20, 20 + glb.readUInt32LE(12)).toString());
+    const {nodes, accessors, images} = documentOf(glb);
     assert.deepEqual([nodes[0].name, nodes[0].translation], ['object', [0, 0, 0]]);
     assert.equal(accessors[3].count, 3 * 768);
     assert.equal(images.length, 1);
     assert.deepEqual([png.readUInt32BE(16), png.readUInt32BE(20)], [57, 38]);
   });
   await site.withPage('tks=bare.tks', async (page) => {
-    const glb = await saved(page, 'glb');
-    const {images} = JSON.parse(glb.subarray(20, 20 + glb.readUInt32LE(12)).toString());
+    const {images} = documentOf(await saved(page, 'glb'));
     assert.equal(images, undefined);
   });
 });
@@ -188,4 +199,62 @@ test('a scan refines, and sliders take bytes and triangles back', {skip, ...TIME
     await page.waitForTimeout(300);
     assert.ok((await seen(page, 'scan_header')).share > 0.02);
   });
+});
+
+test('triangles that are coded as they are have no slider, and refine their texture',
+  {skip, ...TIMEOUT}, async () => {
+    await site.withPage('tks=knot.tks', async (page) => {
+      await assertSeen(page, 'knot');
+      const size = /^2\u2009(\d+) triangles · 256 × 256 texels$/.exec(await text(page, '#size'));
+      const isWhole = async () =>
+        assert.equal(await text(page, '#triangles-here'), `2\u2009${size[1]}`);
+      await isWhole();
+      for (const name of ['#triangles', '#heights-quality', '[data-kind=tif]', '#exaggeration'])
+        assert.equal(await isVisible(page, name), false, name);
+      for (const name of ['[data-kind=glb]', '[data-kind=png]', '#textured', '#texture-quality'])
+        assert.ok(await isVisible(page, name), name);
+      const before = await page.screenshot({style: ONLY_PICTURE});
+      const quality = await text(page, '#psnr');
+      for (let i = 0; i < 2; ++i) await page.locator('#textured').click();
+      await page.waitForTimeout(300);
+      const all = {x: 0, y: 0, width: 1000, height: 600};
+      const again = await page.screenshot({style: ONLY_PICTURE});
+      assert.ok(await psnr(page, [before, again], [all, all]) > 50);
+      const {accessors, samplers} = documentOf(await saved(page, 'glb'));
+      assert.deepEqual([samplers[0].wrapS, samplers[0].wrapT], [10497, 10497]);
+      assert.equal(accessors[3].count, 3 * Number(`2${size[1]}`));
+      await page.locator('#bytes').fill('0');
+      await page.waitForFunction((all) => document.getElementById('psnr').textContent !== all,
+        quality);
+      await drawn(page);
+      await isWhole();
+      assert.ok((await seen(page, 'knot_header')).share > 0.02);
+    });
+  });
+
+test('a part without a texture fills the picture, too', {skip, ...TIMEOUT}, async () => {
+  await site.withPage('tks=part.tks', async (page) => {
+    assert.equal(await text(page, '#size'), '8 triangles');
+    for (const name of ['#textured', '[data-kind=png]', '#texture-quality'])
+      assert.equal(await isVisible(page, name), false, name);
+    await assertSeen(page, 'part');
+    const {images, accessors} = documentOf(await saved(page, 'glb'));
+    assert.deepEqual([images, accessors[3].count], [undefined, 24]);
+  });
+});
+
+test('tetrakis view opens an object', {skip, ...TIMEOUT}, async () => {
+  for (const name of ['scan', 'part']) {
+    const child = spawn(CLI, ['view', '--no-browser', join(folder, `${name}.tks`)]);
+    try {
+      const address = String((await once(child.stdout, 'data'))[0]).trim();
+      await site.withPage('tks=bare.tks', async (page) => {
+        await page.goto(address);
+        await drawn(page);
+        assert.match(await text(page, '#size'), /patches|triangles/);
+      });
+    } finally {
+      child.kill();
+    }
+  }
 });

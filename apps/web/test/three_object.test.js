@@ -6,7 +6,9 @@ import {execFileSync} from 'node:child_process';
 import {existsSync} from 'node:fs';
 import {mkdir, readFile, rm} from 'node:fs/promises';
 import {after, before, test} from 'node:test';
-import {DoubleSide, LinearFilter, PerspectiveCamera, Vector3} from 'three';
+import {
+  DoubleSide, LinearFilter, LinearMipmapLinearFilter, PerspectiveCamera, RepeatWrapping, Vector3,
+} from 'three';
 
 import {TksLoader, TksObject} from '../src/three.js';
 import {launch} from './chromium.js';
@@ -17,7 +19,10 @@ const CLI = process.env.TETRAKIS_CLI ??
   new URL('../../../build/tetrakis', import.meta.url).pathname;
 const skip = !existsSync(CLI);
 const TIMEOUT = {timeout: 120000};
-const KINDS = ['blob', 'knot', 'scan'];
+/** What they show, by how they are coded. */
+const CLASSES = {resampled: ['blob', 'knot', 'scan'], triangles: ['knot']};
+const KINDS = Object.entries(CLASSES).flatMap(([coded, shapes]) =>
+  shapes.map((shape) => `${shape}_${coded}`));
 const web = new URL('..', import.meta.url).pathname, folder = web + 'dist/objects-test/';
 const vectors = new URL('../../../conformance/vectors/', import.meta.url);
 /** Keeps the pictures, to be looked at. */
@@ -34,8 +39,9 @@ before(async () => {
   await mkdir(folder, {recursive: true});
   const run = (...args) => execFileSync(CLI, [...args, '-q'], {cwd: folder});
   for (const kind of skip ? [] : KINDS) {
-    run('synth', '--kind', kind, '--triangles', '3000', '-o', `${kind}.glb`, '-f');
-    run('encode', `${kind}.glb`, '--bytes', '20k', '-o', `${kind}.tks`, '-f');
+    const [shape, coded] = kind.split('_');
+    run('synth', '--kind', shape, '--triangles', '3000', '-o', `${kind}.glb`, '-f');
+    run('encode', `${kind}.glb`, '--bytes', '20k', '--class', coded, '-o', `${kind}.tks`, '-f');
   }
   server = await serve(web);
   browser = await launch({width: 256, height: 256});
@@ -150,6 +156,30 @@ for (const kind of KINDS) {
     assert.ok(likeness > LEAST, `${likeness} dB`);
   });
 }
+
+test('of triangles as they are the texture alone refines, and repeats', {skip, ...TIMEOUT},
+  async () => {
+    const file = await readFile(folder + 'knot_triangles.tks');
+    const object = await new TksLoader().parseAsync(
+      file.buffer.slice(file.byteOffset, file.byteOffset + file.length));
+    const camera = new PerspectiveCamera(50, 1, 0.1, 1e9), middle = object.fit(camera);
+    const {geometry, frame: {info}} = object, widths = [];
+    assert.equal(geometry.index.count, 3 * info.objectTriangles);
+    for (const times of [1e3, 1e-3, 1, 1e-3]) {
+      camera.position.sub(middle).multiplyScalar(times).add(middle);
+      await settle(object, camera);
+      widths.push(object.material.map.image.width);
+      assert.equal(object.geometry, geometry);
+    }
+    assert.ok(object.frame.complete);
+    assert.equal(widths.at(-1), info.textureWidth);
+    assert.ok(widths[0] < info.textureWidth, `${widths}`);
+    assert.ok(widths.every((width, i) => i === 0 || width >= widths[i - 1]), `${widths}`);
+    const {map} = object.material;
+    assert.deepEqual([map.wrapS, map.wrapT], [RepeatWrapping, RepeatWrapping]);
+    assert.equal(map.minFilter, LinearMipmapLinearFilter);
+    object.dispose();
+  });
 
 test('a mesh waits for the slices of a large texture that it lies on', TIMEOUT, async () => {
   const seen = await browser.withPage(async (page) => {

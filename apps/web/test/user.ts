@@ -51,7 +51,8 @@ export async function scan(scene: Scene, camera: PerspectiveCamera): Promise<voi
   scene.add(object);
   object.update(camera, 480);
   const {object: mesh, info} = await object.terrain.decode({texels: 2048, normals: true});
-  console.log(info.isObject, info.unit, mesh?.texcoords?.length, mesh?.centre[2]);
+  console.log(info.isObject, info.objectTriangles, info.unit);
+  console.log(mesh?.texcoords?.length, mesh?.centre[2]);
 }
 
 export async function maplibre(map: WebMap): Promise<void> {

@@ -3,7 +3,7 @@
 // light already, as `tetrakis decode` writes it.
 
 const FLOAT = 5126, UNSIGNED = 5125, ARRAY = 34962, INDICES = 34963, LINEAR_MIPMAPS = 9987;
-const LINEAR = 9729, CLAMP = 33071;
+const LINEAR = 9729, CLAMP = 33071, REPEAT = 10497;
 const padded = (size) => size + (-size & 3);
 
 const boundsOf = (positions) => [Math.min, Math.max].map((pick) => {
@@ -43,10 +43,11 @@ function documentOf({positions, normals, places, triangles, centre}, picture) {
     bufferViews, buffers: [{byteLength: offset}],
   };
   if (picture) {
+    const wrap = picture.repeats ? REPEAT : CLAMP;
     Object.assign(document, {
       extensionsUsed: ['KHR_materials_unlit'],
       images: [{bufferView: 4, mimeType: picture.type}],
-      samplers: [{magFilter: LINEAR, minFilter: LINEAR_MIPMAPS, wrapS: CLAMP, wrapT: CLAMP}],
+      samplers: [{magFilter: LINEAR, minFilter: LINEAR_MIPMAPS, wrapS: wrap, wrapT: wrap}],
       textures: [{source: 0, sampler: 0}],
     });
   }
@@ -56,7 +57,7 @@ function documentOf({positions, normals, places, triangles, centre}, picture) {
 /**
  * The bytes of a mesh {positions, normals, places, triangles} in metres, y up, (0, 0) of `places`
  * the first texel. `centre`: what positions of an object count from. `picture`: {bytes, type,
- * hasAlpha} of a PNG or JPEG, or null.
+ * hasAlpha, repeats} of a PNG or JPEG, or null.
  */
 export function glbOf(mesh, picture = null) {
   const {document, parts, length} = documentOf(mesh, picture);

@@ -25,11 +25,13 @@ function readQuality(info, isScattered) {
 
 function readShares(info) {
   const share = (bytes) => `${(100 * bytes) / info.streamBytes}%`;
-  $('split-heights').style.width = share(info.geometryBytes);
+  const [surface, surfaceBytes] = info.objectTriangles
+    ? ['mesh', info.headerBytes] : ['heights', info.geometryBytes];
+  $('split-heights').style.width = share(surfaceBytes);
   $('split-texture').style.width = share(info.textureBytes);
-  $('heights-share').textContent = `heights ${formatBytes(info.geometryBytes)}`;
+  $('heights-share').textContent = `${surface} ${formatBytes(surfaceBytes)}`;
   $('texture-share').textContent = `texture ${formatBytes(info.textureBytes)}`;
-  $('heights-share').hidden = !info.hasHeights;
+  $('heights-share').hidden = !info.hasHeights && !info.isObject;
   $('texture-share').hidden = !info.hasTexture;
 }
 
@@ -64,8 +66,9 @@ export function emptiness({info, mesh, globe, object, texture, complete}) {
 
 /** How large a stream is, in words. */
 export function sizeOf(info) {
-  const sizes = [], {width, height, textureWidth} = info;
-  if (info.isObject) {
+  const sizes = [], {width, height, textureWidth, objectTriangles} = info;
+  if (objectTriangles) sizes.push(`${formatCount(objectTriangles)} triangles`);
+  else if (info.isObject) {
     const texels = info.hasTexture ? ` · ${textureWidth} × ${textureWidth} texels` : '';
     return `${height / width} patches of ${width} × ${width} heights${texels}`;
   }

@@ -87,7 +87,8 @@ export class Refiner {
   #options(triangles) {
     const {info} = this.#terrain, {texels, height} = this.#wanted;
     return {
-      triangles, texels, normals: true, surface: hasTint(info), samples: 1024,
+      triangles, texels, mesh: !this.#object.hasFinalMesh, normals: true,
+      surface: hasTint(info), samples: 1024,
       signal: this.#signal(), globe: globeFor(info, Number(height)),
     };
   }

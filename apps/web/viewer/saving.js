@@ -26,7 +26,7 @@ async function meshFile({geometry: {attributes, index}, frame}) {
   const png = await pngOf(frame.texture);
   const picture = {
     bytes: new Uint8Array(await png.arrayBuffer()), type: png.type,
-    hasAlpha: !frame.info.textureOpaque,
+    hasAlpha: !frame.info.textureOpaque, repeats: frame.texture.repeats,
   };
   return new Blob([glbOf(mesh, picture)], {type: 'model/gltf-binary'});
 }

@@ -14,8 +14,8 @@ const toSlider = (value, least, most) => (1000 * Math.log(value / least)) / Math
 /** Of the header alone there is a surface too. */
 const leastBytes = ({headerBytes, streamBytes}) => Math.min(headerBytes, streamBytes - 1);
 /** Of an object no fewer than two for each patch. */
-const leastTriangles = ({isObject, width, height}) =>
-  Math.max(LEAST_TRIANGLES, isObject ? (2 * height) / width : 0);
+const leastTriangles = ({isObject, hasHeights, width, height}) =>
+  Math.max(LEAST_TRIANGLES, isObject && hasHeights ? (2 * height) / width : 0);
 const mostTriangles = (info) =>
   Math.max(2 * leastTriangles(info), Math.min(MOST_TRIANGLES, 2 * info.width * info.height));
 

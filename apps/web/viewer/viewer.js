@@ -64,7 +64,7 @@ function show(frame) {
   }
   const empty = emptiness(frame);
   if (empty) tell(`${empty}: there is nothing to draw.`, true);
-  readOut(frame, terrain.loaded);
+  readOut(object.frame, terrain.loaded);
   describe = describerOf(object)(frame.info, object);
   map.draw();
   document.body.dataset.bytes = frame.bytes;
@@ -119,8 +119,11 @@ function prepareControls(info) {
   $('panel').hidden = false;
   picture.resize();
   setSliders(info);
-  for (const control of document.querySelectorAll('.of-heights')) control.hidden = !info.hasHeights;
-  for (const control of document.querySelectorAll('.of-texture')) control.hidden = !info.hasTexture;
+  const {hasHeights, hasTexture, isObject} = info;
+  const isPresent = {heights: hasHeights, texture: hasTexture, mesh: hasHeights || isObject};
+  for (const [part, present] of Object.entries(isPresent)) {
+    for (const control of document.querySelectorAll(`.of-${part}`)) control.hidden = !present;
+  }
   $('round').hidden = !goesRound(info);
   $('globe').checked = $('fly').parentElement.hidden = object.isGlobe ?? false;
   if (object.isGlobe && $('fly').checked) $('fly').click();
