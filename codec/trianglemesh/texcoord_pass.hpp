@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// TexcoordPass codes where wedges lie on a texture: each is expected where its triangles would lie if
-// the texture were a map that keeps angles (after M. Isenburg and J. Snoeyink, "Compressing texture
+// TexcoordPass codes where wedges lie on a texture: each is expected where its triangles would lie
+// if the texture were a map that keeps angles (after M. Isenburg and J. Snoeyink, "Compressing texture
 // coordinates with selective linear predictions", 2003).
 #pragma once
 

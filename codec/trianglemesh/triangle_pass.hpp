@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// runTriangles() codes a mesh of triangles: how sides are glued, where vertices lie, which sides are
-// seams of the texture, and where wedges lie on it. Each knows all that came before.
+// runTriangles() codes a mesh of triangles: how sides are glued, where vertices lie, which sides
+// are seams of the texture, and where wedges lie on it. Each knows all that came before.
 #pragma once
 
 #include <utility>

@@ -474,11 +474,11 @@ typedef struct tks_object_report {
  * most a third of it; or every corner stays within that distance); index, progress, threads.
  * `report` may be NULL.
  *
- * image: the texture of the mesh, which has texcoords, or NULL. With TKS_OBJECT_RESAMPLED its texels
- * are resampled on the same patches, so that receivers need no coordinates, and it has no seams:
- * about as many of them as the mesh uses of the image, or fewer where `bytes` are few. With
+ * image: the texture of the mesh, which has texcoords, or NULL. With TKS_OBJECT_RESAMPLED its
+ * texels are resampled on the same patches, so that receivers need no coordinates, and it has no
+ * seams: about as many of them as the mesh uses of the image, or fewer where `bytes` are few. With
  * TKS_OBJECT_TRIANGLES it is coded as it is, all triangles are kept, and texcoords are rounded to
- * half a texel. `bytes` is the only target beside an image. Of its place nothing counts.
+ * halves of a texel. `bytes` is the only target beside an image. Of its place nothing counts.
  *
  * TKS_USAGE, with a sentence in message: a mesh, or options, that break the rules; no triangle is
  * left after cleaning; the base mesh would take more than 4096 patches, since there are too many
@@ -866,11 +866,11 @@ void tks_free_globe_mesh(tks_globe_mesh* mesh);
  * counter-clockwise seen from outside.
  *
  * Of heights over a base mesh (tks_base_mesh) it lies on sample pixel[2 i], pixel[2 i + 1] of the
- * raster of the forest, counted as in tks_pixel. Without a texture each sample is one vertex; beside
- * a texture vertices on sides come once for each patch, with the same position to the last bit, so
- * that the texture can be laid over the mesh. Of triangles that are coded as they are vertices come
- * once for each texcoord that they have. Taken for one where they are equal, vertices leave no edge
- * open but at borders of the object. */
+ * raster of the forest, counted as in tks_pixel. Without a texture each sample is one vertex;
+ * beside a texture vertices on sides come once for each patch, with the same position to the last
+ * bit, so that the texture can be laid over the mesh. Of triangles that are coded as they are
+ * vertices come once for each texcoord that they have. Taken for one where they are equal, vertices
+ * leave no edge open but at borders of the object. */
 typedef struct tks_object_mesh {
   uint32_t vertex_count, triangle_count;
   double* position;    /* 3 a vertex */

@@ -29,7 +29,8 @@ inline PatchAtlas atlasOf(const tks_info& info) {
 std::vector<float> objectTexcoords(const tks_info& info, const ObjectMesh& mesh);
 
 /// With at most max_triangles (0: every sample; or the mesh that the bytes themselves code).
-/// Normals are those of the mesh, the same on both sides of a seam. The errors of tks_decode_object.
+/// Normals are those of the mesh, the same on both sides of a seam. The errors of
+/// tks_decode_object.
 Result<MeshFile> objectMesh(Decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles);
 
 }  // namespace tetrakis::tools
