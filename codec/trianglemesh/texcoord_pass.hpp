@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // TexcoordPass codes where wedges lie on a texture: each is expected where its triangles would lie
-// if the texture were a map that keeps angles (after M. Isenburg and J. Snoeyink, "Compressing texture
-// coordinates with selective linear predictions", 2003).
+// if the texture were a map that keeps angles (after M. Isenburg and J. Snoeyink, "Compressing
+// texture coordinates with selective linear predictions", 2003).
 #pragma once
 
 #include <algorithm>
