@@ -120,6 +120,33 @@ TEST_F(CliObject, InfoTellsOfTheBaseMesh) {
     EXPECT_LT(info["object"]["base_from"][axis], info["object"]["base_to"][axis]);
 }
 
+TEST_F(CliObject, TrianglesStayAsTheyAre) {
+  ASSERT_EQ(cli("synth --kind blob --triangles 500 -o blob.glb").code, 0);
+  const Outcome run = cli("encode blob.glb --class triangles --bytes 12k -o blob.tks");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto given = tools::readSurface(path("blob.glb"));
+  const size_t triangles = given->triangles.size();
+  EXPECT_NE(run.err.find(std::to_string(triangles) + " triangles; RMS"), std::string::npos);
+  for (const char* name : {"out.glb", "out.obj"}) {
+    ASSERT_EQ(cli(std::string("decode blob.tks --mesh ") + name).code, 0);
+    const auto mesh = tools::readSurface(path(name));
+    ASSERT_TRUE(mesh.ok()) << mesh.status().message();
+    EXPECT_EQ(mesh->triangles.size(), triangles);
+    EXPECT_EQ(mesh->points.size(), given->points.size());
+    EXPECT_TRUE(mesh->texture.has_value());
+    EXPECT_EQ(mesh->texture->width, given->texture->width);
+  }
+  const nlohmann::json info = nlohmann::json::parse(cli("info blob.tks --json").out);
+  EXPECT_EQ(info["object"]["kind"], "triangles");
+  EXPECT_EQ(info["object"]["triangles"], triangles);
+  const nlohmann::json figures = compared("--mesh blob.glb");
+  EXPECT_GT(figures["surface_psnr"], 70);
+  EXPECT_GT(figures["colour_psnr"], 25);
+  const Outcome few = cli("decode blob.tks --mesh few.glb --triangles 100");
+  EXPECT_EQ(few.code, 1);
+  EXPECT_NE(few.err.find("there is no mesh of fewer"), std::string::npos) << few.err;
+}
+
 TEST_F(CliObject, OptionsOfTerrainAreRefused) {
   makeObject("blob.obj", "--bytes 2k");
   makeStream();
@@ -134,6 +161,8 @@ TEST_F(CliObject, OptionsOfTerrainAreRefused) {
                                 "encode blob.obj -o b.tks --bytes 2k --triangles 100",
                                 "encode blob.obj -o b.tks --bytes 2k --report r",
                                 "encode blob.obj -o b.tks --psnr 50 --texture blob.png",
+                                "encode blob.obj -o b.tks --bytes 9k --class quads",
+                                "encode t.pgm -o b.tks --bytes 2k --class triangles",
                                 "encode blob.obj -o b.tks --bytes 20",
                                 "decode blob.tks --mesh b.glb --globe",
                                 "decode blob.tks --mesh b.glb --view low",
