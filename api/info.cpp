@@ -8,6 +8,7 @@
 
 #include "api/decoder.hpp"
 #include "api/guarded.hpp"
+#include "api/triangle_object.hpp"
 #include "bitstream/stream/georeference.hpp"
 #include "bitstream/stream/header.hpp"
 
@@ -29,7 +30,7 @@ Status verify(const tks_decoder& decoder) {
   const std::span<const uint8_t> payload = decoder.data.subspan(decoder.parsed.bytes);
   if (header.payload_crc && *header.payload_crc != crc32(payload))
     return {TKS_CORRUPT, "The stream is damaged: the checksum of its payload does not match."};
-  return {};
+  return header.triangle_mesh.none() ? Status() : checkTriangles(decoder);
 }
 
 void fillQuality(const tks_decoder& decoder, tks_info& info) {
@@ -125,6 +126,7 @@ void fillStream(const tks_decoder& decoder, tks_info& info) {
   info.has_texture = header.texture.has_value();
   info.lossless = header.lossless;
   info.triangles = header.triangles;
+  info.object_triangles = static_cast<uint32_t>(header.triangle_mesh.triangles);
   info.index = decoder.index;
 }
 

@@ -84,12 +84,16 @@ Result<View> requestedView(const tks_decoder& decoder, tks_part part, const tks_
 
 }  // namespace
 
-Status checkBytes(const tks_decoder& decoder, const MemoryRequest& request, uint64_t bytes) {
+Status checkWork(const tks_decoder& decoder, const std::string& work, uint64_t bytes) {
   const uint64_t all = saturatingSum(heldBytes(decoder), bytes);
   if (all <= decoder.max_memory) return {};
-  return {TKS_LIMIT, describe(decoder, request) + " takes " + describeBytes(all) +
+  return {TKS_LIMIT, work + " takes " + describeBytes(all) +
                          " of memory; the limit (max_memory) is " +
                          describeBytes(decoder.max_memory) + "."};
+}
+
+Status checkBytes(const tks_decoder& decoder, const MemoryRequest& request, uint64_t bytes) {
+  return checkWork(decoder, describe(decoder, request), bytes);
 }
 
 Status checkMemory(tks_decoder& decoder, const MemoryRequest& request, uint64_t beside) {

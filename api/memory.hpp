@@ -164,6 +164,8 @@ uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks);
 /// TKS_LIMIT with a sentence if the decoder and so many bytes for the request take more than the
 /// limit.
 Status checkBytes(const tks_decoder& decoder, const MemoryRequest& request, uint64_t bytes);
+/// Likewise of work that a sentence can begin with: "A mesh of 7 triangles".
+Status checkWork(const tks_decoder& decoder, const std::string& work, uint64_t bytes);
 
 /// TKS_LIMIT with a sentence if the decoder, the call and `beside` bytes of the caller's together
 /// take more than the limit. Heights that the decoder keeps and the call does not need give way.

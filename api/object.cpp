@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of objects through the C interface: heights along the normals of a base mesh.
+// Meshes of objects through the C interface: of heights along the normals of a base mesh, and of
+// triangles that are coded as they are.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "api/guarded.hpp"
 #include "api/memory.hpp"
+#include "api/triangle_object.hpp"
 #include "api/written.hpp"
 #include "codec/basemesh/base_mesh.hpp"
 #include "codec/basemesh/bent_base.hpp"
@@ -48,6 +51,19 @@ ObjectPlaces placesOf(const BaseMesh& mesh, std::span<const float> heights) {
   return all;
 }
 
+/// Where a sample of the heights lies on the texture: in the middle of a texel of its raster.
+void fillTexcoords(const Forest& forest, const Forest& texels,
+                   const std::vector<uint32_t>& vertices, double* out) {
+  const auto [width, height] = texels.raster();
+  const double scale = std::ldexp(1.0, texels.depth() - forest.depth());
+  for (const uint32_t sample : vertices) {
+    const uint32_t row = sample / forest.side(), patch = row / forest.side();
+    const double x = scale * (sample % forest.side()), y = scale * (row % forest.side());
+    *out++ = (x + 0.5) / width;
+    *out++ = (static_cast<double>(size_t{texels.side()} * patch) + y + 0.5) / height;
+  }
+}
+
 void copyObject(const Forest& forest, const ForestSurface& surface, const ObjectPlaces& places,
                 tks_object_mesh& out) {
   const auto& vertices = surface.mesh.vertices;
@@ -68,8 +84,8 @@ void copyObject(const Forest& forest, const ForestSurface& surface, const Object
 
 Status decodeObject(tks_decoder& decoder, const ForestMeshing& meshing, tks_object_mesh& out) {
   const StreamHeader& header = decoder.parsed.header;
-  if (!header.geometry) return noHeights();
-  if (!decoder.base_mesh) return {TKS_USAGE, "The heights of the stream have no base mesh."};
+  if (!decoder.base_mesh)
+    return {TKS_USAGE, "The stream is no object: its heights, if it has any, have no base mesh."};
   constexpr uint64_t kSample = 100;
   const BaseMesh& base = *decoder.base_mesh;
   const Result<const DecodedHeights*> decoded =
@@ -87,6 +103,10 @@ Status decodeObject(tks_decoder& decoder, const ForestMeshing& meshing, tks_obje
   for (const uint32_t sample : surface.mesh.vertices) surface.heights.push_back(heights[sample]);
   leaveOutVoids(surface.mesh, surface.heights);
   copyObject(*base.forest, surface, places, out);
+  const auto& texture = header.texture;
+  if (!texture || texture->wavelet.forest == nullptr) return {};
+  out.texcoord = allocate<double>(2 * size_t{out.vertex_count});
+  fillTexcoords(*base.forest, *texture->wavelet.forest, surface.mesh.vertices, out.texcoord);
   return {};
 }
 
@@ -100,12 +120,20 @@ tks_status tks_decode_object(tks_decoder* decoder, tks_mesh_kind kind, uint32_t 
   *out = {};
   const bool apart = decoder->parsed.header.texture.has_value();
   const tks_status status = tetrakis::keeping(decoder, [&] {
-    return tetrakis::decodeObject(*decoder, {kind, max_triangles, 0, apart}, *out);
+    return decoder->parsed.header.triangle_mesh.none()
+               ? tetrakis::decodeObject(*decoder, {kind, max_triangles, 0, apart}, *out)
+               : tetrakis::decodeTriangleObject(*decoder, kind, max_triangles, *out);
   });
   if (status != TKS_OK) tks_free_object_mesh(out);
   return status;
 }
 
 void tks_free_object_mesh(tks_object_mesh* mesh) {
-  tks_free_globe_mesh(mesh);
+  if (mesh == nullptr) return;
+  std::free(mesh->position);
+  std::free(mesh->pixel);
+  std::free(mesh->texcoord);
+  std::free(mesh->height);
+  std::free(mesh->triangles);
+  *mesh = {};
 }

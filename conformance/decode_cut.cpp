@@ -36,6 +36,11 @@ Cut decodeCut(std::span<const uint8_t> prefix, int level) {
     if (texture) cut.texture = sampleDigest(*texture, decoder->info().texture_sample);
     if (!texture) cut.status = texture.status().code();
   }
+  if (decoder->info().object_triangles > 0) {
+    const auto mesh = decoder->objectMesh(TKS_MESH_BUDGET);
+    if (mesh.ok()) cut.triangles = cornerDigest(*mesh);
+    if (!mesh.ok()) cut.status = mesh.status().code();
+  }
   return cut;
 }
 

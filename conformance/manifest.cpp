@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Manifest as JSON: {"vectors": [{name, file, purpose, cuts: [{bytes, level?, status,
-// heights?, texture?}]}]}.
+// heights?, texture?, triangles?}]}]}.
 #include "conformance/manifest.hpp"
 
 #include <fstream>
@@ -18,6 +18,7 @@ Json toJson(const Cut& cut) {
   json["status"] = cut.status;
   if (!cut.heights.empty()) json["heights"] = cut.heights;
   if (!cut.texture.empty()) json["texture"] = cut.texture;
+  if (!cut.triangles.empty()) json["triangles"] = cut.triangles;
   return json;
 }
 
@@ -31,8 +32,8 @@ Json toJson(const Vector& vector) {
 }
 
 Cut cutOf(const Json& json) {
-  return {json.at("bytes").get<uint64_t>(), json.value("level", 0), json.at("status").get<int>(),
-          json.value("heights", ""), json.value("texture", "")};
+  return {json.at("bytes").get<uint64_t>(), json.value("level", 0),    json.at("status").get<int>(),
+          json.value("heights", ""),        json.value("texture", ""), json.value("triangles", "")};
 }
 
 Vector vectorOf(const Json& json) {

@@ -14,10 +14,11 @@ namespace tetrakis::conformance {
 /// What the first `bytes` bytes of a stream decode to.
 struct Cut {
   uint64_t bytes = 0;
-  int level = 0;        ///< mip level of both components, or their coarsest if they end before it
-  int status = TKS_OK;  ///< tks_status of opening and decoding
-  std::string heights;  ///< sampleDigest of the height samples; "" when there are none
-  std::string texture;  ///< sampleDigest of the texture samples; "" when there are none
+  int level = 0;          ///< mip level of both components, or their coarsest if they end before it
+  int status = TKS_OK;    ///< tks_status of opening and decoding
+  std::string heights;    ///< sampleDigest of the height samples; "" when there are none
+  std::string texture;    ///< sampleDigest of the texture samples; "" when there are none
+  std::string triangles;  ///< cornerDigest of a triangle mesh; "" when there is none
 };
 
 struct Vector {

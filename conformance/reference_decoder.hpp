@@ -60,6 +60,17 @@ struct Object {
 std::optional<Object> decodeObject(std::span<const uint8_t> prefix,
                                    uint64_t maxSamples = kMaxSamples);
 
+/// FORMAT 11, "Triangles".
+struct Triangles {
+  bool sound = true;  ///< else the codeword is corrupt, and nothing is there
+  std::vector<std::array<double, 3>> places;     ///< of each corner, three a triangle
+  std::vector<std::array<double, 2>> texcoords;  ///< likewise; none: there are none
+};
+
+/// Nothing where there is no triangle mesh, or the stream does not decode.
+std::optional<Triangles> decodeTriangles(std::span<const uint8_t> prefix,
+                                         uint64_t maxSamples = kMaxSamples);
+
 /// Where a sample of that height lies.
 std::array<double, 3> placeOf(const Object& object, size_t sample, double height);
 

@@ -12,11 +12,13 @@ namespace {
 std::string describe(const Cut& cut) {
   return "status " + std::to_string(cut.status) + ", heights " +
          (cut.heights.empty() ? "none" : cut.heights) + ", texture " +
-         (cut.texture.empty() ? "none" : cut.texture);
+         (cut.texture.empty() ? "none" : cut.texture) + ", triangles " +
+         (cut.triangles.empty() ? "none" : cut.triangles);
 }
 
 bool same(const Cut& a, const Cut& b) {
-  return a.status == b.status && a.heights == b.heights && a.texture == b.texture;
+  return a.status == b.status && a.heights == b.heights && a.texture == b.texture &&
+         a.triangles == b.triangles;
 }
 
 /// Every cut, even after a difference: the log then shows where the difference begins.

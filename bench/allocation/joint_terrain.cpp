@@ -6,26 +6,20 @@
 #include <utility>
 
 #include "apps/tools/report/picture_judge.hpp"
+#include "bench/harness/height_files.hpp"
 
 namespace tetrakis::bench {
 
 std::vector<std::filesystem::path> terrainsBelow(const std::vector<std::string>& folders,
                                                  const std::vector<std::string>& filters) {
-  std::vector<std::filesystem::path> found;
-  for (const std::string& folder : folders) {
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-      const std::string path = entry.path().string();
-      const auto holds = [&](const std::string& text) {
-        return path.find(text) != std::string::npos;
-      };
-      if (!filters.empty() && std::none_of(filters.begin(), filters.end(), holds)) continue;
-      if (entry.path().filename() == "height.tif" &&
-          std::filesystem::exists(entry.path().parent_path() / "texture.png"))
-        found.push_back(entry.path().parent_path());
-    }
-  }
-  std::sort(found.begin(), found.end());
-  return found;
+  std::vector<std::filesystem::path> terrains;
+  for (const std::filesystem::path& heights :
+       filesBelow(folders, filters, [](const std::filesystem::path& path) {
+         return path.filename() == "height.tif" &&
+                std::filesystem::exists(path.parent_path() / "texture.png");
+       }))
+    terrains.push_back(heights.parent_path());
+  return terrains;
 }
 
 Result<Terrain> readTerrain(const std::filesystem::path& folder, double spacing) {

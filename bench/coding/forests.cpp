@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "apps/tools/files/files.hpp"
-#include "base/samples.hpp"
 #include "bench/harness/arguments.hpp"
+#include "bench/peers/raster.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::bench {
@@ -61,9 +61,11 @@ class Square {
 
   /// Of decoded samples, of a plane or of the forest.
   double rmse(const std::vector<std::byte>& decoded, bool of_forest) const {
-    std::vector<double> errors(size_t{side()} * side());
+    const std::vector<double> original = samplesOf(plane_, sample_);
+    const std::vector<double> samples = samplesOf(decoded, sample_);
+    std::vector<double> errors(original.size());
     forEachPlace([&](size_t at, size_t patch) {
-      errors[at] = valueOf(decoded, of_forest ? patch : at) - valueOf(plane_, at);
+      errors[at] = samples[of_forest ? patch : at] - original[at];
     });
     double sum = 0;
     for (const double error : errors) sum += error * error;
@@ -89,14 +91,6 @@ class Square {
     given.sample = sample_;
     given.data = data.data();
     return given;
-  }
-  double valueOf(const std::vector<std::byte>& samples, size_t i) const {
-    double value = 0;
-    withSampleType(sample_, [&](auto type) {
-      std::memcpy(&type, samples.data() + i * size_, sizeof type);
-      value = static_cast<double>(type);
-    });
-    return value;
   }
 
   tks_sample sample_;

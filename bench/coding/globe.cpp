@@ -7,9 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <numbers>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,8 +16,8 @@
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/files/place/ground_spacing.hpp"
 #include "apps/tools/files/stream.hpp"
-#include "base/samples.hpp"
 #include "bench/harness/arguments.hpp"
+#include "bench/peers/raster.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::bench {
@@ -30,19 +28,6 @@ struct Options {
   std::vector<double> errors = {110, 80, 55};
   uint32_t depth = 0;
 };
-
-std::vector<double> samplesOf(const tools::HeightFile& file, std::span<const std::byte> data) {
-  std::vector<double> values;
-  withSampleType(file.sample, [&](auto type) {
-    using T = decltype(type);
-    for (size_t at = 0; at < data.size(); at += sizeof(T)) {
-      T sample;
-      std::memcpy(&sample, data.data() + at, sizeof sample);
-      values.push_back(static_cast<double>(sample));
-    }
-  });
-  return values;
-}
 
 /// How a grid is coded.
 struct Coding {
@@ -77,7 +62,7 @@ class Globe {
   explicit Globe(const tools::HeightFile& file)
       : file_(file),
         latitudes_(tools::edgeLatitudes(file, file.height)),
-        original_(samplesOf(file, file.data)) {}
+        original_(samplesOf(file.data, file.sample)) {}
 
   /// bytes: 0, to the last bit.
   Result<Buffer> coded(const Coding& coding, uint64_t bytes) const {
@@ -99,7 +84,7 @@ class Globe {
     if (!decoder.ok()) return decoder.status();
     const Result<tools::HeightFile> decoded = tools::decodeHeights(*decoder);
     if (!decoded.ok()) return decoded.status();
-    const std::vector<double> values = samplesOf(file_, decoded->data);
+    const std::vector<double> values = samplesOf(decoded->data, file_.sample);
     return Figures{rmse(values), jump(values)};
   }
   /// Between the two sides of the seam, as the ground has it.

@@ -10,7 +10,7 @@
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/synth/synth.hpp"
 #include "bench/harness/arguments.hpp"
-#include "bench/harness/median.hpp"
+#include "bench/harness/averages.hpp"
 #include "bench/harness/results.hpp"
 #include "bench/peers/child_memory.hpp"
 #include "bench/peers/openjpeg_peer.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The height fields that a bench measures.
+// The files that a bench measures, above all height fields.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,13 @@
 
 namespace tetrakis::bench {
 
-/// Files below the folder that hold heights, in order of name. filters: only those whose path holds
-/// one of these texts; empty: all.
+/// Files below the folders that `wanted` takes, in order of path. filters: only those whose path
+/// holds one of these texts; empty: all.
+std::vector<std::filesystem::path> filesBelow(
+    const std::vector<std::string>& folders, const std::vector<std::string>& filters,
+    const std::function<bool(const std::filesystem::path&)>& wanted);
+
+/// Those that hold heights.
 std::vector<std::filesystem::path> heightFilesBelow(const std::string& folder,
                                                     const std::vector<std::string>& filters);
 

@@ -2,12 +2,14 @@
 // bench_decimation DIR...: meshes of height fields, beside Martini, Delatin, meshoptimizer and
 // Draco.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 
 #include "apps/tools/files/files.hpp"
 #include "bench/harness/arguments.hpp"
+#include "bench/harness/averages.hpp"
+#include "bench/harness/height_files.hpp"
 #include "bench/harness/results.hpp"
 #include "bench/meshes/decimation_quality.hpp"
 #include "bench/meshes/decimation_speed.hpp"
@@ -34,45 +36,27 @@ struct Terrain {
   double exaggeration = 1;  ///< columns a sample step
 };
 
-/// Geometric means over the terrains: the logarithms' sums.
+/// Geometric means over the terrains.
 class Means {
  public:
   void add(const std::string& codec, const std::string& quantity, double value) {
-    Sum& sum = sums_[{codec, quantity}];
-    sum.logarithms += std::log(value);
-    ++sum.count;
+    values_[{codec, quantity}].push_back(value);
   }
   std::vector<ResultRow> rows() const {
     std::vector<ResultRow> rows;
-    for (const auto& [key, sum] : sums_)
-      rows.push_back({"mean", key.first, key.second, std::exp(sum.logarithms / sum.count)});
+    for (const auto& [key, values] : values_)
+      rows.push_back({"mean", key.first, key.second, geometricMean(values)});
     return rows;
   }
 
  private:
-  struct Sum {
-    double logarithms = 0;
-    int count = 0;
-  };
-  std::map<std::pair<std::string, std::string>, Sum> sums_;
+  std::map<std::pair<std::string, std::string>, std::vector<double>> values_;
 };
 
-std::vector<fs::path> findFiles(const Options& options) {
-  std::vector<fs::path> files;
-  for (const std::string& folder : options.folders)
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-      const std::string extension = entry.path().extension().string();
-      const bool heights = extension == ".tif" || extension == ".hgt" || extension == ".exr";
-      const auto matches = [&](const std::string& filter) {
-        return entry.path().string().find(filter) != std::string::npos;
-      };
-      if (heights && entry.path().stem() != "texture" &&
-          (options.filters.empty() ||
-           std::any_of(options.filters.begin(), options.filters.end(), matches)))
-        files.push_back(entry.path());
-    }
-  std::sort(files.begin(), files.end());
-  return files;
+bool holdsHeights(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  return path.stem() != "texture" &&
+         (extension == ".tif" || extension == ".hgt" || extension == ".exr");
 }
 
 Result<Terrain> load(const fs::path& path) {
@@ -190,7 +174,7 @@ Status compare(const Terrain& terrain, const Options& options, std::vector<Resul
 }
 
 Status run(const Options& options) {
-  const std::vector<fs::path> files = findFiles(options);
+  const std::vector<fs::path> files = filesBelow(options.folders, options.filters, holdsHeights);
   if (files.empty()) return {TKS_IO, "No height field found to make meshes of."};
   std::vector<ResultRow> rows;
   Means means;

@@ -6,7 +6,7 @@
 #include <ctime>
 #include <functional>
 
-#include "bench/harness/median.hpp"
+#include "bench/harness/averages.hpp"
 #include "bench/meshes/decimation_peers.hpp"
 #include "bench/peers/child_memory.hpp"
 #include "codec/mesh/fitted_heights.hpp"

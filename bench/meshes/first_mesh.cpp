@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "bench/harness/median.hpp"
+#include "bench/harness/averages.hpp"
 #include "bench/peers/openjpeg_peer.hpp"
 #include "bench/peers/tetrakis_peer.hpp"
 #include "tetrakis/tetrakis.h"

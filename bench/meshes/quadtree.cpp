@@ -14,7 +14,7 @@
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/synth/synth.hpp"
 #include "bench/harness/arguments.hpp"
-#include "bench/harness/median.hpp"
+#include "bench/harness/averages.hpp"
 #include "bench/harness/results.hpp"
 #include "bench/meshes/quadtree_classics.hpp"
 #include "bench/peers/raster.hpp"

@@ -2,12 +2,9 @@
 // bench_surface FILE...: bytes of the geometry of triangle meshes at equal error, which is the
 // larger of the two RMS distances between a mesh and what is decoded, in 1e-4 of the diagonal of
 // its bounding box.
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +12,8 @@
 
 #include "apps/tools/files/meshes/surface_file.hpp"
 #include "bench/harness/arguments.hpp"
+#include "bench/harness/averages.hpp"
+#include "bench/harness/height_files.hpp"
 #include "bench/meshes/surface_objects.hpp"
 #include "bench/meshes/surface_peers.hpp"
 
@@ -26,8 +25,7 @@ namespace fs = std::filesystem;
 struct Options {
   std::vector<std::string> files;
   std::vector<double> errors = {3.5, 2.5, 1.75, 1.2};
-  PeerSettings peers;
-  ObjectSettings objects;
+  uint32_t sizes = 10;
   bool points = false;
 };
 
@@ -39,12 +37,9 @@ std::vector<std::string> meshFiles(const std::vector<std::string>& paths) {
       files.push_back(path);
       continue;
     }
-    std::vector<std::string> found;
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(path))
-      if (entry.is_regular_file() && tools::isMeshFile(entry.path().string()))
-        found.push_back(entry.path().string());
-    std::sort(found.begin(), found.end());
-    files.insert(files.end(), found.begin(), found.end());
+    for (const fs::path& file : filesBelow(
+             {path}, {}, [](const fs::path& found) { return tools::isMeshFile(found.string()); }))
+      files.push_back(file.string());
   }
   return files;
 }
@@ -57,17 +52,12 @@ TriangleMesh weldedMesh(tools::SurfaceFile file) {
   return mesh;
 }
 
-/// What a codec takes for a mesh: the least of some curves.
-struct Row {
-  const char* name;
-  std::vector<ErrorCurve> curves;
-};
-
 using BytesAtErrors = std::vector<std::optional<double>>;
 
-BytesAtErrors bytesOf(const Row& row, const std::vector<double>& errors) {
+/// The least of some curves.
+BytesAtErrors bytesOf(const std::vector<ErrorCurve>& curves, const std::vector<double>& errors) {
   BytesAtErrors bytes;
-  for (const double error : errors) bytes.push_back(bytesAt(row.curves, error));
+  for (const double error : errors) bytes.push_back(bytesAt(curves, error));
   return bytes;
 }
 
@@ -86,7 +76,7 @@ void print(const char* name, const BytesAtErrors& values, int digits) {
 /// Of the bytes of objects to those of peers, all files so far, for each error.
 class Ratios {
  public:
-  explicit Ratios(size_t errors) : logarithms_(errors) {}
+  explicit Ratios(size_t errors) : ratios_(errors) {}
 
   /// Those of one file, which it keeps.
   BytesAtErrors add(const BytesAtErrors& objects, const BytesAtErrors& peers) {
@@ -94,7 +84,7 @@ class Ratios {
     for (size_t i = 0; i < ratios.size(); ++i) {
       if (!objects[i] || !peers[i]) continue;
       ratios[i] = *objects[i] / *peers[i];
-      logarithms_[i].push_back(std::log(*ratios[i]));
+      ratios_[i].push_back(*ratios[i]);
     }
     return ratios;
   }
@@ -102,16 +92,13 @@ class Ratios {
   /// Geometric means over the files.
   BytesAtErrors means() const {
     BytesAtErrors means;
-    for (const std::vector<double>& all : logarithms_) {
-      const double sum = std::accumulate(all.begin(), all.end(), 0.0);
-      means.push_back(all.empty() ? std::nullopt
-                                  : std::optional(std::exp(sum / static_cast<double>(all.size()))));
-    }
+    for (const std::vector<double>& all : ratios_)
+      means.push_back(all.empty() ? std::nullopt : std::optional(geometricMean(all)));
     return means;
   }
 
  private:
-  std::vector<std::vector<double>> logarithms_;
+  std::vector<std::vector<double>> ratios_;
 };
 
 void printPoints(const std::vector<PeerCoding>& codings) {
@@ -120,16 +107,16 @@ void printPoints(const std::vector<PeerCoding>& codings) {
                 coding.bits, coding.point.error, coding.point.bytes);
 }
 
-Result<Row> peersRow(const TriangleMesh& mesh, const Options& options) {
-  const Result<std::vector<PeerCoding>> codings = surfacePeers(mesh, options.peers);
+/// One for each precision: the sizes of a curve have others between them, its precision has not.
+Result<std::vector<ErrorCurve>> peerCurves(const TriangleMesh& mesh, const Options& options) {
+  const Result<std::vector<PeerCoding>> codings = surfacePeers(mesh, options.sizes);
   if (!codings.ok()) return codings.status();
   if (options.points) printPoints(*codings);
-  // By precision: the sizes of a curve have others between them, its precision has not.
-  std::map<uint32_t, ErrorCurve> curves;
-  for (const PeerCoding& coding : *codings) curves[coding.bits].push_back(coding.point);
-  Row row{"meshoptimizer + Draco", {}};
-  for (auto& [bits, curve] : curves) row.curves.push_back(std::move(curve));
-  return row;
+  std::map<uint32_t, ErrorCurve> by_bits;
+  for (const PeerCoding& coding : *codings) by_bits[coding.bits].push_back(coding.point);
+  std::vector<ErrorCurve> curves;
+  for (auto& [bits, curve] : by_bits) curves.push_back(std::move(curve));
+  return curves;
 }
 
 Status measure(const Options& options, const std::string& path, Ratios& ratios) {
@@ -140,18 +127,18 @@ Status measure(const Options& options, const std::string& path, Ratios& ratios) 
     return {TKS_USAGE, path + " has no triangle of three points"};
   std::printf("%s: %zu triangles, %zu points\n", path.c_str(), mesh.triangles.size(),
               mesh.points.size());
-  const Result<Row> peers = peersRow(mesh, options);
+  const Result<std::vector<ErrorCurve>> peers = peerCurves(mesh, options);
   if (!peers.ok()) return peers.status();
-  const Result<ErrorCurve> objects = surfaceObjects(mesh, options.objects);
+  const Result<ErrorCurve> objects = surfaceObjects(mesh);
   if (!objects.ok()) return objects.status();
   if (options.points) {
     for (const ErrorPoint& point : *objects)
       std::printf("  an object: error %7.3f, %8.0f bytes\n", point.error, point.bytes);
   }
   print("bytes at an error of", {options.errors.begin(), options.errors.end()}, 2);
-  const BytesAtErrors ours = bytesOf({"", {*objects}}, options.errors);
+  const BytesAtErrors ours = bytesOf({*objects}, options.errors);
   const BytesAtErrors theirs = bytesOf(*peers, options.errors);
-  print(peers->name, theirs, 0);
+  print("meshoptimizer + Draco", theirs, 0);
   print("tetrakis", ours, 0);
   print("tetrakis / best other", ratios.add(ours, theirs), 3);
   std::fflush(stdout);
@@ -167,7 +154,7 @@ int main(int argc, char** argv) {
   Arguments arguments("Bytes of triangle meshes at equal error.");
   arguments.required({"FILE", "meshes, and folders of meshes"}, options.files);
   arguments.numbers({"--errors", "in 1e-4 of the diagonal"}, options.errors);
-  arguments.within({"--sizes", "that meshoptimizer simplifies to"}, options.peers.sizes, 1, 100);
+  arguments.within({"--sizes", "that meshoptimizer simplifies to"}, options.sizes, 1, 100);
   arguments.flag({"--points", "also each coding that was tried"}, options.points);
   if (const auto code = arguments.parse(argc, argv)) return *code;
   int failed = 0;

@@ -5,8 +5,8 @@
 
 namespace tetrakis::bench {
 
-Result<ErrorCurve> surfaceObjects(const TriangleMesh& mesh, const ObjectSettings& settings) {
-  constexpr double kUnit = 1e4;
+Result<ErrorCurve> surfaceObjects(const TriangleMesh& mesh) {
+  constexpr double kUnit = 1e4, kFewest = 400, kMost = 64 << 10, kRatio = 1.5;
   tks_triangle_mesh given = makeTriangleMesh();
   given.vertex_count = static_cast<uint32_t>(mesh.points.size());
   given.triangle_count = static_cast<uint32_t>(mesh.triangles.size());
@@ -14,8 +14,7 @@ Result<ErrorCurve> surfaceObjects(const TriangleMesh& mesh, const ObjectSettings
   given.triangles = mesh.triangles.front().data();
   ErrorCurve curve;
   Status last{TKS_USAGE, "No number of bytes is asked for."};
-  for (double bytes = static_cast<double>(settings.fewest);
-       bytes <= static_cast<double>(settings.most); bytes *= settings.ratio) {
+  for (double bytes = kFewest; bytes <= kMost; bytes *= kRatio) {
     tks_encode_options options = makeEncodeOptions();
     options.bytes = static_cast<uint64_t>(bytes);
     tks_object_report report{};

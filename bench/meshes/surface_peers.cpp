@@ -20,6 +20,9 @@ namespace {
 
 using draco::GeometryAttribute;
 
+constexpr uint32_t kFewest = 250, kMost = 120000;        ///< triangles
+constexpr uint32_t kCoarsestBits = 8, kFinestBits = 12;  ///< of positions
+
 std::vector<std::array<float, 3>> floatsOf(const TriangleMesh& mesh) {
   std::vector<std::array<float, 3>> points;
   for (const Point& p : mesh.points)
@@ -87,7 +90,6 @@ Result<TriangleMesh> decoded(const draco::EncoderBuffer& coded) {
 
 /// A mesh to measure others against.
 struct Original {
-  const TriangleMesh& mesh;
   TriangleTree tree;
   double diagonal;
 };
@@ -112,12 +114,12 @@ Result<PeerCoding> codeDraco(const Original& original, const draco::Mesh& mesh, 
 }
 
 /// From the most triangles down.
-std::vector<uint32_t> budgetsOf(const TriangleMesh& mesh, const PeerSettings& settings) {
+std::vector<uint32_t> budgetsOf(const TriangleMesh& mesh, uint32_t sizes) {
   const auto all = static_cast<uint32_t>(mesh.triangles.size());
-  const double most = std::min(all, settings.most), fewest = std::min(all, settings.fewest);
+  const double most = std::min(all, kMost), fewest = std::min(all, kFewest);
   std::vector<uint32_t> budgets;
-  for (uint32_t i = 0; i < settings.sizes; ++i) {
-    const double share = settings.sizes > 1 ? double{1} * i / (settings.sizes - 1) : 0;
+  for (uint32_t i = 0; i < sizes; ++i) {
+    const double share = sizes > 1 ? double{1} * i / (sizes - 1) : 0;
     budgets.push_back(static_cast<uint32_t>(most * std::pow(fewest / most, share)));
   }
   budgets.erase(std::unique(budgets.begin(), budgets.end()), budgets.end());
@@ -126,14 +128,13 @@ std::vector<uint32_t> budgetsOf(const TriangleMesh& mesh, const PeerSettings& se
 
 }  // namespace
 
-Result<std::vector<PeerCoding>> surfacePeers(const TriangleMesh& mesh,
-                                             const PeerSettings& settings) {
-  const Original original{mesh, TriangleTree(mesh), diagonal(mesh)};
+Result<std::vector<PeerCoding>> surfacePeers(const TriangleMesh& mesh, uint32_t sizes) {
+  const Original original{TriangleTree(mesh), diagonal(mesh)};
   const std::vector<std::array<float, 3>> points = floatsOf(mesh);
   std::vector<PeerCoding> codings;
-  for (const uint32_t budget : budgetsOf(mesh, settings)) {
+  for (const uint32_t budget : budgetsOf(mesh, sizes)) {
     const auto simple = dracoMesh(points, simplified(mesh, points, budget));
-    for (uint32_t bits = settings.coarsest_bits; bits <= settings.finest_bits; ++bits) {
+    for (uint32_t bits = kCoarsestBits; bits <= kFinestBits; ++bits) {
       Result<PeerCoding> coding = codeDraco(original, *simple, bits);
       if (!coding.ok()) return coding.status();
       codings.push_back(std::move(*coding));

@@ -11,13 +11,6 @@
 
 namespace tetrakis::bench {
 
-/// What is tried on each mesh.
-struct PeerSettings {
-  uint32_t sizes = 10;                   ///< numbers of triangles, evenly spaced by logarithm
-  uint32_t fewest = 250, most = 120000;  ///< but no more than the mesh has
-  uint32_t coarsest_bits = 8, finest_bits = 12;  ///< of positions
-};
-
 /// A Draco buffer of a mesh and its errors.
 struct PeerCoding {
   uint32_t triangles = 0;  ///< of the simplified mesh
@@ -25,9 +18,10 @@ struct PeerCoding {
   ErrorPoint point;  ///< bytes of the buffer; error in 1e-4 of the mesh's diagonal
 };
 
-/// Of positions alone, by edgebreaker at the slowest speed, errors measured on what is decoded
-/// (mesh_distance.hpp). The mesh has an area and no equal points.
-Result<std::vector<PeerCoding>> surfacePeers(const TriangleMesh& mesh,
-                                             const PeerSettings& settings);
+/// Meshes of `sizes` numbers of triangles, from 250 to 120 000, evenly spaced by logarithm, but of
+/// no more than the mesh has; each with positions of 8 to 12 bits. Of positions alone, by
+/// edgebreaker at the slowest speed, errors measured on what is decoded (mesh_distance.hpp). The
+/// mesh has an area and no equal points.
+Result<std::vector<PeerCoding>> surfacePeers(const TriangleMesh& mesh, uint32_t sizes);
 
 }  // namespace tetrakis::bench

@@ -8,41 +8,12 @@
 #include <cstring>
 #include <limits>
 
+#include "base/samples.hpp"
+
 namespace tetrakis::bench {
 namespace {
 
 constexpr double kMaxSample = 65535;
-
-template <class T>
-std::vector<double> convert(const std::vector<std::byte>& data) {
-  std::vector<double> values(data.size() / sizeof(T));
-  for (size_t i = 0; i < values.size(); ++i) {
-    T value;
-    std::memcpy(&value, data.data() + i * sizeof(T), sizeof(T));
-    values[i] = static_cast<double>(value);
-  }
-  return values;
-}
-
-std::vector<double> samplesOf(const std::vector<std::byte>& data, tks_sample sample) {
-  switch (sample) {
-    case TKS_U8:
-      return convert<uint8_t>(data);
-    case TKS_I8:
-      return convert<int8_t>(data);
-    case TKS_U16:
-      return convert<uint16_t>(data);
-    case TKS_I16:
-      return convert<int16_t>(data);
-    case TKS_U32:
-      return convert<uint32_t>(data);
-    case TKS_I32:
-      return convert<int32_t>(data);
-    case TKS_F32:
-      return convert<float>(data);
-  }
-  return {};
-}
 
 // One level of a mean pyramid: values with the number of real samples below each.
 struct Level {
@@ -105,6 +76,18 @@ uint32_t mirror(int64_t i, uint32_t n) {
 }
 
 }  // namespace
+
+std::vector<double> samplesOf(std::span<const std::byte> data, tks_sample sample) {
+  std::vector<double> values;
+  withSampleType(sample, [&](auto value) {
+    values.reserve(data.size() / sizeof value);
+    for (size_t at = 0; at + sizeof value <= data.size(); at += sizeof value) {
+      std::memcpy(&value, data.data() + at, sizeof value);
+      values.push_back(static_cast<double>(value));
+    }
+  });
+  return values;
+}
 
 Result<Raster> heightRaster(const tools::HeightFile& file) {
   Level level{file.width, file.height, samplesOf(file.data, file.sample), {}};

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "apps/tools/files/files.hpp"
@@ -21,6 +22,9 @@ struct Raster {
 
   size_t pixels() const { return size_t{width} * height; }
 };
+
+/// Samples of that type, one after the other, as doubles.
+std::vector<double> samplesOf(std::span<const std::byte> data, tks_sample sample);
 
 /// Integer heights whose range fits 16 bits keep their step, less their minimum; all others are
 /// quantised to 2^16 levels over their range. NaN and the file's nodata value become holes, filled

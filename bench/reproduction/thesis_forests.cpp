@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/harness/arguments.hpp"
-#include "bench/harness/median.hpp"
+#include "bench/harness/averages.hpp"
 #include "bench/harness/results.hpp"
 #include "bench/reproduction/forest_figures.hpp"
 #include "bench/reproduction/forest_terrain.hpp"

@@ -9,7 +9,7 @@ namespace tetrakis::inline stream {
 std::optional<std::vector<uint32_t>> decodeGlue(std::string_view codeword, uint32_t patches) {
   DecisionDecoding io({reinterpret_cast<const uint8_t*>(codeword.data()), codeword.size()});
   std::vector<uint32_t> sides(size_t{patches} * Forest::kSides, Forest::kBorder);
-  GluePass pass(io, patches);
+  GluePass pass(io, patches, Forest::kSides);
   if (!pass.run(sides)) return {};
   return sides;
 }

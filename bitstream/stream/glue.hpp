@@ -19,14 +19,15 @@ std::string encodeGlue(const std::vector<uint32_t>& sides);
 /// early. patches: at least 1. Takes some twenty decisions a patch.
 std::optional<std::vector<uint32_t>> decodeGlue(std::string_view codeword, uint32_t patches);
 
-/// (Encoder) where a ForestWalk meets the patches of a forest, and by which side it enters them:
-/// numbered and turned like this they take the fewest bits.
-struct MetPatch {
-  uint32_t patch = 0;
-  uint32_t entered = 0;  ///< the side, 0 to 3; of the first patch of a component 0
+/// (Encoder) where a FaceWalk meets a face, and by which side it enters it: numbered and turned
+/// like this faces take the fewest bits.
+struct MetFace {
+  uint32_t face = 0;
+  uint32_t entered = 0;  ///< a side of it; of the first face of a component 0
 };
 
-/// One for each patch, in the order of the walk, whose components begin at their lowest patches.
-std::vector<MetPatch> patchesAsMet(const std::vector<uint32_t>& sides);
+/// (Encoder) one for each face, in the order of the walk, whose components begin at their lowest
+/// faces. of_face: sides of each.
+std::vector<MetFace> facesAsMet(const std::vector<uint32_t>& sides, uint32_t of_face);
 
 }  // namespace tetrakis::inline stream

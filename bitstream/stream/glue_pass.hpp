@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// GluePass codes which sides of a forest are glued to which, in the order of a ForestWalk. Of each
-// open side it says: glued to the one behind it in its ring, or to the one before; to a patch that
-// the walk has not seen; a border; or else glued to another open side, by its number. Patches that
-// are numbered as the walk meets them, and turned so that it enters by their first sides, take some
-// 1.5 bits each.
+// GluePass codes which sides of faces are glued to which, in the order of a FaceWalk. Of each open
+// side it says: glued to the one behind it in its ring, or to the one before; to a face that the
+// walk has not seen; a border; or else glued to another open side, by its number. Faces that are
+// numbered as the walk meets them, and turned so that it enters by their first sides, take some 1.5
+// bits each.
 #pragma once
 
 #include <bit>
@@ -12,7 +12,7 @@
 
 #include "base/forest.hpp"
 #include "bitstream/coder/adaptive_bit.hpp"
-#include "bitstream/stream/forest_walk.hpp"
+#include "bitstream/stream/face_walk.hpp"
 
 namespace tetrakis::inline stream {
 
@@ -20,18 +20,20 @@ namespace tetrakis::inline stream {
 template <class Io>
 class GluePass {
  public:
-  GluePass(Io& io, uint32_t patches) : io_(io), patches_(patches), walk_(patches), seen_(patches) {}
+  /// sides: of each face, 3 or 4.
+  GluePass(Io& io, uint32_t faces, uint32_t sides)
+      : io_(io), faces_(faces), of_face_(sides), walk_(faces, sides), seen_(faces) {}
 
   /// sides: of the encoder as of Forest, of the decoder as many borders, which it fills.
-  /// Returns whether they are sound: false where a decision that counts names a side or a patch
+  /// Returns whether they are sound: false where a decision that counts names a side or a face
   /// that cannot be glued, and where the codeword ends too early.
   bool run(std::vector<uint32_t>& sides) {
     while (sound_ && !io_.stopped()) {
       if (const auto side = walk_.front()) {
         takeSide(*side, sides);
-      } else if (lowestUnseen() < patches_) {
+      } else if (lowestUnseen() < faces_) {
         seen_[lowest_] = 1;
-        walk_.meet(Forest::kSides * lowest_);
+        walk_.meet(of_face_ * lowest_);
       } else {
         return true;
       }
@@ -49,7 +51,7 @@ class GluePass {
     if (may_last && io_.decide(last_[start][may_next], other == last))
       return glue(side, last, sides);
     const bool is_border = other == Forest::kBorder;
-    if (lowestUnseen() < patches_ &&
+    if (lowestUnseen() < faces_ &&
         io_.decide(new_[may_next][may_last], !is_border && isUnseen(other)))
       return attach(side, sides);
     if (io_.decide(border_[may_next][may_last], is_border)) {
@@ -57,12 +59,12 @@ class GluePass {
       sides[side] = Forest::kBorder;
       return walk_.makeBorder(side);
     }
-    const uint32_t named = plain(other, Forest::kSides * patches_);
+    const uint32_t named = plain(other, of_face_ * faces_);
     sound_ = named < sides.size() && named != side && walk_.isOpen(named);
     if (sound_) glue(side, named, sides);
   }
 
-  bool isUnseen(uint32_t side) const { return seen_[side / Forest::kSides] == 0; }
+  bool isUnseen(uint32_t side) const { return seen_[side / of_face_] == 0; }
 
   void glue(uint32_t a, uint32_t b, std::vector<uint32_t>& sides) {
     if (io_.stopped()) return;
@@ -71,25 +73,25 @@ class GluePass {
     walk_.glue(a, b);
   }
 
-  /// A patch is mostly the one of the lowest number, entered by the same side as others.
+  /// A face is mostly the one of the lowest number, entered by the same side as others.
   void attach(uint32_t side, std::vector<uint32_t>& sides) {
-    const uint32_t lowest = lowestUnseen(), other = sides[side];
-    const uint32_t patch = io_.decide(numbers_in_order_, other / Forest::kSides != lowest)
-                               ? plain(other / Forest::kSides, patches_)
-                               : lowest;
-    const bool high = io_.decide(turn_[0], (other & 2) != 0);
-    const bool low = io_.decide(turn_[high ? 2 : 1], (other & 1) != 0);
+    const uint32_t lowest = lowestUnseen(), other = sides[side], turn = other % of_face_;
+    const uint32_t face = io_.decide(numbers_in_order_, other / of_face_ != lowest)
+                              ? plain(other / of_face_, faces_)
+                              : lowest;
+    const bool high = io_.decide(turn_[0], (turn & 2) != 0);
+    const bool low = io_.decide(turn_[high ? 2 : 1], (turn & 1) != 0);
     if (io_.stopped()) return;
-    sound_ = patch < patches_ && seen_[patch] == 0;
+    const uint32_t entered = 2 * uint32_t{high} + uint32_t{low};
+    sound_ = face < faces_ && seen_[face] == 0 && entered < of_face_;
     if (!sound_) return;
-    seen_[patch] = 1;
-    const uint32_t entered = Forest::kSides * patch + 2 * uint32_t{high} + uint32_t{low};
-    walk_.meet(entered);
-    glue(side, entered, sides);
+    seen_[face] = 1;
+    walk_.meet(of_face_ * face + entered);
+    glue(side, of_face_ * face + entered, sides);
   }
 
   uint32_t lowestUnseen() {
-    while (lowest_ < patches_ && seen_[lowest_] != 0) ++lowest_;
+    while (lowest_ < faces_ && seen_[lowest_] != 0) ++lowest_;
     return lowest_;
   }
 
@@ -101,13 +103,13 @@ class GluePass {
     return value;
   }
 
-  using Around = std::array<std::array<AdaptiveBit, 2>, ForestWalk::kMostAround + 1>;
+  using Around = std::array<std::array<AdaptiveBit, 2>, FaceWalk::kMostAround + 1>;
 
   Io& io_;
-  uint32_t patches_;
-  ForestWalk walk_;
-  std::vector<uint8_t> seen_;  ///< patches
-  uint32_t lowest_ = 0;        ///< no patch below it is unseen
+  uint32_t faces_, of_face_;
+  FaceWalk walk_;
+  std::vector<uint8_t> seen_;  ///< faces
+  uint32_t lowest_ = 0;        ///< no face below it is unseen
   bool sound_ = true;
   Around next_, last_;
   std::array<std::array<AdaptiveBit, 2>, 2> new_, border_;

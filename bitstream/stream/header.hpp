@@ -16,6 +16,7 @@
 #include "bitstream/stream/georeference.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/stream/texture_header.hpp"
+#include "bitstream/stream/triangle_mesh_header.hpp"
 #include "tetrakis/result.hpp"
 
 namespace tetrakis::inline stream {
@@ -98,6 +99,7 @@ struct StreamHeader {
   std::optional<GeometryHeader> geometry;
   GeometryLayers layers;
   std::optional<TextureHeader> texture;
+  TriangleMeshHeader triangle_mesh;  ///< an object that is not heights, which the texture lies on
   Metadata metadata;
   Georeference georeference;
   std::vector<IndexEntry> index;  ///< of all packets, ahead of time

@@ -13,8 +13,9 @@
 
 namespace tetrakis::inline stream {
 
-/// Kinds of the parts of a body that inform; those of the others: component_list.hpp.
+/// Kinds of the parts of a body, but for components (component_list.hpp). Most inform.
 enum BodyPart : uint64_t {
+  kTriangleMesh = 1,
   kLossless = 64,
   kPayloadCrc = 65,
   kTriangles = 66,
@@ -51,7 +52,7 @@ void visitPlaces(V& v, StreamHeader& header) {
   Georeference& place = header.georeference;
   TransformBasis basis;
   basis.spacing = northUp(header.metadata.spacing_x, header.metadata.spacing_y);
-  v.part(kPlaceOfHeights, header.geometry && place.hasHeights(),
+  v.part(kPlaceOfHeights, (header.geometry || !header.triangle_mesh.none()) && place.hasHeights(),
          [&](auto& part) { place.visitHeights(part, basis); });
   if (header.geometry && header.texture && place.heights.has_transform) {
     const double columns = header.texture->shown().width, rows = header.texture->shown().height;
@@ -78,6 +79,8 @@ template <class V>
 void visitBody(V& v, StreamHeader& header) {
   v.varint("payload_bytes", header.payload_bytes, 0, UINT64_MAX >> 1);
   visitComponents(v, header);
+  v.part(kTriangleMesh, !header.triangle_mesh.none(),
+         [&](auto& part) { header.triangle_mesh.visit(part); });
   visitPromises(v, header);
   v.part(kMetadata, !header.metadata.isDefault(), [&](auto& part) { header.metadata.visit(part); });
   visitPlaces(v, header);

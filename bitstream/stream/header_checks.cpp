@@ -167,11 +167,25 @@ Status checkBaseMesh(const StreamHeader& header) {
   return {TKS_CORRUPT, "Corrupt stream: a base mesh has no forest of patches up to 257 x 257."};
 }
 
+/// Triangles that are coded as they are lie under a plane texture.
+Status checkTriangleMesh(const StreamHeader& header) {
+  if (header.triangle_mesh.none()) return {};
+  if (header.geometry)
+    return {TKS_CORRUPT, "Corrupt stream: it has heights beside a mesh of triangles."};
+  if (!header.texture) return {};
+  const WaveletHeader& wavelet = header.texture->wavelet;
+  if (header.triangle_mesh.texcoord_bits > 0 && wavelet.forest == nullptr && !wavelet.ring)
+    return {};
+  return {TKS_CORRUPT,
+          "Corrupt stream: the texture of its triangles has no places on them, or is no plane."};
+}
+
 /// A decoder may lack what it takes for the components of a later version.
 Status checkComponents(const StreamHeader& header) {
-  if (header.geometry || header.texture) return {};
+  if (header.geometry || header.texture || !header.triangle_mesh.none()) return {};
   if (header.components.empty())
-    return {TKS_CORRUPT, "Corrupt stream: its header announces neither heights nor texture."};
+    return {TKS_CORRUPT,
+            "Corrupt stream: its header announces neither heights, nor a texture, nor triangles."};
   return {TKS_UNSUPPORTED,
           "The stream holds nothing that this decoder knows: neither heights nor "
           "a texture on a grid."};
@@ -184,6 +198,7 @@ Status checkMeaning(const StreamHeader& header) {
   if (Status layers = checkLayers(header); !layers.ok()) return layers;
   if (Status forests = checkForests(header); !forests.ok()) return forests;
   if (Status base = checkBaseMesh(header); !base.ok()) return base;
+  if (Status mesh = checkTriangleMesh(header); !mesh.ok()) return mesh;
   if (Status direct = checkDirect(header); !direct.ok()) return direct;
   if (Status priorities = checkPriorities(header); !priorities.ok()) return priorities;
   return checkTexture(header);

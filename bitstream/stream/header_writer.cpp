@@ -8,7 +8,7 @@
 namespace tetrakis::inline stream {
 
 std::vector<uint8_t> writeHeader(const StreamHeader& header) {
-  assert(header.geometry || header.texture);
+  assert(header.geometry || header.texture || !header.triangle_mesh.none());
   StreamHeader copy = header;
   copy.level = levelFor(header);
   FieldWriter body;

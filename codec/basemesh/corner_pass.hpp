@@ -7,13 +7,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
-#include <cstdlib>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "bitstream/coder/adaptive_bit.hpp"
+#include "bitstream/coder/place_coder.hpp"
 #include "codec/basemesh/base_mesh.hpp"
 
 namespace tetrakis::inline basemesh {
@@ -23,18 +22,18 @@ template <class Io>
 class CornerPass {
  public:
   CornerPass(Io& io, const Forest& forest, int bits)
-      : io_(io), forest_(forest), owners_(cornerOwners(forest)), bits_(bits) {}
+      : io_(io),
+        forest_(forest),
+        owners_(cornerOwners(forest)),
+        coder_(bits),
+        bits_(owners_.size()) {}
 
   /// corners: of the encoder those of a BaseMesh; of the decoder as many of any value.
   void run(std::vector<Cell>& corners) {
     for (uint32_t corner = 0; corner < corners.size(); ++corner) {
       if (owners_[corner] == corner) {
-        const Cell expected = expectedAt(corner, corners);
-        for (size_t axis = 0; axis < 3; ++axis) {
-          const int32_t difference = next(corners[corner][axis] - expected[axis], axis);
-          corners[corner][axis] = (expected[axis] + difference) & mask();
-        }
-        latest_ = corners[corner];
+        bits_[corner] = coder_.pass(io_, foreseenAt(corner, corners), corners[corner]);
+        latest_ = corner;
       } else {
         corners[corner] = corners[owners_[corner]];
       }
@@ -42,94 +41,63 @@ class CornerPass {
   }
 
  private:
-  static constexpr int kModelledBits = 2;  ///< below the highest bit of a difference
-
-  int32_t mask() const { return static_cast<int32_t>((uint32_t{1} << bits_) - 1); }
-
-  /// Halves are rounded up.
-  static int32_t roundedQuotient(int32_t sum, int32_t count) {
-    const int32_t doubled = 2 * sum + count, divisor = 2 * count;
-    return doubled / divisor - (doubled % divisor < 0 ? 1 : 0);
-  }
+  using Coder = PlaceCoder<3>;
 
   static uint32_t turned(uint32_t corner, uint32_t steps) {
     return corner - corner % Forest::kSides + (corner + steps) % Forest::kSides;
   }
 
-  /// The place of a corner if it is known before that of `corner`.
-  std::optional<Cell> known(uint32_t wanted, uint32_t corner, const std::vector<Cell>& corners) {
+  /// The owner of a corner, if its place is known before that of `corner`.
+  std::optional<uint32_t> known(uint32_t wanted, uint32_t corner) const {
     if (owners_[wanted] >= corner) return {};
-    return corners[owners_[wanted]];
+    return owners_[wanted];
   }
 
-  /// The corner that follows on the corner beside `corner` along a straight edge: beyond the side
-  /// of the patch that lies opposite, clockwise or not.
-  std::optional<Cell> continued(uint32_t corner, bool clockwise, const std::vector<Cell>& corners) {
-    const uint32_t beside = turned(corner, clockwise ? 1 : 3);
+  /// The corner behind that beside `corner` on a straight edge: beyond the side of the patch that
+  /// lies opposite, clockwise or not.
+  std::optional<uint32_t> behind(uint32_t corner, bool clockwise) const {
     const uint32_t other = forest_.sides()[turned(corner, clockwise ? 1 : 2)];
     if (other == Forest::kBorder) return {};
-    const auto near = known(beside, corner, corners);
-    const auto far = known(turned(other, clockwise ? 2 : 3), corner, corners);
-    if (!near || !far) return {};
-    Cell place;
-    for (size_t axis = 0; axis < 3; ++axis) place[axis] = 2 * (*near)[axis] - (*far)[axis];
-    return place;
+    return known(turned(other, clockwise ? 2 : 3), corner);
   }
 
-  Cell expectedAt(uint32_t corner, const std::vector<Cell>& corners) {
-    const auto a = known(turned(corner, 1), corner, corners);
-    const auto b = known(turned(corner, 3), corner, corners);
-    const auto opposite = known(turned(corner, 2), corner, corners);
-    const auto after_a = continued(corner, true, corners);
-    const auto after_b = continued(corner, false, corners);
-    Cell sum{};
-    int32_t count = 0;
-    const auto add = [&](const Cell& place, int32_t weight) {
-      for (size_t axis = 0; axis < 3; ++axis) sum[axis] += weight * place[axis];
+  Coder::Foreseen foreseenAt(uint32_t corner, const std::vector<Cell>& corners) const {
+    const auto a = known(turned(corner, 1), corner), b = known(turned(corner, 3), corner);
+    const auto opposite = known(turned(corner, 2), corner);
+    const auto behind_a = behind(corner, true), behind_b = behind(corner, false);
+    std::array<int64_t, 3> sum{};
+    int64_t count = 0;
+    const auto add = [&](uint32_t of, int64_t weight) {
+      for (size_t axis = 0; axis < 3; ++axis) sum[axis] += weight * corners[of][axis];
       count += weight;
     };
+    Coder::Foreseen out;
+    for (const auto& nearby : {a, b, opposite, behind_a, behind_b})
+      if (nearby) out.add(bits_[*nearby]);
     if (a && b && opposite) {
-      Cell place;
-      for (size_t axis = 0; axis < 3; ++axis)
-        place[axis] = (*a)[axis] + (*b)[axis] - (*opposite)[axis];
-      add(place, 2);
+      add(*a, 2);
+      add(*b, 2);
+      add(*opposite, -2);
     }
-    if (after_a) add(*after_a, 1);
-    if (after_b) add(*after_b, 1);
-    if (count == 0) return a ? *a : b ? *b : latest_;
-    for (int32_t& value : sum) value = std::clamp(roundedQuotient(value, count), 0, mask());
-    return sum;
-  }
-
-  /// Its number of bits in unary, the bits below the highest, and its sign.
-  int32_t next(int32_t difference, size_t axis) {
-    const auto magnitude = static_cast<uint32_t>(std::abs(difference));
-    const int wanted = static_cast<int>(std::bit_width(magnitude));
-    auto& models =
-        more_[std::min<size_t>((bits_seen_[0] + bits_seen_[1] + bits_seen_[2] + 1) / 3, 15)];
-    int bits = 0;
-    while (bits < bits_ && io_.decide(models[static_cast<size_t>(bits)], wanted > bits)) ++bits;
-    uint32_t value = bits > 0 ? 1 : 0;
-    for (int position = bits - 2; position >= 0; --position) {
-      const bool answer = (magnitude >> position) & 1;
-      const bool modelled = value < 1u << kModelledBits;
-      const bool bit =
-          modelled ? io_.decide(high_[static_cast<size_t>(bits)][value], answer) : io_.even(answer);
-      value = value << 1 | uint32_t{bit};
+    for (const auto& [near, far] : {std::pair(a, behind_a), std::pair(b, behind_b)}) {
+      if (!near || !far) continue;
+      add(*near, 2);
+      add(*far, -1);
     }
-    bits_seen_[axis] = static_cast<size_t>(bits);
-    const bool negative = value > 0 && io_.even(difference < 0);
-    return negative ? -static_cast<int32_t>(value) : static_cast<int32_t>(value);
+    out.foretellers = static_cast<size_t>(std::min<int64_t>(count, 3));
+    if (count == 0 && corner > 0) add(a ? *a : b ? *b : latest_, 1);
+    for (size_t axis = 0; axis < 3 && count > 0; ++axis)
+      out.expected[axis] = static_cast<int32_t>(
+          std::clamp<int64_t>(roundedMean(sum[axis], count), 0, coder_.most()));
+    return out;
   }
 
   Io& io_;
   const Forest& forest_;
   std::vector<uint32_t> owners_;
-  int bits_;
-  Cell latest_{};
-  std::array<size_t, 3> bits_seen_{};  ///< of the latest difference of each axis
-  std::array<std::array<AdaptiveBit, 24>, 16> more_;
-  std::array<std::array<AdaptiveBit, 1 << kModelledBits>, 24> high_;
+  Coder coder_;
+  uint32_t latest_ = 0;            ///< owner that was told last
+  std::vector<Coder::Bits> bits_;  ///< of the differences of owners
 };
 
 }  // namespace tetrakis::inline basemesh

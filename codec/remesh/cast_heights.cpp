@@ -10,14 +10,14 @@ namespace tetrakis::inline remesh {
 
 namespace {
 
-/// How far from where the map takes a sample a line may meet the mesh, in parts of the diagonal:
-/// beyond that it has met another sheet.
+/// How far the place where a line meets the mesh may lie from the place to which the map takes the
+/// sample, in parts of the diagonal. A place farther away lies on another sheet of the surface.
 constexpr double kReach = 0.03;
 
-/// Rounds in which samples look at their neighbours and choose anew.
+/// Number of rounds in which each sample compares itself with its neighbours and chooses again.
 constexpr int kRounds = 4;
 
-/// What a step from the mapped place counts, beside a step from the heights around.
+/// The weight of a distance from the mapped place; that of a distance from the heights around is 1.
 constexpr double kMapWeight = 0.25;
 
 Point pointOf(const BaseMesh& base, const BasePoint& at) {
@@ -30,19 +30,20 @@ Point normalOf(const BasePoint& at) {
           static_cast<double>(at.normal[2]) * kUnit};
 }
 
-/// A place where a sample may lie.
+/// A place of the mesh that a sample may take.
 struct Cast {
-  double height = 0;
+  double height = 0;  ///< along the normal of the base
   SurfacePoint place;
-  double off = 0;  ///< how far the place is from the mapped one, and the line from the place
+  double off = 0;  ///< distance from the mapped place, plus a penalty if the line misses `place`
 };
 
 class Caster {
  public:
   Caster(const TriangleTree& mesh, double reach) : mesh_(mesh), reach_(reach) {}
 
-  /// Where the line meets the side of the mesh that its normal leaves, near the mapped place; and,
-  /// unless that is very near, where it comes nearest to the mesh. By rising heights, at least one.
+  /// The places near the mapped one where the line leaves the inside of the mesh. If none of them
+  /// is very near, also the place where line and mesh come nearest to each other. They are sorted
+  /// by height, and there is at least one.
   std::vector<Cast> casts(const Point& origin, const Point& normal,
                           const SurfacePoint& mapped) const {
     const Point target = at(mesh_.mesh(), mapped);
@@ -63,7 +64,8 @@ class Caster {
   }
 
  private:
-  /// The line and the mesh are nearest to each other where each is the other's nearest place.
+  /// The place where the line and the mesh come nearest to each other. It is found by going from
+  /// the line to the nearest place of the mesh, and back, several times.
   Cast nearest(const Point& origin, const Point& normal, const SurfacePoint& mapped) const {
     constexpr int kSteps = 4;
     const Point target = at(mesh_.mesh(), mapped);
@@ -77,10 +79,11 @@ class Caster {
     cast.off = length(place - target) + kOffLine * length(origin + cast.height * normal - place);
     return cast;
   }
-  /// Where the line meets the mesh this near to the mapped place, in parts of the reach, it has met
-  /// the right sheet.
+  /// If the line meets the mesh so near to the mapped place, in parts of the reach, it has
+  /// certainly met the right sheet.
   static constexpr double kNear = 0.1;
-  /// A sample beside the mesh is worse than one on another part of it.
+  /// Penalty for each unit of distance between the line and the place: a sample that lies beside
+  /// the mesh is worse than one that lies on another part of it.
   static constexpr double kOffLine = 4;
 
   const TriangleTree& mesh_;
@@ -93,7 +96,7 @@ double median(std::array<double, 8>& values, size_t count) {
   return *middle;
 }
 
-/// Of the neighbours of a sample in its patch.
+/// The median height of a sample's neighbours in its patch.
 double medianAround(const std::vector<double>& heights, int side, int x, int y) {
   std::array<double, 8> values;
   size_t count = 0;
@@ -107,8 +110,8 @@ double medianAround(const std::vector<double>& heights, int side, int x, int y) 
   return median(values, count);
 }
 
-/// The samples of one patch. Each takes the place nearest to the mapped one; then the one that fits
-/// its neighbours better.
+/// The samples of one patch, row by row. At first each takes the place nearest to the mapped one.
+/// Then, in some rounds, it takes the place that fits the heights of its neighbours best.
 std::vector<Cast> castPatch(const BaseMesh& base, const std::vector<BasePoint>& points,
                             const Caster& caster,
                             const std::function<SurfacePoint(double x, double y)>& place_of) {

@@ -11,14 +11,14 @@
 namespace tetrakis::inline remesh {
 namespace {
 
-/// Triangles of the input, by welded points.
+/// The triangles of the input that are kept.
 struct KeptFaces {
-  std::vector<Triangle> corners;
-  std::vector<uint32_t> sources;
+  std::vector<Triangle> corners;  ///< of points in one place the first
+  std::vector<uint32_t> sources;  ///< their numbers in the input
 };
 
 /// For each point the first one that lies in its place.
-std::vector<uint32_t> firstInPlace(const std::vector<Point>& points, CleaningReport& report) {
+std::vector<uint32_t> firstInPlace(const std::vector<Point>& points) {
   std::vector<uint32_t> order(points.size()), first(points.size());
   std::iota(order.begin(), order.end(), 0u);
   std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
@@ -27,13 +27,12 @@ std::vector<uint32_t> firstInPlace(const std::vector<Point>& points, CleaningRep
   for (size_t k = 0; k < order.size(); ++k) {
     const bool again = k > 0 && points[order[k]] == points[order[k - 1]];
     first[order[k]] = again ? first[order[k - 1]] : order[k];
-    report.welded += again;
   }
   return first;
 }
 
 KeptFaces withoutDegenerate(const TriangleMesh& input, CleaningReport& report) {
-  const std::vector<uint32_t> first = firstInPlace(input.points, report);
+  const std::vector<uint32_t> first = firstInPlace(input.points);
   KeptFaces kept;
   for (uint32_t t = 0; t < input.triangles.size(); ++t) {
     const Triangle& given = input.triangles[t];
@@ -48,7 +47,7 @@ KeptFaces withoutDegenerate(const TriangleMesh& input, CleaningReport& report) {
   return kept;
 }
 
-/// Of triangles with the same corners the first one is kept, to whatever sides they look.
+/// Of triangles with the same corners the first one is kept, whichever sides they face.
 KeptFaces withoutDoubles(const KeptFaces& faces, CleaningReport& report) {
   std::vector<std::pair<Triangle, uint32_t>> by_corners;
   for (uint32_t t = 0; t < faces.corners.size(); ++t) {
@@ -70,8 +69,9 @@ KeptFaces withoutDoubles(const KeptFaces& faces, CleaningReport& report) {
   return kept;
 }
 
-/// Which triangles must be turned round. Walks over edges and cuts the ones where it comes back to
-/// the other side of the surface.
+/// Finds which triangles must be turned round, so that neighbours face one side. It walks over
+/// edges from triangle to triangle, and cuts an edge where two triangles that it has been to
+/// disagree.
 class Orientation {
  public:
   Orientation(const std::vector<Triangle>& triangles, GluedSides& glued)
@@ -119,7 +119,7 @@ class Orientation {
   uint32_t cuts_ = 0;
 };
 
-/// Sets of corners that are one point: those of a fan.
+/// Joins the corners that are one point: those of the triangles of a fan.
 DisjointSets fansOf(const std::vector<Triangle>& triangles, const GluedSides& glued) {
   DisjointSets fans(glued.opposite.size());
   for (uint32_t side = 0; side < glued.opposite.size(); ++side) {
@@ -132,20 +132,18 @@ DisjointSets fansOf(const std::vector<Triangle>& triangles, const GluedSides& gl
   return fans;
 }
 
-/// Each fan gets a point of its own. Two triangles that were cut from each other, but share both
-/// points still, are neighbours again: they begin and end one fan, so they look to one side.
+/// Each fan gets a point of its own. It may be that two triangles were cut from each other but
+/// still share both points. Then they are neighbours again: they are the first and the last one of
+/// a fan, and so they face one side.
 void numberPoints(const TriangleMesh& input, const KeptFaces& faces, DisjointSets& fans,
                   CleanedMesh& result) {
   std::vector<uint32_t> point_of(3 * faces.corners.size(), kNone);
-  std::vector<bool> used(input.points.size());
   for (uint32_t corner = 0; corner < point_of.size(); ++corner) {
     const uint32_t fan = fans.find(corner);
     if (point_of[fan] == kNone) {
       const uint32_t point = startOf(faces.corners, corner);
       point_of[fan] = static_cast<uint32_t>(result.mesh.points.size());
       result.mesh.points.push_back(input.points[point]);
-      result.report.split_points += used[point];
-      used[point] = true;
     }
     result.mesh.triangles[corner / 3][corner % 3] = point_of[fan];
   }
@@ -167,7 +165,6 @@ CleanedMesh cleaned(const TriangleMesh& input) {
     if (orientation.turned()[t]) {
       std::swap(source.corners[1], source.corners[2]);
       std::swap(result.mesh.triangles[t][1], result.mesh.triangles[t][2]);
-      ++result.report.flipped;
     }
     result.sources.push_back(source);
   }

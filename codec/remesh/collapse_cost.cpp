@@ -10,13 +10,14 @@ namespace tetrakis::inline remesh {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kEvenness = 1e-3;  // of area times squared length
-constexpr double kBoundary = 30;    // of a boundary edge, beside an area as large as its square
-constexpr double kSliver = 0.3;     // qualities below are penalised
-constexpr double kNoArea =
-    1e-6;  // a quality that is refused, unless the ring has triangles nearly as thin
-constexpr double kTurn = 0.2;        // least cosine between normals before and after
-constexpr uint32_t kNeighbours = 7;  // more of them are penalised
+// Weights of area times squared length: where triangles are to be even, and else.
+constexpr double kEvenness = 1e-3, kLittleEvenness = 1e-6;
+constexpr double kBoundary = 30;  // weight of the plane at a boundary edge, times squared length
+constexpr double kSliver = 0.3;   // lower qualities of triangles are penalised
+/// Triangles of this quality are refused, unless the ring has some that are nearly as thin already.
+constexpr double kNoArea = 1e-6;
+constexpr double kTurn = 0.2;        // least cosine between the normals before and after a collapse
+constexpr uint32_t kNeighbours = 7;  // more neighbours than that are penalised
 
 void addTriangle(const TriangleMesh& mesh, const Triangle& t, std::vector<Quadric>& quadrics) {
   const Point normal = areaNormal(mesh, t);
@@ -26,7 +27,7 @@ void addTriangle(const TriangleMesh& mesh, const Triangle& t, std::vector<Quadri
     quadrics[point].addPlane(1 / doubled_area * normal, mesh.points[t[0]], doubled_area / 2);
 }
 
-/// A plane through a boundary edge, upright on its triangle.
+/// Adds the plane through a boundary edge that is at right angles to the triangle of the edge.
 void addBoundary(const TriangleMesh& mesh, uint32_t side, std::vector<Quadric>& quadrics) {
   const uint32_t a = startOf(mesh.triangles, side), b = startOf(mesh.triangles, nextSide(side));
   const Point edge = mesh.points[b] - mesh.points[a];
@@ -37,8 +38,8 @@ void addBoundary(const TriangleMesh& mesh, uint32_t side, std::vector<Quadric>& 
     quadrics[point].addPlane(1 / size * outwards, mesh.points[a], kBoundary * dot(edge, edge));
 }
 
-/// Of a triangle with one corner at the origin, whose area normal is `size` long; 1 for equal
-/// sides.
+/// The quality of the triangle between the origin, a and b, whose area normal has the length
+/// `size`: 1 if its sides are equal, 0 if it has no area.
 double qualityOf(const Point& a, const Point& b, double size) {
   const Point c = b - a;
   return 2 * std::sqrt(3.0) * size / (dot(a, a) + dot(b, b) + dot(c, c));
@@ -46,8 +47,8 @@ double qualityOf(const Point& a, const Point& b, double size) {
 
 }  // namespace
 
-CollapseCost::CollapseCost(const TriangleMesh& mesh)
-    : points_(mesh.points), quadrics_(mesh.points.size()) {
+CollapseCost::CollapseCost(const TriangleMesh& mesh, DecimationAim aim)
+    : points_(mesh.points), even_(aim == DecimationAim::kEven), quadrics_(mesh.points.size()) {
   for (const Triangle& t : mesh.triangles) addTriangle(mesh, t, quadrics_);
   const GluedSides glued = gluedSides(mesh.triangles);
   for (uint32_t side = 0; side < glued.opposite.size(); ++side) {
@@ -55,7 +56,7 @@ CollapseCost::CollapseCost(const TriangleMesh& mesh)
   }
 }
 
-/// At least 1, and infinite where a triangle would turn over or have no area.
+/// A factor of at least 1. It is infinite if a triangle would turn over or lose its area.
 double CollapseCost::shapePenalty(const Ring& ring, uint32_t target) const {
   double worst = kSliver;
   const Point& to = points_[ring.points[target]];
@@ -68,7 +69,7 @@ double CollapseCost::shapePenalty(const Ring& ring, uint32_t target) const {
     if (dot(normal, old) < kTurn * size * length(old)) return kInfinite;
     worst = std::min(worst, quality);
   }
-  return kSliver / worst;
+  return even_ ? kSliver / worst : 1;
 }
 
 void CollapseCost::find(const ShrinkingMesh& shrinking, const Ring& ring,
@@ -92,9 +93,11 @@ void CollapseCost::find(const ShrinkingMesh& shrinking, const Ring& ring,
     const uint32_t to = ring.points[i];
     const uint32_t neighbours = shrinking.neighbours(to) + own - (ring.closed ? 4 : 3);
     const Point way = points_[to] - centre;
-    const double error = quadrics_[ring.centre].at(points_[to]);  // what `to` bears isn't new
-    const double crowd = neighbours > kNeighbours ? 1.0 + (neighbours - kNeighbours) : 1.0;
-    costs[i] = (error + kEvenness * area * dot(way, way)) * crowd * shapePenalty(ring, i);
+    const double error = quadrics_[ring.centre].at(points_[to]);  // that of `to` itself isn't new
+    const bool crowded = even_ && neighbours > kNeighbours;
+    const double crowd = crowded ? 1.0 + (neighbours - kNeighbours) : 1.0;
+    costs[i] = (error + (even_ ? kEvenness : kLittleEvenness) * area * dot(way, way)) * crowd *
+               shapePenalty(ring, i);
   }
 }
 

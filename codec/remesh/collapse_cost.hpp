@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it costs to collapse a point into a neighbour: the quadric error, with planes upright on
-// boundaries; a little of area times squared length, which evens out triangles where the surface is
-// flat; and penalties for slivers and for points with many neighbours.
+// CollapseCost tells what it costs to collapse a point into a neighbour. The cost is the quadric
+// error, with planes that stand upright on boundaries, plus a small part of the area around the
+// point times the squared length of the edge, which makes triangles more even where the surface is
+// flat. Where even triangles are wanted, penalties multiply this sum if triangles become slivers or
+// a point gets many neighbours.
 #pragma once
 
 #include <vector>
@@ -12,27 +14,34 @@
 
 namespace tetrakis::inline remesh {
 
+/// What triangles are wanted for.
+enum class DecimationAim {
+  kEven,  ///< a base mesh, over whose triangles a surface lies
+  kNear   ///< a surface of its own, of as few triangles as an error allows
+};
+
 class CollapseCost {
  public:
-  /// `mesh`: no longer than about 1, and the numbers of its triangles those of the rings; outlives
-  /// this.
-  explicit CollapseCost(const TriangleMesh& mesh);
+  /// `mesh` is the one that rings are taken of, before its first collapse. It fits in a cube of
+  /// about side 1, and outlives this.
+  CollapseCost(const TriangleMesh& mesh, DecimationAim aim);
 
-  /// For each point of the ring what it costs to move the centre there; infinite where a triangle
-  /// would turn over or have no area.
+  /// Sets costs[i] to what it costs to move the centre of the ring to its point i. The cost is
+  /// infinite if a triangle would turn over or lose its area.
   void find(const ShrinkingMesh& shrinking, const Ring& ring, std::vector<double>& costs);
 
-  /// The centre has gone to points[target].
+  /// To be called when the centre has moved to point `target` of the ring.
   void collapsed(const Ring& ring, uint32_t target);
 
  private:
   double shapePenalty(const Ring& ring, uint32_t target) const;
 
   const std::vector<Point>& points_;
+  bool even_;
   std::vector<Quadric> quadrics_;
-  // Of the ring in work:
+  // Of the ring that find() works on:
   std::vector<Point> normals_;
-  double thinnest_ = 0;  // quality that is refused
+  double thinnest_ = 0;  // triangles of this quality are refused
 };
 
 }  // namespace tetrakis::inline remesh

@@ -7,13 +7,15 @@
 namespace tetrakis::inline remesh {
 namespace {
 
-/// The triangle around the origin that holds a flat point, and what its corners weigh.
+/// A place in one of the triangles around the origin, by the weights of the triangle's corners.
 struct FlatPlace {
   size_t triangle = 0;
-  std::array<double, 3> weights{1, 0, 0};  // of the origin, of point `triangle`, of the next one
+  /// Of the origin, of point number `triangle` of the ring, and of the point after it.
+  std::array<double, 3> weights{1, 0, 0};
 };
 
-/// Not negative and 1 in all.
+/// Three weights, the last two of which are given, corrected so that none is negative and their sum
+/// is 1.
 std::array<double, 3> sound(double first, double second) {
   first = std::max(first, 0.0);
   second = std::max(second, 0.0);
@@ -22,7 +24,8 @@ std::array<double, 3> sound(double first, double second) {
   return {1 - sum, first, second};
 }
 
-/// `pointOf(i)`, `next(i)`: the ring.
+/// Finds the triangle that holds a flat point. pointOf(i) is point i of the ring, and next(i) the
+/// number of the point after it.
 template <class PointOf, class Next>
 FlatPlace locate(const FlatPoint& flat, size_t triangles, PointOf pointOf, Next next) {
   FlatPlace found;
@@ -94,7 +97,7 @@ uint32_t CollapseMap::undo(uint32_t collapse, SurfacePoint& place) const {
   const uint32_t apex = spokes[i].side % 3;
   const double to = place.weights[apex], first = place.weights[(apex + 1) % 3],
                second = place.weights[(apex + 2) % 3];
-  // The rim of the polygon.
+  // Places on the rim of the polygon keep their weights.
   if (to == 0) return land({i, {0, first, second}});
   if (second == 0 && i == next(target) && exists(target)) return land({target, {0, to, first}});
   if (first == 0 && next(next(i)) == target && exists(next(i)))

@@ -8,11 +8,12 @@
 namespace tetrakis::inline remesh {
 namespace {
 
-/// Looks for a path from a node without a mate, whose sides are alternately not pairs and pairs,
-/// to another node without one, or to a node that may be alone. On such a path pairs and gaps
-/// change places. Nodes at an even distance from the start, along a path of that kind, are outer
-/// ones. Two outer neighbours close an odd cycle, a blossom: all its nodes become outer ones, and
-/// it counts as one node, its base.
+/// Looks for an alternating path from a node without a mate: its first side is no pair, the second
+/// is one, the third is none, and so on. The path may end at another node without a mate, or at a
+/// node that may be alone. Then it is exchanged: its pairs are given up, and its other sides become
+/// pairs. A node is an outer one if an alternating path of even length leads to it from the start,
+/// and an inner one if only paths of odd length do. A side between two outer nodes closes an odd
+/// cycle, a blossom. All nodes of a blossom are outer ones, and it counts as one node, its base.
 class PathSearch {
  public:
   PathSearch(const CubicGraph& graph, const std::vector<bool>& may_be_alone, Matching& matching)
@@ -26,8 +27,8 @@ class PathSearch {
     for (uint32_t node = 0; node < base_.size(); ++node) base_[node] = node;
   }
 
-  /// Matches `root` if that is possible. Otherwise no path ever leads through the nodes that were
-  /// reached, whatever else is matched, and later searches pass them by.
+  /// Matches `root` if that is possible. If it is not, no path will ever lead through the nodes
+  /// that were reached, whatever is matched later, so that later searches leave them out.
   void matchFrom(uint32_t root) {
     reached_.clear();
     outer_.clear();
@@ -54,7 +55,7 @@ class PathSearch {
     outer_.push_back(node);
   }
 
-  /// From an outer node to a neighbour. True: the path ended there, and is exchanged.
+  /// Goes from an outer node to a neighbour. True if a path ended there and has been exchanged.
   bool visit(uint32_t node, uint32_t neighbour) {
     if (places_[neighbour] == Place::inner || mate_[neighbour] == neighbour) return false;
     if (places_[neighbour] == Place::outer) {
@@ -75,8 +76,8 @@ class PathSearch {
     return false;
   }
 
-  /// Pairs `end` with `node`, an outer one, or leaves it alone if they are the same, and so on
-  /// back to the root.
+  /// Exchanges the path from the root to the outer node `node` and on to `end`. If the two are the
+  /// same, this node becomes alone.
   void exchange(uint32_t end, uint32_t node) {
     while (true) {
       const uint32_t next = mate_[node];
@@ -93,7 +94,7 @@ class PathSearch {
     return node;
   }
 
-  /// The base at which the paths from the root to two outer nodes part.
+  /// The last base that the paths from the root to two outer nodes have in common.
   uint32_t commonBase(uint32_t a, uint32_t b) {
     ++time_;
     a = baseOf(a);
@@ -106,8 +107,8 @@ class PathSearch {
     return a;
   }
 
-  /// Makes the nodes from `node` back to `base` a part of the blossom whose cycle goes on at
-  /// `other`.
+  /// Makes the nodes from `node` back to `base` a part of a blossom. `other` is the node after
+  /// `node` in the cycle of the blossom.
   void shrink(uint32_t node, uint32_t other, uint32_t base) {
     while (baseOf(node) != base) {
       before_[node] = other;
@@ -130,9 +131,11 @@ class PathSearch {
   const std::vector<bool>& may_be_alone_;
   Matching& mate_;
   std::vector<Place> places_;
-  std::vector<uint32_t> before_;  ///< the outer node before an inner one, or the other way about
-  std::vector<uint32_t> base_;    ///< one step of the way to the base of the blossom
-  std::vector<uint32_t> mark_;
+  /// For an inner node the outer node before it. Nodes of a blossom: the next node on the other way
+  /// round its cycle.
+  std::vector<uint32_t> before_;
+  std::vector<uint32_t> base_;  ///< a step towards the base of a node's blossom
+  std::vector<uint32_t> mark_;  ///< the time when commonBase() last came to a node
   uint32_t time_ = 0;
   std::vector<uint32_t> reached_, outer_;
 };

@@ -11,15 +11,18 @@ namespace tetrakis::inline remesh {
 
 constexpr uint32_t kNoMate = ~uint32_t{0};
 
-/// Of each node the neighbours, kNoMate where there is none. Neighbours know one another.
+/// For each node its neighbours; kNoMate fills up places. If a node names another one as neighbour,
+/// that one names it too.
 using CubicGraph = std::vector<std::array<uint32_t, 3>>;
 
-/// Of each node the mate, a neighbour; itself, if it is matched alone; kNoMate, if it has none.
+/// For each node its mate: a neighbour, or the node itself if it is matched alone, or kNoMate if it
+/// has no mate.
 using Matching = std::vector<uint32_t>;
 
-/// Adds pairs to `matching`, in which none is alone, until there are as many as there can be. Nodes
-/// that had mates keep having some. Then matches as many as possible of the nodes without mates by
-/// leaving alone others that may be: no more nodes than the greatest number of pairs demands.
+/// Adds pairs to `matching` until there are as many as there can be. No node may be alone in it
+/// before. A node that has a mate may get another one, but does not lose it. Then nodes that still
+/// have no mate get one if they, or others in their stead, may be alone. No more nodes are alone
+/// than the greatest number of pairs leaves over.
 void completeMatching(const CubicGraph& graph, const std::vector<bool>& may_be_alone,
                       Matching& matching);
 

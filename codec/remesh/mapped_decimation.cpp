@@ -12,18 +12,12 @@
 namespace tetrakis::inline remesh {
 namespace {
 
-/// The mesh within a cube of side 1, so that limits do not depend on the unit.
+/// The mesh, moved and scaled into a cube of side 1, so that limits do not depend on its unit.
 TriangleMesh ofUnitSize(const TriangleMesh& mesh) {
   TriangleMesh scaled = mesh;
   if (mesh.points.empty()) return scaled;
-  Point low = mesh.points.front(), high = low;
-  for (const Point& point : mesh.points) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], point[axis]);
-      high[axis] = std::max(high[axis], point[axis]);
-    }
-  }
-  double half = 0;  // the whole might be infinite
+  const auto [low, high] = boxAround(mesh.points);
+  double half = 0;  // of the longest side, which might be too long for a double
   for (size_t axis = 0; axis < 3; ++axis) half = std::max(half, high[axis] / 2 - low[axis] / 2);
   if (!(half > 0)) half = 1;
   for (Point& point : scaled.points) {
@@ -35,11 +29,12 @@ TriangleMesh ofUnitSize(const TriangleMesh& mesh) {
 /// Collapses points, the cheapest one first.
 class Decimator {
  public:
-  Decimator(const TriangleMesh& mesh, CollapseMap& map)
-      : mesh_(mesh), shrinking_(mesh), cost_(mesh), map_(map), stamps_(mesh.points.size()) {}
+  Decimator(const TriangleMesh& mesh, DecimationAim aim, CollapseMap& map)
+      : mesh_(mesh), shrinking_(mesh), cost_(mesh, aim), map_(map), stamps_(mesh.points.size()) {}
 
   uint32_t run(uint32_t fewest) {
-    // What hinders a point may vanish with a collapse that isn't beside it: so another round.
+    // A point that could not go may be able to after collapses elsewhere: so all points are offered
+    // again, in rounds.
     for (uint32_t before = kNone; shrinking_.triangleCount() > fewest;) {
       if (before - shrinking_.triangleCount() <= before / kRoundsEnd) break;
       before = shrinking_.triangleCount();
@@ -50,13 +45,14 @@ class Decimator {
   }
 
  private:
-  static constexpr uint32_t kRoundsEnd = 256;  // a round that takes one triangle in so many is last
+  /// A round is the last one if it removes no more than one triangle in so many.
+  static constexpr uint32_t kRoundsEnd = 256;
 
   struct Offer {
     double cost;
     uint32_t point, stamp;
 
-    bool operator<(const Offer& other) const {  // the cheapest one on top of a heap
+    bool operator<(const Offer& other) const {  // so that the cheapest one is on top of a heap
       return cost != other.cost ? cost > other.cost : point > other.point;
     }
   };
@@ -65,7 +61,8 @@ class Decimator {
     uint32_t target = kNone;
   };
 
-  /// The cheapest neighbour for the centre of ring_; flat: that the flattened ring allows as well.
+  /// The cheapest neighbour that the centre of ring_ may collapse into. `flat`: the collapse must
+  /// also be possible in the flattened ring, which goes to flat_.
   Choice choose(bool flat) {
     cost_.find(shrinking_, ring_, costs_);
     if (flat) flatten(mesh_.points, ring_, flat_);
@@ -83,6 +80,7 @@ class Decimator {
     }
   }
 
+  /// Puts the point on the heap with what it costs now. Earlier offers of it are void.
   void offer(uint32_t point) {
     ++stamps_[point];
     if (!shrinking_.findRing(point, ring_)) return;
@@ -95,6 +93,7 @@ class Decimator {
     std::push_heap(heap_.begin(), heap_.end());
   }
 
+  /// Collapses the cheapest point, unless its offer is void, or it costs more by now.
   void takeCheapest() {
     std::pop_heap(heap_.begin(), heap_.end());
     const Offer offered = heap_.back();
@@ -116,9 +115,9 @@ class Decimator {
   ShrinkingMesh shrinking_;
   CollapseCost cost_;
   CollapseMap& map_;
-  std::vector<uint32_t> stamps_;  // of the offer of each point that holds
+  std::vector<uint32_t> stamps_;  // for each point the stamp of its offer that is valid
   std::vector<Offer> heap_;
-  // In work:
+  // Of the point in work:
   Ring ring_;
   std::vector<double> costs_;
   std::vector<FlatPoint> flat_;
@@ -127,10 +126,10 @@ class Decimator {
 
 }  // namespace
 
-MappedDecimation::MappedDecimation(const TriangleMesh& mesh, uint32_t fewest)
+MappedDecimation::MappedDecimation(const TriangleMesh& mesh, uint32_t fewest, DecimationAim aim)
     : mesh_(mesh), map_(mesh.triangles.size()) {
   const TriangleMesh scaled = ofUnitSize(mesh);
-  fewest_ = Decimator(scaled, map_).run(fewest);
+  fewest_ = Decimator(scaled, aim, map_).run(fewest);
 }
 
 DecimatedMesh MappedDecimation::base(uint32_t most_triangles) const {
@@ -145,8 +144,7 @@ DecimatedMesh MappedDecimation::base(uint32_t most_triangles) const {
     if (triangles[t][0] == kNone) continue;
     for (uint32_t& point : triangles[t]) {
       if (number[point] == kNone) {
-        number[point] = static_cast<uint32_t>(base.points.size());
-        base.points.push_back(point);
+        number[point] = static_cast<uint32_t>(base.mesh.points.size());
         base.mesh.points.push_back(mesh_.points[point]);
       }
       point = number[point];

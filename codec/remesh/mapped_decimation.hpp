@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// MappedDecimation finds base meshes of few triangles, and where each of their places lies on the
-// mesh that they come from (MAPS, Lee et al. 1998). Points collapse into neighbours, the cheapest
-// one first, so that points of a base are points of the mesh; the surface keeps its topology, and
-// base and mesh have a one-to-one map by construction, whatever the genus.
+// MappedDecimation makes base meshes of few triangles, and tells where each place of a base lies on
+// the mesh that it was made of (MAPS, Lee et al. 1998). Points collapse into neighbours, the
+// cheapest one first, so that each point of a base is a point of the mesh. The surface keeps its
+// topology. The map between base and mesh is one to one by construction, whatever the genus.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "codec/remesh/collapse_cost.hpp"
 #include "codec/remesh/collapse_map.hpp"
 #include "codec/remesh/triangle_mesh.hpp"
 
@@ -15,26 +16,27 @@ namespace tetrakis::inline remesh {
 
 struct DecimatedMesh {
   TriangleMesh mesh;
-  std::vector<uint32_t> points;     ///< for each point the one of the input that lies there
-  std::vector<uint32_t> triangles;  ///< the number that each triangle has in the input
-  std::vector<uint32_t> collapses;  ///< the last one that changed each triangle, or kNone
+  std::vector<uint32_t> triangles;  ///< for each triangle its number in the input
+  /// For each triangle the last collapse that changed it, or kNone.
+  std::vector<uint32_t> collapses;
 };
 
 class MappedDecimation {
  public:
-  /// Collapses until there are no more than `fewest` triangles, or no point can go. `mesh`: as
-  /// `cleaned()` returns it; outlives this. Components keep a tetrahedron at least, or two
-  /// triangles if they have a boundary.
-  MappedDecimation(const TriangleMesh& mesh, uint32_t fewest);
+  /// Collapses points until there are no more than `fewest` triangles, or no point can be
+  /// collapsed. `mesh` is one that `cleaned()` has returned; it outlives this. A closed component
+  /// keeps at least four triangles, and one with a boundary at least two.
+  MappedDecimation(const TriangleMesh& mesh, uint32_t fewest,
+                   DecimationAim aim = DecimationAim::kEven);
 
-  /// Triangles at the end.
+  /// The number of triangles that were left at the end.
   uint32_t fewest() const { return fewest_; }
 
-  /// The first mesh of the run with at most so many triangles, or the last one of all.
+  /// The first mesh of the run that had at most so many triangles, or else its last mesh.
   DecimatedMesh base(uint32_t most_triangles) const;
 
-  /// `place`: of `base.mesh`. Corners go to their points, and a place on an edge to one place,
-  /// whichever of its triangles it is given in.
+  /// Where a place of `base.mesh` lies on the input. A corner goes to its point. A place on an edge
+  /// goes to the same place from both triangles of the edge.
   SurfacePoint toInput(const DecimatedMesh& base, const SurfacePoint& place) const;
 
  private:

@@ -38,9 +38,9 @@ double MeshColours::value(int64_t x, int64_t y, uint32_t channel) const {
 }
 
 void MeshColours::sample(const std::array<double, 2>& at, uint16_t* out) const {
-  constexpr double kFarthest = 1e6;  // turns of the image: beyond them no texel can be told
+  constexpr double kFarthest = 1e6;  // repeats of the image, beyond which doubles are too coarse
   const auto turned = [](double place) {
-    return std::abs(place) <= kFarthest ? place : 0.0;  // not a number, too
+    return std::abs(place) <= kFarthest ? place : 0.0;  // 0 also if it is not a number
   };
   const double x = turned(at[0]) * image_.width - 0.5, y = turned(at[1]) * image_.height - 0.5;
   const double left = std::floor(x), top = std::floor(y), right = x - left, down = y - top;

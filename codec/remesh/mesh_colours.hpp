@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// MeshColours takes the colours of a mesh's image to the patches of a forest: each texel has the
-// colour of the place where its sample was cast, on the triangle that lies there, so that charts of
-// the image that touch each other do not mix.
+// MeshColours looks up the colours of places of a mesh in the image of the mesh. Each texel of a
+// forest's patch gets the colour of the place that its sample shows. The texture coordinates are
+// those of the triangle at that place, so that charts of the image that touch do not mix.
 #pragma once
 
 #include <array>
@@ -14,24 +14,30 @@
 
 namespace tetrakis::inline remesh {
 
-/// Values of 8 or 16 bits, row by row, `channels` for each texel.
+/// Values of 8 or 16 bits, row by row, `channels` for each texel. Either `bytes` or `shorts` is
+/// empty.
 struct MeshImage {
   uint32_t width = 0, height = 0, channels = 0;
-  std::span<const uint8_t> bytes;  ///< one of the two is empty
+  std::span<const uint8_t> bytes;
   std::span<const uint16_t> shorts;
 };
 
 class MeshColours {
  public:
-  /// texcoords: three pairs a triangle of the input, from 0 to 1 across the image, which repeats
-  /// beyond. All outlive this.
+  /// texcoords: three pairs for each triangle of the input. They run from 0 to 1 across the image,
+  /// which repeats beyond. The mesh and what the spans show outlive this.
   MeshColours(const CleanedMesh& mesh, std::span<const float> texcoords, const MeshImage& image)
       : mesh_(mesh), texcoords_(texcoords), image_(image) {}
 
-  /// MeshColours of the image that the mesh shows.
+  /// How many texels of the image the triangles of the mesh show, counted once for each triangle.
   double shown() const;
 
-  /// The colour at each place, bilinear between the middles of texels.
+  /// Of the same mesh under other texels, interleaved, of the same size; they outlive it.
+  MeshColours withTexels(std::span<const uint16_t> texels) const {
+    return {mesh_, texcoords_, {image_.width, image_.height, image_.channels, {}, texels}};
+  }
+
+  /// The channels of each place, interpolated bilinearly between the centres of texels.
   std::vector<uint16_t> at(std::span<const SurfacePoint> places) const;
 
  private:

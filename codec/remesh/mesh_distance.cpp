@@ -14,7 +14,8 @@ namespace {
 constexpr double kPlastic1 = 0.7548776662466927;
 constexpr double kPlastic2 = 0.5698402909980532;
 
-/// The area of all triangles up to each, or their number if they have no area.
+/// For each triangle the doubled area of all triangles up to it, or if no triangle has an area,
+/// their number.
 std::vector<double> cumulatedAreas(const TriangleMesh& mesh) {
   std::vector<double> areas;
   areas.reserve(mesh.triangles.size());
@@ -28,15 +29,31 @@ std::vector<double> cumulatedAreas(const TriangleMesh& mesh) {
   return areas;
 }
 
-/// The place of number `i` in a triangle.
+/// Where place number `i` lies in its triangle.
 std::array<double, 3> evenWeights(size_t i) {
   const double u = static_cast<double>(i) * kPlastic1, v = static_cast<double>(i) * kPlastic2;
   double right = u - std::floor(u), up = v - std::floor(v);
-  if (right + up > 1) {  // the other half of the square
+  if (right + up > 1) {  // it lies in the other half of the square
     right = 1 - right;
     up = 1 - up;
   }
   return {1 - right - up, right, up};
+}
+
+/// From `count` places of `from` to the mesh of `to`; infinite if that has no triangles.
+OneWayDistance distanceTo(const TriangleTree& to, const TriangleMesh& from, size_t count) {
+  const std::vector<SurfacePoint> places = evenPlaces(from, count);
+  OneWayDistance result;
+  if (places.empty()) return result;
+  double squares = 0;
+  for (const SurfacePoint& place : places) {
+    const auto nearest = to.closest(at(from, place));
+    const double distance = nearest ? nearest->distance : std::numeric_limits<double>::infinity();
+    squares += distance * distance;
+    result.largest = std::max(result.largest, distance);
+  }
+  result.rms = std::sqrt(squares / static_cast<double>(places.size()));
+  return result;
 }
 
 }  // namespace
@@ -53,25 +70,6 @@ std::vector<SurfacePoint> evenPlaces(const TriangleMesh& mesh, size_t count) {
     places.push_back({static_cast<uint32_t>(triangle), evenWeights(i)});
   }
   return places;
-}
-
-OneWayDistance distanceTo(const TriangleTree& to, const TriangleMesh& from, size_t count) {
-  const std::vector<SurfacePoint> places = evenPlaces(from, count);
-  OneWayDistance result;
-  if (places.empty()) return result;
-  double squares = 0;
-  for (const SurfacePoint& place : places) {
-    const auto nearest = to.closest(at(from, place));
-    const double distance = nearest ? nearest->distance : std::numeric_limits<double>::infinity();
-    squares += distance * distance;
-    result.largest = std::max(result.largest, distance);
-  }
-  result.rms = std::sqrt(squares / static_cast<double>(places.size()));
-  return result;
-}
-
-MeshDistance meshDistance(const TriangleMesh& first, const TriangleMesh& second, size_t count) {
-  return meshDistance(TriangleTree(first), TriangleTree(second), count);
 }
 
 MeshDistance meshDistance(const TriangleTree& first, const TriangleTree& second, size_t count) {

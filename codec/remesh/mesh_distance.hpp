@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far two surfaces are apart, by samples of each and the nearest places of the other, as Metro
-// measures it (Cignoni, Rocchini, Scopigno, 1998).
+// meshDistance() measures how far two surfaces are apart. It takes places of either surface and
+// finds the nearest place of the other one, as Metro does (Cignoni, Rocchini, Scopigno, 1998).
 #pragma once
 
 #include <cstddef>
@@ -10,33 +10,27 @@
 
 namespace tetrakis::inline remesh {
 
-constexpr size_t kDistanceSamples = 20000;
+constexpr size_t kDistanceSamples = 20000;  ///< places of each surface, where nobody says how many
 
-/// `count` places of a mesh, as dense everywhere: the same ones in each call. A mesh without area
-/// has as many in each triangle, one without triangles none.
+/// `count` places of a mesh, spread evenly over its area. Each call gives the same ones. If the
+/// mesh has no area, its triangles get equally many; if it has no triangles, there are no places.
 std::vector<SurfacePoint> evenPlaces(const TriangleMesh& mesh, size_t count);
 
-/// From the places of one surface to another one, in the unit of the points.
+/// Distances from places of one surface to the other one, in the unit of the points.
 struct OneWayDistance {
   double rms = 0;
   double largest = 0;
 };
 
-/// From `count` places of `from` to the mesh of `to`. Infinite if that has no triangles.
-OneWayDistance distanceTo(const TriangleTree& to, const TriangleMesh& from,
-                          size_t count = kDistanceSamples);
-
 struct MeshDistance {
   OneWayDistance to_second, to_first;
-  double error = 0;  ///< the larger RMS
-  double psnr = 0;  ///< in dB: of the diagonal of the first mesh to `error`; infinite without error
+  double error = 0;  ///< the larger one of both RMS
+  /// The ratio of the first mesh's diagonal to `error`, in dB. Infinite if `error` is 0.
+  double psnr = 0;
 };
 
-/// With `count` places of each. An empty mesh is infinitely far from others.
-MeshDistance meshDistance(const TriangleMesh& first, const TriangleMesh& second,
-                          size_t count = kDistanceSamples);
-
-/// The trees' own meshes, for measuring one mesh against many.
+/// The distance between the meshes of two trees, by `count` places of each. An empty mesh is
+/// infinitely far from one that has triangles.
 MeshDistance meshDistance(const TriangleTree& first, const TriangleTree& second,
                           size_t count = kDistanceSamples);
 

@@ -9,7 +9,8 @@
 namespace tetrakis::inline remesh {
 namespace {
 
-/// How many sets hold one of the points.
+/// The number of sets that hold at least one of these points. (If a set holds one, it holds its
+/// lowest one too.)
 uint32_t setsOf(DisjointSets& sets, const std::vector<bool>& points) {
   uint32_t count = 0;
   for (uint32_t point = 0; point < points.size(); ++point)

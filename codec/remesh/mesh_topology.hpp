@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers that say of what shape a surface is, however it is bent: they tell whether a step of
-// the encoder has torn or closed anything.
+// topologyOf() counts what does not change if a surface is bent: its components, its boundaries and
+// its Euler number. So it shows whether a step of the encoder has torn or closed the surface.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,8 @@ struct Topology {
   bool operator==(const Topology&) const = default;
 };
 
-/// `mesh`: an oriented manifold, perhaps with boundary, as `cleaned()` returns. Points of no
-/// triangle do not count.
+/// `mesh` is an oriented manifold, perhaps with boundary, such as `cleaned()` returns. Points that
+/// no triangle has do not count.
 Topology topologyOf(const TriangleMesh& mesh);
 
 }  // namespace tetrakis::inline remesh

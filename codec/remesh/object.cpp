@@ -12,35 +12,31 @@ namespace tetrakis::inline remesh {
 
 namespace {
 
-/// The same or a little more, with so many significant bits: headers leave out zero bytes.
+/// The value, rounded up to so many significant bits: headers leave out the zero bytes behind them.
 double roundedUp(double value, int bits) {
   int exponent = 0;
   const double mantissa = std::frexp(value, &exponent);
   return std::ldexp(std::ceil(std::ldexp(mantissa, bits)), exponent - bits);
 }
 
-/// A grid of cells that holds all points, without its corners.
+/// A base mesh without corners, whose grid of cells holds all points.
 BaseMesh gridAround(const TriangleMesh& mesh, int bits) {
   constexpr int kCellBits = 12;
-  Point low = mesh.points.front(), high = low;
-  for (const Point& point : mesh.points) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], point[axis]);
-      high[axis] = std::max(high[axis], point[axis]);
-    }
-  }
-  const Point extent = high - low;
+  const Box box = boxAround(mesh.points);
+  const Point extent = box.high - box.low;
   const double longest = std::max({extent[0], extent[1], extent[2]});
   BaseMesh base;
   base.bits = bits;
-  // Rounding and the step below take up to two cells.
+  // Rounded coordinates and the rounded origin take up to two cells more than the points.
   base.cell = roundedUp(longest / ((1 << bits) - 3), kCellBits);
   if (!(base.cell > 0)) base.cell = 1;
   const double step = std::ldexp(1.0, std::ilogb(base.cell));
-  for (size_t axis = 0; axis < 3; ++axis) base.origin[axis] = std::floor(low[axis] / step) * step;
+  for (size_t axis = 0; axis < 3; ++axis)
+    base.origin[axis] = std::floor(box.low[axis] / step) * step;
   return base;
 }
 
+/// The cell whose centre is nearest to the point.
 Cell cellOf(const BaseMesh& base, const Point& point) {
   Cell cell;
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -50,12 +46,12 @@ Cell cellOf(const BaseMesh& base, const Point& point) {
   return cell;
 }
 
-/// The places of a patch on the two triangles of its quad.
+/// Tells where a place of a patch lies on the two triangles of its quad.
 class PatchMap {
  public:
   PatchMap(const PairedMesh& paired, const QuadForest& forest) : paired_(paired), forest_(forest) {}
 
-  /// x and y from 0 to 1.
+  /// x runs along the north side of the patch and y along its west side, both from 0 to 1.
   SurfacePoint at(uint32_t patch, double x, double y) const {
     const auto corner = [&](uint32_t which) { return kPlaces[forest_.quadCorner(patch, which)]; };
     const auto nw = corner(0), ne = corner(1), sw = corner(3);
@@ -67,7 +63,8 @@ class PatchMap {
   }
 
  private:
-  /// Of the corners of a quad: how far along its sides 0 3 and 0 1.
+  /// Coordinates of the four corners of a quad: the first runs along the side from corner 0 to
+  /// corner 3, the second along the side from corner 0 to corner 1.
   static constexpr std::array<std::array<double, 2>, 4> kPlaces = {
       {{0, 0}, {0, 1}, {1, 1}, {1, 0}}};
 
@@ -83,7 +80,7 @@ ObjectSource::ObjectSource(const TriangleMesh& mesh, uint32_t fewest)
       decimation_(cleaned_.mesh, fewest),
       diagonal_(tetrakis::diagonal(cleaned_.mesh)) {}
 
-/// The base of so many triangles, as quads.
+/// A decimated mesh, its triangles paired to quads, and the forest of these.
 struct ObjectSource::Quads {
   DecimatedMesh decimated;
   PairedMesh paired;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // ObjectSource takes a mesh of any triangles and resamples it over a base mesh of quads, as finely
-// as is asked for: the input is cleaned, decimated with a map, paired to quads; then the bent base
-// that decoders will have is cast onto the mesh.
+// as is asked for. The input is cleaned and decimated, with a map back to it, and the triangles
+// that are left are paired to quads. Then lines from the bent base that decoders will have are
+// followed to the mesh.
 #pragma once
 
 #include <cstdint>
@@ -16,22 +17,22 @@
 namespace tetrakis::inline remesh {
 
 struct ObjectShape {
-  uint32_t base_triangles = 1000;  ///< at most, before pairing
+  uint32_t base_triangles = 1000;  ///< most triangles of the decimated mesh, before pairing
   int depth = 4;                   ///< patches have (2^depth + 1)^2 samples
-  int position_bits = 10;          ///< of a coordinate of a corner of the base
+  int position_bits = 10;          ///< bits of each coordinate of a corner of the base
 };
 
 /// A mesh as heights over a base.
 struct ResampledObject {
   BaseMesh base;
   CastSurface surface;
-  uint32_t base_triangles = 0;  ///< as asked for
+  uint32_t base_triangles = 0;  ///< the number that was asked for
 };
 
 class ObjectSource {
  public:
-  /// mesh: finite, with a triangle that is left after cleaning. fewest: base triangles that will be
-  /// asked for at least.
+  /// mesh: its coordinates are finite. Cleaning must leave at least one triangle of it before bases
+  /// are asked for. fewest: no base of fewer triangles will be asked for.
   ObjectSource(const TriangleMesh& mesh, uint32_t fewest);
 
   const CleanedMesh& cleaned() const { return cleaned_; }
@@ -40,14 +41,15 @@ class ObjectSource {
   ObjectSource(const ObjectSource&) = delete;
   ObjectSource& operator=(const ObjectSource&) = delete;
 
-  /// Triangles of the smallest base there is.
+  /// The number of triangles of the smallest base that there is.
   uint32_t fewestTriangles() const { return decimation_.fewest(); }
   double diagonal() const { return diagonal_; }
 
-  /// Bases have no fewer triangles than the decimation could leave.
+  /// The mesh over a base of that shape. If the decimation could not leave so few triangles, the
+  /// base is the smallest that there is.
   ResampledObject resampled(const ObjectShape& shape) const;
 
-  /// Where samples of patches of another depth, over the same base, lie on the mesh.
+  /// Where the samples lie on the mesh if the patches over the same base have another depth.
   std::vector<SurfacePoint> placesOn(const ResampledObject& object, int depth) const;
 
  private:

@@ -7,13 +7,14 @@
 namespace tetrakis::inline remesh {
 namespace {
 
-constexpr int kExchangeRounds = 20;  ///< over all triangles at most; four to eight are usual
-constexpr double kLeastGain = 1e-9;  ///< an exchange takes away more badness than that
+constexpr size_t kExchangedPairs = 12;  ///< most pairs of one exchange
+constexpr int kExchangeRounds = 20;     ///< most rounds over all triangles; 4 to 8 are usual
+constexpr double kLeastGain = 1e-9;     ///< an exchange lowers the badness by more than that
 
-/// Triangles of which each is a neighbour of the next. Now the second and third are a pair, the
-/// fourth and fifth and so on, and the first one's mate is the last one, or it is alone. The
-/// exchange would pair the first and second, the third and fourth and so on; a last one that is
-/// over would be alone.
+/// Triangles of which each is a neighbour of the next one. Before the exchange the second and third
+/// are a pair, the fourth and fifth, and so on. The first one is alone, or its mate is the last
+/// one. After the exchange the first and second are a pair, the third and fourth, and so on. If
+/// their number is odd, the last one is alone then.
 struct ExchangePath {
   std::array<uint32_t, 2 * kExchangedPairs + 1> triangles{};
   size_t length = 0;
@@ -38,7 +39,7 @@ class Exchange {
     }
   }
 
-  /// True: something is better now.
+  /// Looks for an exchange from each triangle. True if it has made at least one.
   bool round() {
     bool better = false;
     for (uint32_t t = 0; t < mate_.size(); ++t) {
@@ -60,9 +61,9 @@ class Exchange {
     return graph_.badness[triangle][sideTowards(graph_, triangle, mate)];
   }
 
-  /// Goes on from the last triangle of a path of odd length in all ways that win: at most as deep
-  /// as a path is long. `gain`: badness of the pairs that it takes apart less that of those that
-  /// it makes.
+  /// Continues a path of odd length from its last triangle in all ways that gain. `gain` is the
+  /// badness of the pairs that the path takes apart less the badness of those that it makes. The
+  /// recursion is at most as deep as a path is long.
   void search(const ExchangePath& path, double gain) {
     const uint32_t last = path.back(), end = mate_[path.triangles[0]];
     for (const uint32_t next : graph_.neighbours[last]) {
@@ -81,6 +82,7 @@ class Exchange {
     }
   }
 
+  /// A path that ends with both triangles of a pair: it may end there, or continue.
   void goOn(const ExchangePath& path, double gain) {
     const uint32_t last = path.back(), start = path.triangles[0];
     const bool alone = mate_[start] == start;
@@ -88,6 +90,7 @@ class Exchange {
     if (path.length < path.triangles.size()) search(path, gain);
   }
 
+  /// Keeps the path if its exchange gains more than the best one so far, points included.
   void offer(const ExchangePath& path, double gain) {
     const double total = gain - changePoints(path, 1);
     changePoints(path, -1);
@@ -106,8 +109,8 @@ class Exchange {
     }
   }
 
-  /// Counts quads as after the exchange (`sign` 1), or as before it again (-1). Returns how much
-  /// worse the points are then.
+  /// Changes the counts of quads at points to those after the exchange (`sign` 1), or back to those
+  /// before it (-1). Returns by how much the badness of the points grows.
   double changePoints(const ExchangePath& path, int sign) {
     double worse = 0;
     for (size_t i = 0; i + 1 < path.length; ++i) {
@@ -119,7 +122,7 @@ class Exchange {
     return worse + addSide(path.back(), sideTowards(graph_, path.back(), path.triangles[0]), sign);
   }
 
-  /// Returns how much worse its ends are with `count` sides more.
+  /// Adds `count` sides to both ends of a side. Returns by how much the badness of the ends grows.
   double addSide(uint32_t triangle, size_t side, int count) {
     double worse = 0;
     for (const size_t corner : {side, (side + 1) % 3}) {
@@ -134,9 +137,9 @@ class Exchange {
   const TriangleMesh& mesh_;
   const PairGraph& graph_;
   Matching& mate_;
-  std::vector<int> quads_;  ///< that meet in each point, at the border: 0
-  ExchangePath best_;       ///< of the paths that were offered, empty at first
-  double gain_ = 0;         ///< of it
+  std::vector<int> quads_;  ///< how many meet in each point; 0 at the border
+  ExchangePath best_;       ///< the best path that was offered; empty if there is none
+  double gain_ = 0;         ///< what best_ gains
 };
 
 }  // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes better quads of matched triangles by exchanges among a few neighbours.
+// exchangePairs() improves the quads of matched triangles by exchanges among a few neighbours.
 #pragma once
-
-#include <cstddef>
 
 #include "codec/remesh/cubic_matching.hpp"
 #include "codec/remesh/pair_graph.hpp"
@@ -10,17 +8,17 @@
 
 namespace tetrakis::inline remesh {
 
-constexpr size_t kExchangedPairs = 12;  ///< at most
-
-/// Looks for cycles of neighbours that are pairs, gap, pair, gap and so on, in which pairs and gaps
-/// may change places; and for paths of that kind from a triangle alone to one that may be alone in
-/// its stead. Follows them only as long as what they have exchanged so far is a gain (Lin and
-/// Kernighan, 1973): every cycle that gains can be walked in that way, from one of its pairs. Takes
-/// the best exchange of each triangle while one lowers the badness of quads and points in all. As
-/// many triangles are alone, and as many have no mates, as before.
+/// Looks for cycles of neighbours in which every other side is a pair. If such a cycle is
+/// exchanged, its other sides become the pairs. Also looks for such paths from a triangle that is
+/// alone to one that may be alone in its stead. A cycle or path is followed only as long as the
+/// exchange is a gain up to there (Lin and Kernighan, 1973). No cycle that gains is missed, since
+/// it can be followed in this way from at least one of its pairs. For each triangle the best
+/// exchange is made if it lowers the total badness of quads and points. As many triangles as before
+/// are alone, and as many have no mate.
 void exchangePairs(const TriangleMesh& mesh, const PairGraph& graph, Matching& matching);
 
-/// Of a point inside the mesh where so many quads meet: four are good, two share two sides.
+/// The badness of a point inside the mesh where so many quads meet. Four are good. Two are bad,
+/// since they share two sides.
 double pointBadness(int quads);
 
 }  // namespace tetrakis::inline remesh

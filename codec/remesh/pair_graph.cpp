@@ -3,21 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <utility>
+
+#include "codec/remesh/half_edges.hpp"
 
 namespace tetrakis::inline remesh {
 namespace {
 
 constexpr double kFlatness = 0.5;  ///< weight of the bend at the diagonal
 constexpr double kLengths = 0.25;  ///< weight of the difference of opposite sides
-
 constexpr double kImmense = 1000;  ///< badness of quads whose areas are too large for doubles
 
+/// An angle by its cosine and sine.
 struct CornerAngle {
   double cosine = 1, sine = 0;
 };
 
-/// Between two directions; 0 if one has no length.
+/// The angle between two directions, which is 0 if one of them has no length.
 CornerAngle angleBetween(const Point& a, const Point& b) {
   const double lengths = length(a) * length(b);
   if (!(lengths > 0)) return {};
@@ -28,14 +30,14 @@ CornerAngle sum(const CornerAngle& a, const CornerAngle& b) {
   return {a.cosine * b.cosine - a.sine * b.sine, a.sine * b.cosine + a.cosine * b.sine};
 }
 
-/// 0 for 90 degrees, 1 for 0 and 180, and more beyond.
+/// The badness of a corner: 0 for 90 degrees, 1 for 0 and 180 degrees, and more beyond 180.
 double cornerBadness(const CornerAngle& angle) {
   const double cosine = angle.sine < 0 ? -2 - angle.cosine : angle.cosine;
   const double cube = cosine * cosine * cosine;
   return cube * cube;
 }
 
-/// From 0 to 1.
+/// How much the lengths of opposite sides differ, from 0 to 1.
 double lengthBadness(const std::array<Point, 4>& sides) {
   std::array<double, 4> lengths{};
   double squares = 0;
@@ -47,48 +49,38 @@ double lengthBadness(const std::array<Point, 4>& sides) {
   return squares > 0 ? (across * across + along * along) / squares : 0;
 }
 
-/// A side by its ends, the lower one first, and who has it.
-struct TriangleSide {
-  uint32_t low, high, triangle, number;
-  bool rising;  ///< leads from the lower to the higher end
-};
-
-std::vector<TriangleSide> sortedSides(const TriangleMesh& mesh) {
-  std::vector<TriangleSide> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (uint32_t k = 0; k < 3; ++k) {
-      const uint32_t a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), t, k, a < b});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
-    return std::tie(a.low, a.high, a.triangle, a.number) <
-           std::tie(b.low, b.high, b.triangle, b.number);
-  });
-  return sides;
+uint32_t cornerAcross(const TriangleMesh& mesh, uint32_t side) {
+  return startOf(mesh.triangles, previousSide(side));
 }
 
-uint32_t cornerAcross(const TriangleMesh& mesh, const TriangleSide& side) {
-  return mesh.triangles[side.triangle][(side.number + 2) % 3];
+/// The other half-edge if its triangle may be a mate, or kNone. Both triangles have to face one
+/// side and must not have the same corners.
+uint32_t pairSide(const TriangleMesh& mesh, const GluedSides& glued, uint32_t side) {
+  const uint32_t other = glued.opposite[side];
+  if (other == kNone || cornerAcross(mesh, side) == cornerAcross(mesh, other) ||
+      startOf(mesh.triangles, side) == startOf(mesh.triangles, other))
+    return kNone;
+  return other;
 }
 
-/// Of the quad that `side` halves, with `other` as the corner beyond it.
-double pairBadness(const TriangleMesh& mesh, const TriangleSide& side, uint32_t other) {
-  const Triangle& t = mesh.triangles[side.triangle];
-  return quadBadness({mesh.points[t[(side.number + 1) % 3]], mesh.points[cornerAcross(mesh, side)],
-                      mesh.points[t[side.number]], mesh.points[other]});
+/// The badness of the quad that `side` halves and whose corner beyond this side is `beyond`.
+double pairBadness(const TriangleMesh& mesh, uint32_t side, uint32_t beyond) {
+  const auto point = [&](uint32_t corner) { return mesh.points[startOf(mesh.triangles, corner)]; };
+  return quadBadness(
+      {point(nextSide(side)), point(previousSide(side)), point(side), mesh.points[beyond]});
 }
 
-/// Of a triangle whose `side` is halved.
-double aloneBadness(const TriangleMesh& mesh, const TriangleSide& side) {
-  const Point &low = mesh.points[side.low], &high = mesh.points[side.high];
-  const Point& across = mesh.points[cornerAcross(mesh, side)];
-  return quadBadness({0.5 * (low + high), high, across, low});
+/// The badness of the quad that a triangle alone becomes if `side` is halved.
+double aloneBadness(const TriangleMesh& mesh, uint32_t side) {
+  const auto [first, last] =
+      std::minmax({startOf(mesh.triangles, side), startOf(mesh.triangles, nextSide(side))});
+  const Point &low = mesh.points[first], &high = mesh.points[last];
+  return quadBadness({0.5 * (low + high), high, mesh.points[cornerAcross(mesh, side)], low});
 }
 
-/// The best side without a neighbour. Of equal ones that across the first point, so that the two
-/// triangles of a closed pillow choose the same side.
+/// The side without a neighbour that is best halved, or 3 if there is none. If several are equally
+/// good, it is the one opposite the lowest point. So the two triangles of a closed pillow halve the
+/// same side.
 uint8_t bestHalved(const TriangleMesh& mesh, const PairGraph& graph, uint32_t t) {
   const auto rank = [&](uint8_t k) {
     return std::pair(graph.badness[t][k], mesh.triangles[t][(k + 2) % 3]);
@@ -125,21 +117,19 @@ PairGraph pairGraph(const TriangleMesh& mesh) {
   graph.neighbours.resize(mesh.triangles.size(), {kNoMate, kNoMate, kNoMate});
   graph.badness.resize(mesh.triangles.size());
   graph.at_border.resize(mesh.points.size());
-  const std::vector<TriangleSide> sides = sortedSides(mesh);
-  for (size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-    const TriangleSide &a = sides[begin], &b = sides[std::min(begin + 1, sides.size() - 1)];
-    while (end < sides.size() && sides[end].low == a.low && sides[end].high == a.high) ++end;
-    const bool two = end - begin == 2 && a.rising != b.rising;
-    if (two && cornerAcross(mesh, a) != cornerAcross(mesh, b)) {
-      graph.neighbours[a.triangle][a.number] = b.triangle;
-      graph.neighbours[b.triangle][b.number] = a.triangle;
-      graph.badness[a.triangle][a.number] = graph.badness[b.triangle][b.number] =
-          pairBadness(mesh, a, cornerAcross(mesh, b));
-      continue;
-    }
-    for (size_t i = begin; i < end; ++i) {
-      graph.badness[sides[i].triangle][sides[i].number] = aloneBadness(mesh, sides[i]);
-      graph.at_border[a.low] = graph.at_border[a.high] = true;
+  const GluedSides glued = gluedSides(mesh.triangles);
+  for (uint32_t side = 0; side < glued.opposite.size(); ++side) {
+    const uint32_t other = pairSide(mesh, glued, side);
+    double& badness = graph.badness[side / 3][side % 3];
+    if (other == kNone) {
+      badness = aloneBadness(mesh, side);
+      graph.at_border[startOf(mesh.triangles, side)] = true;
+      graph.at_border[startOf(mesh.triangles, nextSide(side))] = true;
+    } else {
+      graph.neighbours[side / 3][side % 3] = other / 3;
+      // Both sides get the same bits: those that are computed from the lower one.
+      badness = side < other ? pairBadness(mesh, side, cornerAcross(mesh, other))
+                             : graph.badness[other / 3][other % 3];
     }
   }
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -152,15 +142,6 @@ size_t sideTowards(const PairGraph& graph, uint32_t triangle, uint32_t mate) {
   if (mate == triangle) return graph.halved[triangle];
   const auto& sides = graph.neighbours[triangle];
   return static_cast<size_t>(std::find(sides.begin(), sides.end(), mate) - sides.begin());
-}
-
-double totalBadness(const PairGraph& graph, const Matching& matching) {
-  double sum = 0;
-  for (uint32_t t = 0; t < matching.size(); ++t) {
-    if (matching[t] == kNoMate || matching[t] < t) continue;
-    sum += graph.badness[t][sideTowards(graph, t, matching[t])];
-  }
-  return sum;
 }
 
 }  // namespace tetrakis::inline remesh

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which triangles of a mesh may be paired to quads, and how good the quads would be. Side k of a
-// triangle leads from its corner k to the next one.
+// PairGraph tells which triangles of a mesh may be paired to quads, and how bad the quads would be.
 #pragma once
 
 #include <array>
@@ -14,25 +13,25 @@
 namespace tetrakis::inline remesh {
 
 struct PairGraph {
-  /// The triangles beyond the three sides. kNoMate, where none can be a mate: at the border, and
-  /// where the other triangle has the same corners.
+  /// For each triangle those beyond its sides 0, 1 and 2. kNoMate where there is none that could be
+  /// a mate: at the border, and where the other triangle has the same three corners.
   CubicGraph neighbours;
-  /// Of the quads with them. Without a neighbour: of the triangle alone with that side halved.
+  /// The badness of the quad with each neighbour. Where there is none: the badness of the quad that
+  /// the triangle alone becomes if that side is halved.
   std::vector<std::array<double, 3>> badness;
-  std::vector<uint8_t> halved;  ///< the side that is halved in a triangle alone; 3: none can be
-  std::vector<bool> at_border;  ///< of points: ends of sides without neighbours
+  /// For each triangle the side that is halved if it is alone; 3 if it must not be alone.
+  std::vector<uint8_t> halved;
+  std::vector<bool> at_border;  ///< for each point: whether a side without a neighbour ends there
 };
 
 PairGraph pairGraph(const TriangleMesh& mesh);
 
-/// How far a quad is from a flat square: 0 for one, at least 1/4 if a corner has 180 degrees.
-/// Degenerate quads have finite values.
+/// Tells how far a quad is from a flat square, which has 0. A quad with a corner of 180 degrees has
+/// at least 1/4. Degenerate quads have finite values too.
 double quadBadness(const std::array<Point, 4>& corners);
 
-/// The side of `triangle` towards `mate`, a neighbour; towards itself the one that would be halved.
+/// The side of `triangle` beyond which its neighbour `mate` lies. If `mate` is `triangle` itself:
+/// the side that is halved.
 size_t sideTowards(const PairGraph& graph, uint32_t triangle, uint32_t mate);
-
-/// Of all quads, alone ones as well.
-double totalBadness(const PairGraph& graph, const Matching& matching);
 
 }  // namespace tetrakis::inline remesh

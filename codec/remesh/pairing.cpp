@@ -14,7 +14,8 @@
 namespace tetrakis::inline remesh {
 namespace {
 
-/// Takes the best quad of two triangles without mates, again and again.
+/// Pairs two triangles without mates, those of the best quad first, until no such two are
+/// neighbours.
 Matching greedyPairs(const PairGraph& graph) {
   std::vector<std::tuple<double, uint32_t, uint32_t>> pairs;
   for (uint32_t t = 0; t < graph.neighbours.size(); ++t) {
@@ -42,7 +43,7 @@ Matching bestPairs(const TriangleMesh& mesh, const PairGraph& graph) {
   return matching;
 }
 
-/// A corner of a quad: a point of the new mesh, and where it lies in the triangle of the base.
+/// A corner of a quad: a point of the new mesh, and its weights in the triangle of the base.
 struct QuadCorner {
   uint32_t point;
   std::array<double, 3> weights;
@@ -54,12 +55,14 @@ class QuadBuilder {
     result_.mesh.points = base.points;
   }
 
-  /// Two triangles, the first with its side `k` towards the second one's side `j`.
+  /// Adds the quad of the triangles `t` and `mate`. Side `k` of the first is side `j` of the
+  /// second.
   void addPair(uint32_t t, size_t k, uint32_t mate, size_t j) {
     addQuad({t, {corner(t, k + 1), corner(t, k + 2), corner(t, k)}},
             {mate, {corner(mate, j), corner(mate, j + 1), corner(mate, j + 2)}});
   }
 
+  /// Adds the quad of a triangle alone whose side `k` is halved.
   void addAlone(uint32_t t, size_t k) {
     const QuadCorner start = corner(t, k), end = corner(t, k + 1), across = corner(t, k + 2);
     QuadCorner middle = start;
@@ -71,8 +74,9 @@ class QuadBuilder {
   PairedMesh take() { return std::move(result_); }
 
  private:
+  /// One of the two triangles of a quad.
   struct Half {
-    uint32_t triangle;  ///< of the base
+    uint32_t triangle;  ///< the triangle of the base in which it lies
     std::array<QuadCorner, 3> corners;
   };
 
@@ -108,7 +112,8 @@ class QuadBuilder {
 
   const TriangleMesh& base_;
   PairedMesh result_;
-  std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles_;  ///< of sides: the points
+  /// For the two ends of each halved side, the lower one first, the point in its middle.
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles_;
 };
 
 }  // namespace

@@ -10,13 +10,13 @@ namespace tetrakis::inline remesh {
 
 namespace {
 
-/// Side i of a patch runs clockwise from corner i to the next one: corner i of the patch is corner
-/// -i of the quad.
+/// The two ends of a side, if corner 0 of the quad is the north-west corner of its patch. Side i
+/// runs clockwise from corner i of the patch, which is corner -i of the quad (modulo 4).
 std::array<uint32_t, 2> endsOf(const Quad& quad, uint32_t side) {
   return {quad.corners[(4 - side) % 4], quad.corners[3 - side]};
 }
 
-/// A side by its ends, the lower one first.
+/// The number of a side after its ends, the lower one first.
 struct Edge {
   uint32_t low, high, side;
   bool operator<(const Edge& other) const {
@@ -24,6 +24,7 @@ struct Edge {
   }
 };
 
+/// For each side, 4 for each quad, the one that it is glued to, or Forest::kBorder.
 std::vector<uint32_t> gluedSides(std::span<const Quad> quads) {
   std::vector<Edge> edges;
   std::vector<std::array<uint32_t, 2>> ends;
@@ -53,13 +54,13 @@ std::vector<uint32_t> gluedSides(std::span<const Quad> quads) {
 QuadForest quadForest(std::span<const Quad> quads) {
   const std::vector<uint32_t> given = gluedSides(quads);
   QuadForest forest{std::vector<uint32_t>(given.size(), Forest::kBorder), {}, {}};
-  std::vector<uint32_t> number(given.size());  // of each side, as renamed
-  for (const MetPatch& met : patchesAsMet(given)) {
+  std::vector<uint32_t> number(given.size());  // the new number of each side
+  for (const MetFace& met : facesAsMet(given, Forest::kSides)) {
     const auto patch = static_cast<uint32_t>(forest.quads.size());
-    forest.quads.push_back(met.patch);
+    forest.quads.push_back(met.face);
     forest.first_corners.push_back(static_cast<uint8_t>((4 - met.entered) % 4));
     for (uint32_t i = 0; i < Forest::kSides; ++i)
-      number[Forest::kSides * met.patch + (met.entered + i) % 4] = Forest::kSides * patch + i;
+      number[Forest::kSides * met.face + (met.entered + i) % 4] = Forest::kSides * patch + i;
   }
   for (size_t side = 0; side < given.size(); ++side)
     if (given[side] != Forest::kBorder) forest.sides[number[side]] = number[given[side]];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quadric is the sum of weighted squared distances to planes (Garland, Heckbert 1997).
+// Quadric is the weighted sum of the squared distances of a point to some planes, as a function of
+// the point (Garland, Heckbert 1997).
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace tetrakis::inline remesh {
 
 class Quadric {
  public:
-  /// The plane through `point`; `normal` has the length 1.
+  /// Adds the plane through `point` that is at right angles to `normal`, whose length is 1.
   void addPlane(const Point& normal, const Point& point, double weight) {
     const std::array<double, 4> plane{normal[0], normal[1], normal[2], -dot(normal, point)};
     for (size_t row = 0, k = 0; row < 4; ++row) {
@@ -24,6 +25,7 @@ class Quadric {
     for (size_t k = 0; k < terms_.size(); ++k) terms_[k] += other.terms_[k];
   }
 
+  /// The sum at a point; rounding cannot make it negative.
   double at(const Point& p) const {
     const auto& t = terms_;
     const double value = p[0] * (t[0] * p[0] + 2 * (t[1] * p[1] + t[2] * p[2] + t[3])) +
@@ -33,7 +35,7 @@ class Quadric {
   }
 
  private:
-  std::array<double, 10> terms_{};  // rows of the upper half of a symmetric 4 x 4 matrix
+  std::array<double, 10> terms_{};  // the upper triangle of a symmetric 4 x 4 matrix
 };
 
 }  // namespace tetrakis::inline remesh

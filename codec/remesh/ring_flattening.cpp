@@ -12,11 +12,13 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kSmallestAngle = 0.02;  // of a triangle before angles are scaled
-constexpr double kWidestAngle = 0.9 * pi;
-constexpr double kSmallestRadius = 1e-3;  // relative to the largest one
-constexpr double kThinnest = 0.02;        // a thickness; half of the ring's own if that is less
+constexpr double kSmallestAngle = 0.02;    // of a triangle, before angles are scaled
+constexpr double kWidestAngle = 0.9 * pi;  // of a triangle, after angles are scaled
+constexpr double kSmallestRadius = 1e-3;   // relative to the largest one
+/// The least thickness of a triangle, or half the least one of the ring itself if that is less.
+constexpr double kThinnest = 0.02;
 
+/// The angle between two directions, from 0 to pi.
 double spokeAngle(const Point& a, const Point& b) {
   const double along = dot(a, b), beside = length(cross(a, b));
   if (along == 0) return pi / 2;
@@ -24,7 +26,8 @@ double spokeAngle(const Point& a, const Point& b) {
   return along < 0 ? angle + pi : angle;
 }
 
-/// Angles that add up to `total`, in proportion to the given ones unless one would be too wide.
+/// Scales angles from their sum `sum` to the sum `total`. If one of them is too wide then, all are
+/// moved towards their mean until it is not.
 void scaleAngles(std::vector<double>& angles, double sum, double total) {
   double widest = 0;
   for (double& angle : angles) {
@@ -37,8 +40,8 @@ void scaleAngles(std::vector<double>& angles, double sum, double total) {
   for (double& angle : angles) angle += share * (even - angle);
 }
 
-/// Of the triangle between the origin and two points: twice the area to the square of the longest
-/// side; negative if it is turned over.
+/// The thickness of the triangle between the origin and two points: twice its area, divided by the
+/// square of its longest side. It is negative if the triangle is turned over.
 double thickness(const FlatPoint& a, const FlatPoint& b) {
   const auto squared = [](const FlatPoint& p) { return p.x * p.x + p.y * p.y; };
   return cross(a, b) / std::max({squared(a), squared(b), squared(b - a)});

@@ -53,12 +53,12 @@ bool ShrinkingMesh::keepsTopology(const Ring& ring, uint32_t target) const {
   if (neighbours_[to] > kMostNeighbours) return false;
   if (!ring.closed && (count < 2 || (target > 0 && target < count))) return false;
   const auto outer = [&](uint32_t i) { return opposite_[nextSide(ring.sides[i])]; };
-  if (count == (ring.closed ? 3 : 2)) {  // one triangle will be left
+  if (count == (ring.closed ? 3 : 2)) {  // one triangle of the ring will be left
     bool lone = true;
     for (uint32_t i = 0; i < count; ++i) lone = lone && outer(i) == kNone;
     if (lone) return false;
   }
-  if (ring.closed && count == 3) {  // that one may lie on the other one between its corners
+  if (ring.closed && count == 3) {  // it may lie on another triangle of the same corners
     const uint32_t beyond = outer(ring.next(target));
     if (beyond != kNone && startOf(triangles_, previousSide(beyond)) == to) return false;
   }
@@ -75,12 +75,12 @@ void ShrinkingMesh::glue(uint32_t side, uint32_t other) {
   if (other != kNone) opposite_[other] = side;
 }
 
-/// `ring`'s triangle i vanishes, and its neighbour `heir` takes its place on the outer side.
+/// Removes triangle i of the ring. Its neighbour `heir` in the ring is glued to what was beyond it.
 void ShrinkingMesh::removeTriangle(const Ring& ring, uint32_t i, uint32_t heir) {
   const bool heir_follows = ring.next(i) == heir;
   const uint32_t lost = ring.sides[i] / 3;
   const uint32_t spoke =
-      heir_follows ? ring.sides[heir] : previousSide(ring.sides[heir]);  // shared with the heir
+      heir_follows ? ring.sides[heir] : previousSide(ring.sides[heir]);  // the side between the two
   glue(spoke, opposite_[nextSide(ring.sides[i])]);
   const uint32_t common = ring.points[heir_follows ? heir : i];
   if (first_side_[common] / 3 == lost) first_side_[common] = heir_follows ? nextSide(spoke) : spoke;

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// ShrinkingMesh is a manifold whose points may be collapsed into their neighbours, one after the
-// other, in constant time. Triangles keep their numbers until they vanish.
+// ShrinkingMesh is a manifold whose points can be collapsed into their neighbours, one after the
+// other, each in constant time. Triangles keep their numbers until they vanish.
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "codec/remesh/half_edges.hpp"
@@ -12,14 +11,14 @@
 
 namespace tetrakis::inline remesh {
 
-/// The triangles around a point, counter-clockwise. Triangle i is (centre, points[i],
-/// points[i + 1]); after the last point of a closed ring comes the first one, and an open ring,
-/// around a point of the boundary, has one point more than triangles.
+/// The triangles around a point, counter-clockwise. Triangle i is (centre, points[i], points[i +
+/// 1]). In a closed ring the first point follows on the last one. The ring of a point on the
+/// boundary is open: it has one point more than triangles.
 struct Ring {
   uint32_t centre = 0;
   bool closed = true;
-  std::vector<uint32_t> sides;   ///< half-edge of triangle i from the centre to points[i]
-  std::vector<uint32_t> points;  ///< neighbours of the centre
+  std::vector<uint32_t> sides;   ///< for triangle i its half-edge from the centre to points[i]
+  std::vector<uint32_t> points;  ///< the neighbours of the centre
 
   uint32_t triangles() const { return static_cast<uint32_t>(sides.size()); }
   uint32_t next(uint32_t i) const { return i + 1 < points.size() ? i + 1 : 0; }
@@ -27,23 +26,24 @@ struct Ring {
 
 class ShrinkingMesh {
  public:
-  /// Points with more neighbours have no rings, so that time stays in proportion to the mesh.
+  /// Points with more neighbours than that have no rings, so that a collapse takes constant time.
   static constexpr uint32_t kMostNeighbours = 32;
 
   explicit ShrinkingMesh(const TriangleMesh& mesh);
 
   uint32_t triangleCount() const { return triangle_count_; }
+  /// How many neighbours a point has.
   uint32_t neighbours(uint32_t point) const { return neighbours_[point]; }
 
-  /// False, and `ring` is spoilt, if the point is gone or has too many neighbours.
+  /// Sets `ring` to the ring of a point. False if the point is gone or has too many neighbours.
   bool findRing(uint32_t point, Ring& ring) const;
 
-  /// Whether the surface stays a manifold of the same topology, with a pair of triangles at least,
-  /// when the centre goes to points[target]: the link condition.
+  /// Whether the surface stays a manifold of the same topology, and every component keeps at least
+  /// two triangles, when the centre moves to points[target]: the link condition.
   bool keepsTopology(const Ring& ring, uint32_t target) const;
 
-  /// Moves the centre into points[target]. The other triangles around it keep their numbers and
-  /// the order of their corners.
+  /// Moves the centre to points[target]. The triangles around it that do not vanish keep their
+  /// numbers and the order of their corners.
   void collapse(const Ring& ring, uint32_t target);
 
  private:
@@ -53,8 +53,9 @@ class ShrinkingMesh {
 
   std::vector<Triangle> triangles_;
   std::vector<uint32_t> opposite_;
-  std::vector<uint32_t> first_side_;  ///< from each point; the one on the boundary, if there is one
-  std::vector<uint32_t> neighbours_;  ///< how many; 0: gone
+  /// For each point a half-edge from it: the one on the boundary if there is one.
+  std::vector<uint32_t> first_side_;
+  std::vector<uint32_t> neighbours_;  ///< for each point how many it has; 0: the point is gone
   uint32_t triangle_count_;
 };
 

@@ -6,9 +6,11 @@
 namespace tetrakis::inline remesh {
 namespace {
 
-constexpr double kThinSquare = 1e-12;  ///< of the sine of a corner: its triangle counts as sides
+/// If the squared sine of a corner is not above this, the triangle counts as its three sides alone.
+constexpr double kThinSquare = 1e-12;
 
-/// Where the foot of the perpendicular from corner 0 + `to_point` lies, if inside.
+/// The foot of the perpendicular from a point to a triangle, by the weights of the corners; nothing
+/// if it lies outside. Corner 0 is the origin, `side1` and `side2` lead from it to the others.
 std::optional<std::array<double, 3>> footInside(const Point& side1, const Point& side2,
                                                 const Point& to_point) {
   const Point normal = cross(side1, side2);

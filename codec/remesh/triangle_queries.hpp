@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where one triangle is nearest to a point, and where a line meets it.
+// nearestInTriangle() finds the place of a triangle that is nearest to a point, and LineSight where
+// a line meets a triangle.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +11,19 @@
 
 namespace tetrakis::inline remesh {
 
-/// A place of a mesh, and how far from a given point it is.
+/// A place of a mesh, and its distance from a given point.
 struct NearPlace {
   SurfacePoint place;
   double distance = 0;
 };
 
-/// The place of a triangle of `mesh` that is nearest to `point`. The triangle may be degenerate.
+/// The place of a triangle of `mesh` that is nearest to `point`. The triangle may have no area.
 NearPlace nearestInTriangle(const TriangleMesh& mesh, uint32_t triangle, const Point& point);
 
-/// The points origin + t · direction with first <= t <= last. The ends may be infinite.
+/// The points origin + t · direction with first <= t <= last, which may be infinite.
 struct Line {
   Point origin{};
-  Point direction{};  ///< of any length but 0
+  Point direction{};  ///< its length may be any but 0
   double first = -std::numeric_limits<double>::infinity();
   double last = std::numeric_limits<double>::infinity();
 };
@@ -31,27 +32,28 @@ struct Line {
 struct Crossing {
   double t = 0;
   SurfacePoint place;
-  bool outward = false;  ///< the line leaves the inside here: direction · normal > 0
+  bool outward = false;  ///< whether the line leaves the inside here: direction · normal > 0
 };
 
-/// Finds where a line meets triangles. It sees them along the line, sheared, so that the line is
-/// the origin of a plane: three signs of areas there tell whether it passes a triangle. Triangles
-/// with a common side get the same area with opposite signs, so no line slips through between them
-/// (Woop, Benthin, Wald, "Watertight ray/triangle intersection", 2013).
+/// Finds where a line meets triangles. It shears space so that the line becomes an axis, and
+/// projects triangles along it to a plane, in which the line is the origin. The signs of three
+/// areas there tell whether the line passes through a triangle. Two triangles with a common side
+/// get the same area for it with opposite signs, so that no line slips through between them (Woop,
+/// Benthin, Wald, "Watertight ray/triangle intersection", 2013).
 class LineSight {
  public:
   explicit LineSight(const Line& line);
 
-  /// Sides and corners belong to the triangle. A line in its plane misses it, and every line misses
-  /// a degenerate triangle.
+  /// Where the line meets a triangle, whose sides and corners belong to it. A line in the plane of
+  /// a triangle misses it, and every line misses a triangle without area.
   std::optional<Crossing> crossing(const TriangleMesh& mesh, uint32_t triangle) const;
 
  private:
-  Point sheared(const Point& point) const;  ///< the last coordinate is t
+  Point sheared(const Point& point) const;  ///< two coordinates in the plane, then t
 
   Line line_;
-  std::array<size_t, 3> axes_{};  ///< the last is the one along which the line is steepest
-  double across_ = 0, up_ = 0;  ///< how far the line moves in the others while that one grows by 1
+  std::array<size_t, 3> axes_{};  ///< the last one is that along which the line moves fastest
+  double across_ = 0, up_ = 0;    ///< how far it moves along the others, for 1 along the last one
 };
 
 }  // namespace tetrakis::inline remesh

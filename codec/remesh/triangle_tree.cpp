@@ -8,19 +8,14 @@
 namespace tetrakis::inline remesh {
 namespace {
 
-constexpr uint32_t kLeaf = 8;  ///< triangles at most
-constexpr size_t kBins = 8;
-constexpr uint32_t kFreeDepth = 60;  ///< below it nodes are halved, so that stacks have an end
+constexpr uint32_t kLeaf = 8;  ///< most triangles of a leaf
+constexpr size_t kBins = 8;    ///< equal parts of the longest axis, between which nodes are cut
+/// Nodes that lie deeper are cut into halves of equal numbers. 2^32 triangles are halved at most 32
+/// times, so that the stack of a search needs no more than kStack entries.
+constexpr uint32_t kFreeDepth = 60;
 constexpr size_t kStack = kFreeDepth + 36;
 
-void extend(Box& box, const Box& other) {
-  for (size_t axis = 0; axis < 3; ++axis) {
-    box.low[axis] = std::min(box.low[axis], other.low[axis]);
-    box.high[axis] = std::max(box.high[axis], other.high[axis]);
-  }
-}
-
-/// Half of the surface.
+/// Half of the surface area of the box.
 double surface(const Box& box) {
   const Point d = box.high - box.low;
   return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
@@ -36,7 +31,7 @@ double squaredDistance(const Box& box, const Point& point) {
   return sum;
 }
 
-/// Rounding may err towards true.
+/// Whether the line meets the box. Where rounding leaves a doubt the answer is true.
 bool meets(const Box& box, const Line& line) {
   constexpr double kRounding = 1e-15;
   double first = line.first, last = line.last;
@@ -54,12 +49,6 @@ bool meets(const Box& box, const Line& line) {
   return first <= last;
 }
 
-/// Where to cut a node: triangles whose middles lie in the bins below `bin` go to the first part.
-struct Cut {
-  size_t axis = 0;
-  size_t bin = 0;  ///< 0: the middles do not differ
-};
-
 }  // namespace
 
 class TriangleTree::Builder {
@@ -68,7 +57,7 @@ class TriangleTree::Builder {
     for (size_t t = 0; t < boxes_.size(); ++t) {
       for (const uint32_t corner : tree.mesh_->triangles[t]) {
         const Point& point = tree.mesh_->points[corner];
-        extend(boxes_[t], {point, point});
+        boxes_[t].add({point, point});
       }
     }
   }
@@ -80,7 +69,7 @@ class TriangleTree::Builder {
     std::iota(tree_.order_.begin(), tree_.order_.end(), 0U);
     tree_.nodes_.reserve(count);
     tree_.nodes_.push_back({{}, 0, count});
-    std::vector<std::pair<uint32_t, uint32_t>> open{{0, 0}};  // nodes and their depths
+    std::vector<std::pair<uint32_t, uint32_t>> open{{0, 0}};  // nodes to cut, and their depths
     while (!open.empty()) {
       const auto [node, depth] = open.back();
       open.pop_back();
@@ -93,18 +82,20 @@ class TriangleTree::Builder {
   }
 
  private:
+  /// The centre of a triangle's box.
   Point middle(uint32_t triangle) const {
     return 0.5 * boxes_[triangle].low + 0.5 * boxes_[triangle].high;
   }
 
-  /// False: the node remains a leaf.
+  /// Sets the box of a node and cuts it, unless it has few triangles: then it stays a leaf, and
+  /// the result is false.
   bool split(uint32_t number, uint32_t depth) {
     const uint32_t begin = tree_.nodes_[number].first, count = tree_.nodes_[number].count;
     Box all, middles;
     for (uint32_t i = begin; i < begin + count; ++i) {
       const Point center = middle(tree_.order_[i]);
-      extend(all, boxes_[tree_.order_[i]]);
-      extend(middles, {center, center});
+      all.add(boxes_[tree_.order_[i]]);
+      middles.add({center, center});
     }
     tree_.nodes_[number].box = all;
     if (count <= kLeaf) return false;
@@ -117,7 +108,8 @@ class TriangleTree::Builder {
     return true;
   }
 
-  /// Sorts triangles into two parts; returns the size of the first, which is less than `count`.
+  /// Sorts the triangles of a node into two parts. Returns the size of the first part, which is
+  /// above 0 and below `count`.
   uint32_t part(uint32_t begin, uint32_t count, const Box& middles) {
     const Point sides = middles.high - middles.low;
     const auto axis =
@@ -125,7 +117,7 @@ class TriangleTree::Builder {
     const double low = middles.low[axis], scale = kBins / sides[axis];
     const auto binOf = [&](uint32_t triangle) {
       const double bin = (middle(triangle)[axis] - low) * scale;
-      return bin < kBins ? static_cast<size_t>(bin) : kBins - 1;  // not a number: the last one
+      return bin < kBins ? static_cast<size_t>(bin) : kBins - 1;  // also where it is not a number
     };
     const size_t cut = bestCut(begin, count, binOf);
     uint32_t end = begin;
@@ -136,14 +128,14 @@ class TriangleTree::Builder {
     return size > 0 && size < count ? size : count / 2;
   }
 
-  /// The first bin of the second part.
+  /// The cheapest cut, as the number of the first bin behind it.
   template <class BinOf>
   size_t bestCut(uint32_t begin, uint32_t count, const BinOf& binOf) const {
     std::array<Box, kBins> boxes;
     std::array<uint32_t, kBins> counts{};
     for (uint32_t i = begin; i < begin + count; ++i) {
       const size_t bin = binOf(tree_.order_[i]);
-      extend(boxes[bin], boxes_[tree_.order_[i]]);
+      boxes[bin].add(boxes_[tree_.order_[i]]);
       ++counts[bin];
     }
     const std::array<double, kBins> below = costs(boxes, counts);
@@ -158,14 +150,15 @@ class TriangleTree::Builder {
     return best;
   }
 
-  /// What the first bins cost together: number of triangles by surface, up to each bin.
+  /// For each bin the cost of all bins up to it as one node: the number of their triangles times
+  /// the surface area of their box.
   static std::array<double, kBins> costs(const std::array<Box, kBins>& boxes,
                                          const std::array<uint32_t, kBins>& counts) {
     std::array<double, kBins> result{};
     Box box;
     uint32_t count = 0;
     for (size_t bin = 0; bin < kBins; ++bin) {
-      extend(box, boxes[bin]);
+      box.add(boxes[bin]);
       count += counts[bin];
       result[bin] = count > 0 ? count * surface(box) : 0;
     }
@@ -173,7 +166,7 @@ class TriangleTree::Builder {
   }
 
   TriangleTree& tree_;
-  std::vector<Box> boxes_;  ///< of the triangles
+  std::vector<Box> boxes_;  ///< one for each triangle
 };
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh) : mesh_(&mesh) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A TriangleTree finds the triangles of a mesh that are near a point or that a line crosses: a tree
-// of boxes around them, cut by the surface area heuristic in bins along the longest axis (Wald, "On
-// fast construction of SAH-based bounding volume hierarchies", 2007).
+// A TriangleTree finds the triangles of a mesh that are near a point or that a line crosses. It is
+// a binary tree of boxes around triangles. A node is cut in two across its longest axis, where the
+// surface area heuristic expects the cheapest search among some evenly spaced cuts (Wald, "On fast
+// construction of SAH-based bounding volume hierarchies", 2007).
 #pragma once
 
 #include <functional>
@@ -13,12 +14,6 @@
 
 namespace tetrakis::inline remesh {
 
-/// The least box, with sides along the axes, around some points; at first around none.
-struct Box {
-  static constexpr double kFar = std::numeric_limits<double>::infinity();
-  Point low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
-};
-
 class TriangleTree {
  public:
   /// `mesh` has finite points. It must stay alive and unchanged.
@@ -27,26 +22,26 @@ class TriangleTree {
 
   const TriangleMesh& mesh() const { return *mesh_; }
 
-  /// The place of the mesh that is nearest to `point`, unless all are farther than `bound`. Of
-  /// triangles at the same distance the first.
+  /// The place of the mesh that is nearest to `point`, or nothing if all places are farther away
+  /// than `bound`. Of several triangles at the same distance the one with the lowest number counts.
   std::optional<NearPlace> closest(const Point& point,
                                    double bound = std::numeric_limits<double>::infinity()) const;
 
-  /// Hands every crossing of the line with a triangle to `visit`, in any order. A line through a
-  /// side or a corner may cross several triangles there, and crosses one at least.
+  /// Calls `visit` with every crossing of the line with a triangle, in any order. A line that goes
+  /// through a side or a corner crosses at least one of the triangles there, and may cross several.
   void crossings(const Line& line, const std::function<void(const Crossing&)>& visit) const;
 
  private:
   struct Node {
     Box box;
-    uint32_t first = 0;  ///< of a leaf, in order_; otherwise the first of two nodes
-    uint32_t count = 0;  ///< of the triangles of a leaf; 0: no leaf
+    uint32_t first = 0;  ///< of a leaf: its first place in order_; else the first of two children
+    uint32_t count = 0;  ///< number of triangles of a leaf; 0: the node is not a leaf
   };
   class Builder;
 
   const TriangleMesh* mesh_;
-  std::vector<uint32_t> order_;  ///< triangles, those of a leaf one after the other
-  std::vector<Node> nodes_;      ///< the root first
+  std::vector<uint32_t> order_;  ///< all triangles; those of a leaf are next to each other
+  std::vector<Node> nodes_;      ///< node 0 is the root
 };
 
 }  // namespace tetrakis::inline remesh

@@ -189,6 +189,10 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"object_joint_9x54_17x102",
      "base mesh, doubled low bands, forest of heights, forest of texels, heights by wavelet, "
      "levels of several filters, shears of coefficients, texture by wavelet"},
+    {"triangles_144", "triangle mesh"},
+    {"triangles_textured_81", "texcoords, texture by wavelet, triangle mesh"},
+    {"triangles_1", "triangle mesh"},
+    {"triangles_unsound_50", "texcoords, texture by wavelet, triangle mesh"},
     {"noise_object_257x514",
      "base mesh, forest of heights, heights by wavelet, levels of several filters"},
     {"cylinder_joint_70x33_61x40",

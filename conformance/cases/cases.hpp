@@ -17,6 +17,7 @@ std::vector<VectorCase> sparseCases();
 
 // object_cases.cpp
 std::vector<VectorCase> objectCases();
+std::vector<VectorCase> triangleCases();
 
 // height_kind_cases.cpp
 std::vector<VectorCase> tableCases();

@@ -84,6 +84,8 @@ Tools toolsOf(std::span<const uint8_t> stream) {
   if (header.geometry && header.geometry->wavelet.forest) tools.insert("forest of heights");
   if (header.texture && header.texture->wavelet.forest) tools.insert("forest of texels");
   if (header.geometry && !header.geometry->base_mesh.none()) tools.insert("base mesh");
+  if (!header.triangle_mesh.none()) tools.insert("triangle mesh");
+  if (header.triangle_mesh.texcoord_bits > 0) tools.insert("texcoords");
   if (!header.index.empty()) tools.insert("index");
   if (header.georeference.heights.has_transform || header.georeference.texture.has_transform)
     tools.insert("georeference");
@@ -134,7 +136,9 @@ Tools allTools() {
           "stored texture",
           "table of values",
           "tables of channels",
+          "texcoords",
           "texture by wavelet",
+          "triangle mesh",
           "voids",
           "weights of bands",
           "white level",

@@ -20,6 +20,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : cylinderCases()) all.push_back(std::move(next));
   for (VectorCase& next : forestCases()) all.push_back(std::move(next));
   for (VectorCase& next : objectCases()) all.push_back(std::move(next));
+  for (VectorCase& next : triangleCases()) all.push_back(std::move(next));
   for (VectorCase& next : sparseCases()) all.push_back(std::move(next));
   for (VectorCase& next : bridgeCases()) all.push_back(std::move(next));
   for (VectorCase& next : bridgedTextureCases()) all.push_back(std::move(next));

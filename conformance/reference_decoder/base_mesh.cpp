@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "conformance/reference_decoder/place_decoder.hpp"
 #include "conformance/reference_decoder/range_decoder.hpp"
 
 namespace tetrakis::reference {
@@ -60,85 +61,56 @@ int behind(int corner, int i) {
 class Corners {
  public:
   Corners(std::span<const uint8_t> codeword, int bits, const Forest& forest)
-      : decoder_(codeword), forest_(forest), bits_(bits), places_(size_t(4) * forest.patches()) {}
+      : decoder_(codeword),
+        places_(decoder_, 3, bits),
+        forest_(forest),
+        told_(size_t(4) * forest.patches()) {}
 
   std::vector<Vector> run() {
-    for (int c = 0; c < static_cast<int>(places_.size()); ++c) {
+    std::vector<Vector> corners;
+    for (int c = 0; c < static_cast<int>(told_.size()); ++c) {
       const int lowest = forest_.lowestCorner(c);
-      places_[c] = lowest < c ? places_[lowest] : told(c);
+      told_[c] = lowest < c ? told_[lowest] : tell(c);
+      corners.push_back(told_[c].at);
     }
-    return places_;
+    return corners;
   }
 
  private:
-  using Known = std::optional<Vector>;
-
-  Vector told(int c) {
-    const int64_t size = int64_t{1} << bits_;
-    latest_ = expected(c);
-    for (size_t axis = 0; axis < 3; ++axis)
-      latest_[axis] = (latest_[axis] + difference(axis) + size) % size;
-    return latest_;
-  }
+  using Known = std::optional<TellPlace>;
 
   Known known(int corner, int c) const {
     const int lowest = forest_.lowestCorner(corner);
-    return lowest < c ? Known(places_[lowest]) : Known();
+    return lowest < c ? Known(told_[lowest]) : Known();
   }
-  /// Twice the corner `near` less one of the patch that is glued to `side`.
-  Known continued(int c, int near, int side, int far) const {
+  /// Of the patch that is glued to `side`.
+  Known beyond(int side, int far, int c) const {
     const int other = forest_.glued(side);
-    if (other == side) return {};
-    const Known from = known(near, c), before = known(behind(other, far), c);
-    if (!from || !before) return {};
-    return sum(2, *from, -1, *before);
+    return other == side ? Known() : known(behind(other, far), c);
   }
 
-  Vector expected(int c) const {
-    const int c1 = behind(c, 1), c2 = behind(c, 2), c3 = behind(c, 3);
-    const Known a = known(c1, c), b = known(c3, c), opposite = known(c2, c);
+  TellPlace tell(int c) {
+    const Known a = known(behind(c, 1), c), b = known(behind(c, 3), c),
+                opposite = known(behind(c, 2), c), beyond_a = beyond(behind(c, 1), 2, c),
+                beyond_b = beyond(behind(c, 2), 3, c);
+    std::vector<TellPlace> nearby;
+    for (const Known& one : {a, b, opposite, beyond_a, beyond_b})
+      if (one) nearby.push_back(*one);
     std::vector<Vector> all;
-    if (a && b && opposite) all.assign(2, sum(1, sum(1, *a, 1, *b), -1, *opposite));
-    for (const Known& one : {continued(c, c1, c1, 2), continued(c, c3, c2, 3)})
-      if (one) all.push_back(*one);
-    if (all.empty()) return a ? *a : b ? *b : latest_;
-    Vector total = {};
-    for (const Vector& one : all) total = sum(1, total, 1, one);
-    const auto count = static_cast<int64_t>(all.size()), most = (int64_t{1} << bits_) - 1;
-    for (int64_t& value : total)
-      value = std::clamp<int64_t>(floorDiv(2 * value + count, 2 * count), 0, most);
-    return total;
-  }
-
-  int64_t difference(size_t axis) {
-    Model* more =
-        more_[std::min((latest_bits_[0] + latest_bits_[1] + latest_bits_[2] + 1) / 3, 15)];
-    const int k = ones(bits_, [&](int i) { return ask(&more[i]); });
-    latest_bits_[axis] = k;
-    if (k == 0) return 0;
-    const int64_t d =
-        digits(k, [&](int, uint32_t v) { return ask(v < 4 ? &high_[k][v] : nullptr); });
-    return ask(nullptr) ? -d : d;
-  }
-  /// A decision of a model, or an even one; 0 from the first one on that does not count.
-  int ask(Model* model) {
-    if (ended_) return 0;
-    try {
-      return model == nullptr ? decoder_.even() : model->decode(decoder_);
-    } catch (const Undecided&) {
-      ended_ = true;
-      return 0;
-    }
+    if (a && b && opposite) all.assign(2, sum(1, sum(1, a->at, 1, b->at), -1, opposite->at));
+    if (a && beyond_a) all.push_back(sum(2, a->at, -1, beyond_a->at));
+    if (b && beyond_b) all.push_back(sum(2, b->at, -1, beyond_b->at));
+    const Vector expected = !all.empty() ? places_.mean(all) : a ? a->at : b ? b->at : latest_;
+    const TellPlace told = places_.tell(expected, nearby, static_cast<int>(all.size()));
+    latest_ = told.at;
+    return told;
   }
 
   RangeDecoder decoder_;
+  PlaceDecoder places_;
   const Forest& forest_;
-  int bits_;
-  std::vector<Vector> places_;
+  std::vector<TellPlace> told_;
   Vector latest_ = {};
-  std::array<int, 3> latest_bits_ = {};
-  Model more_[16][20], high_[21][4];
-  bool ended_ = false;
 };
 
 /// FORMAT 11: the quads, bent by their normals.

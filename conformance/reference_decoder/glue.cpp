@@ -13,12 +13,12 @@ struct Unsound {};
 
 class Walk {
  public:
-  Walk(std::span<const uint8_t> codeword, int patches)
-      : decoder_(codeword), met_(patches), sides_(size_t(4) * patches) {}
+  Walk(RangeDecoder& decoder, int faces, int m)
+      : decoder_(decoder), m_(m), most_(m == 3 ? 11 : 7), met_(faces), sides_(size_t(m) * faces) {}
 
   std::vector<int> run() {
-    while (lowestUnmet() < patches()) {
-      meet(4 * lowestUnmet());
+    while (lowestUnmet() < faces()) {
+      meet(m_ * lowestUnmet());
       while (!open_.empty()) tell(chosen());
     }
     std::vector<int> glued;
@@ -32,14 +32,14 @@ class Walk {
     bool open = false;
   };
 
-  int patches() const { return static_cast<int>(met_.size()); }
+  int faces() const { return static_cast<int>(met_.size()); }
   int lowestUnmet() const {
     return static_cast<int>(std::find(met_.begin(), met_.end(), false) - met_.begin());
   }
 
   int rank(int s) const {
     const Side& next = sides_[sides_[s].next];
-    return next.open ? std::min(next.around, 7) : 0;
+    return next.open ? std::min(next.around, most_) : 0;
   }
   /// The highest rank; among those the one that was pushed last.
   int chosen() const {
@@ -53,30 +53,31 @@ class Walk {
     const int next = sides_[s].next, last = sides_[s].last;
     const int i = sides_[next].open && next != s;
     const int j = sides_[last].open && last != s && last != next;
-    if (i && after_[std::min(sides_[next].around, 7)][j].decode(decoder_)) return glue(s, next);
-    if (j && before_[std::min(sides_[s].around, 7)][i].decode(decoder_)) return glue(s, last);
-    if (lowestUnmet() < patches() && new_[i][j].decode(decoder_)) return attach(s);
-    if (!border_[i][j].decode(decoder_)) return glue(s, number(4 * patches()));
+    if (i && after_[std::min(sides_[next].around, most_)][j].decode(decoder_)) return glue(s, next);
+    if (j && before_[std::min(sides_[s].around, most_)][i].decode(decoder_)) return glue(s, last);
+    if (lowestUnmet() < faces() && new_[i][j].decode(decoder_)) return attach(s);
+    if (!border_[i][j].decode(decoder_)) return glue(s, number(m_ * faces()));
     sides_[s].glued = s;
     close(s);
     push(last);
   }
 
   void attach(int s) {
-    const int p = other_.decode(decoder_) ? number(patches()) : lowestUnmet();
+    const int p = other_.decode(decoder_) ? number(faces()) : lowestUnmet();
     const int h = turn_[0].decode(decoder_);
-    const int t = 4 * p + 2 * h + turn_[1 + h].decode(decoder_);
-    meet(t);
-    glue(s, t);
+    const int entered = 2 * h + turn_[1 + h].decode(decoder_);
+    if (entered >= m_) throw Unsound();
+    meet(m_ * p + entered);
+    glue(s, m_ * p + entered);
   }
 
   void meet(int t) {
-    const int first = t / 4 * 4;
-    if (t >= static_cast<int>(sides_.size()) || met_[t / 4]) throw Unsound();
-    met_[t / 4] = true;
-    for (int i = 0; i < 4; ++i)
-      sides_[first + i] = {first + (i + 1) % 4, first + (i + 3) % 4, 1, 0, true};
-    for (int i = 0; i < 4; ++i) push(first + (t + i) % 4);
+    const int first = t / m_ * m_;
+    if (t >= static_cast<int>(sides_.size()) || met_[t / m_]) throw Unsound();
+    met_[t / m_] = true;
+    for (int i = 0; i < m_; ++i)
+      sides_[first + i] = {first + (i + 1) % m_, first + (i + m_ - 1) % m_, 1, 0, true};
+    for (int i = 0; i < m_; ++i) push(first + (t - first + i) % m_);
   }
 
   void glue(int s, int t) {
@@ -112,18 +113,19 @@ class Walk {
     return value;
   }
 
-  RangeDecoder decoder_;
+  RangeDecoder& decoder_;
+  int m_, most_;
   std::vector<bool> met_;
   std::vector<Side> sides_;
   std::vector<int> open_;  ///< in the order in which they were pushed last
-  Model after_[8][2], before_[8][2], new_[2][2], border_[2][2], other_, turn_[3];
+  Model after_[12][2], before_[12][2], new_[2][2], border_[2][2], other_, turn_[3];
 };
 
 }  // namespace
 
-std::optional<std::vector<int>> readGlue(std::span<const uint8_t> codeword, int patches) {
+std::optional<std::vector<int>> readGlue(RangeDecoder& decoder, int faces, int sides) {
   try {
-    return Walk(codeword, patches).run();
+    return Walk(decoder, faces, sides).run();
   } catch (const Undecided&) {
     return {};
   } catch (const Unsound&) {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reference decoder: how the sides of a forest are glued (docs/FORMAT.md, section 2, "Glue").
+// Reference decoder: how the sides of faces are glued (docs/FORMAT.md, section 2, "Glue").
 #pragma once
 
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
+
+#include "conformance/reference_decoder/range_decoder.hpp"
 
 namespace tetrakis::reference {
 
 /// Of each side the one that it is glued to, of a border itself; nothing where the codeword is
-/// corrupt.
-std::optional<std::vector<int>> readGlue(std::span<const uint8_t> codeword, int patches);
+/// corrupt. sides: of each face.
+std::optional<std::vector<int>> readGlue(RangeDecoder& decoder, int faces, int sides);
 
 }  // namespace tetrakis::reference

@@ -69,8 +69,9 @@ class Reader {
     if (outcome_ == Outcome::kDone && taken > 1 && before[taken - 1] == 0) fail(Outcome::kCorrupt);
     return value;
   }
-  int zigzag(uint64_t largest) {
-    const auto coded = static_cast<int>(varint(0, 2 * largest));
+  int zigzag(uint64_t largest) { return static_cast<int>(longZigzag(largest)); }
+  int64_t longZigzag(uint64_t largest) {
+    const auto coded = static_cast<int64_t>(varint(0, 2 * largest));
     return coded % 2 == 0 ? coded / 2 : -(coded + 1) / 2;
   }
 

@@ -7,6 +7,7 @@
 #include "conformance/reference_decoder/metadata.hpp"
 #include "conformance/reference_decoder/parts.hpp"
 #include "conformance/reference_decoder/regions.hpp"
+#include "conformance/reference_decoder/triangles.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -81,7 +82,8 @@ Domain readForest(Reader& in, int kind, const std::vector<Domain>& known) {
     const int patches = static_cast<int>(in.varint(1, most));
     const auto codeword = in.take(in.varint(0, UINT64_MAX));
     if (in.outcome() != Outcome::kDone) return {};
-    const auto read = readGlue(codeword, patches);
+    RangeDecoder decoder(codeword);
+    const auto read = readGlue(decoder, patches, 4);
     if (read) glued = *read;
     if (!read) in.fail(Outcome::kCorrupt);
   }
@@ -123,6 +125,13 @@ void readComponent(Reader& in, std::vector<Domain>& domains, Stream& stream) {
   stream.components.push_back(component);
 }
 
+/// FORMAT 2, what may stand beside a triangle mesh.
+bool suits(const Stream& stream) {
+  if (stream.geometry) return false;
+  return !stream.texture ||
+         (stream.triangles->texcoordBits > 0 && stream.texture->wavelet.domain.kind == 0);
+}
+
 /// FORMAT 2, parts 64 to 73 of the body.
 void skipInformation(Parts& parts, const Stream& stream) {
   parts.take(64, [](Reader&) {});                              // lossless
@@ -149,10 +158,12 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   while (stream.components.size() < 16 &&
          parts.take(0, [&](Reader& p) { readComponent(p, domains, stream); })) {
   }
+  parts.take(1, [&](Reader& p) { stream.triangles = readTriangleMesh(p); });
   skipInformation(parts, stream);
   parts.end();
-  if (stream.components.empty()) in.fail(Outcome::kCorrupt);
-  if (!stream.geometry && !stream.texture) in.fail(Outcome::kUnsupported);
+  if (stream.components.empty() && !stream.triangles) in.fail(Outcome::kCorrupt);
+  if (!stream.geometry && !stream.texture && !stream.triangles) in.fail(Outcome::kUnsupported);
+  if (stream.triangles && !suits(stream)) stream.suits = false;
   if (!stream.suits) in.fail(Outcome::kCorrupt);
   stream.outcome = in.outcome() == Outcome::kTruncated ? Outcome::kCorrupt : in.outcome();
   return payloadBytes;
@@ -253,6 +264,12 @@ std::optional<Object> decodeObject(std::span<const uint8_t> prefix, uint64_t max
   std::vector<Vector> corners = readCorners(mesh.corners, mesh.bits, forest);
   std::vector<BasePoint> points = bentBase(corners, forest);
   return Object{mesh.bits, mesh.cell, mesh.origin, std::move(corners), std::move(points)};
+}
+
+std::optional<Triangles> decodeTriangles(std::span<const uint8_t> prefix, uint64_t maxSamples) {
+  const Stream stream = readStream(prefix, maxSamples);
+  if (stream.outcome != Outcome::kDone || !stream.triangles) return {};
+  return readTriangles(*stream.triangles);
 }
 
 }  // namespace tetrakis::reference

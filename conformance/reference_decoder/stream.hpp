@@ -52,6 +52,15 @@ struct LineMap {
   LineMap(std::span<const uint8_t> code, int width, int height);
 };
 
+/// FORMAT 2, Triangle mesh.
+struct TriangleMeshHeader {
+  int triangles = 0, placeBits = 1, texcoordBits = 0, texcoordFraction = 0;
+  double cell = 1;
+  std::array<int64_t, 3> origin = {};
+  std::array<int64_t, 2> texcoordOrigin = {};
+  std::vector<uint8_t> codeword;
+};
+
 /// FORMAT 2, Base mesh.
 struct BaseMeshHeader {
   int bits = 0;  ///< 0: none
@@ -140,6 +149,7 @@ struct Stream {
   Layers layers;
   std::optional<TextureHeader> texture;
   std::vector<Component> components;
+  std::optional<TriangleMeshHeader> triangles;
   bool suits = true;                   ///< what the parts of the header say fits together
   std::array<Codewords, 2> codewords;  ///< by role
 };

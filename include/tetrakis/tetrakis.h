@@ -421,10 +421,16 @@ tks_status tks_encode(const tks_heights* heights, const tks_image* image,
                       const tks_encode_options* options, tks_buffer* out, char* message,
                       size_t message_size);
 
-/* A mesh of triangles to encode as an object: a scan, a sculpture. Triangles need not fit together:
- * points at equal places are joined, degenerate and double triangles dropped, and edges of more
- * than
- * two triangles cut. */
+/* How an object is coded. */
+typedef enum tks_object_kind {
+  TKS_OBJECT_AUTO = 0,      /* (encoder) in whichever way comes nearer to the mesh */
+  TKS_OBJECT_RESAMPLED = 1, /* as heights over a base mesh: scans, sculptures */
+  TKS_OBJECT_TRIANGLES = 2  /* as triangles: designed parts, models of few triangles */
+} tks_object_kind;
+
+/* A mesh of triangles to encode as an object: a scan, a sculpture, a designed part. Triangles need
+ * not fit together: points at equal places are joined, degenerate and double triangles dropped, and
+ * edges of more than two triangles cut. */
 typedef struct tks_triangle_mesh {
   size_t size;                           /* sizeof(tks_triangle_mesh) */
   uint32_t vertex_count, triangle_count; /* to 2^26 */
@@ -436,6 +442,7 @@ typedef struct tks_triangle_mesh {
   const float* texcoords;                /* 6 * triangle_count, beside an image: where corners of
                                             triangles lie on it. (0, 0) is its upper left corner,
                                             (1, 1) its lower right; it repeats beyond these */
+  tks_object_kind kind;
 } tks_triangle_mesh;
 
 /* What became of a mesh. Distances are between its surface and that of the decoded stream, in its
@@ -452,23 +459,31 @@ typedef struct tks_object_report {
   double error, largest;        /* of the stream, likewise; and the largest distance */
   double psnr;                  /* 20 log10(diagonal / error) */
   uint32_t texture_depth;       /* of the forest that the texture lies on; 0: there is none */
+  tks_object_kind kind;         /* in which way the object was coded. With TKS_OBJECT_TRIANGLES
+                                   patches, depths and resampling_error are 0 */
+  uint32_t coded_triangles;     /* with TKS_OBJECT_TRIANGLES, else 0 */
 } tks_object_report;
 
-/* Encodes the surface of a mesh as an object: heights along the normals of a base mesh
- * (tks_base_mesh), which tks_decode_object makes meshes of. The mesh is resampled: its triangles do
- * not come back. Of `options` these count: bytes (the base mesh with the least error is sought), or
- * psnr (of the surface: 20 log10(diagonal / error), as tks_object_report has it; the fewest bytes
- * are sought), or max_error (every sample of the base keeps its height within that distance, and
- * the resampling error is at most a third of it); index, progress, threads. `report` may be NULL.
+/* Encodes a mesh as an object, which tks_decode_object makes meshes of, in one of two ways.
+ * TKS_OBJECT_RESAMPLED: as heights along the normals of a base mesh (tks_base_mesh). Its triangles
+ * do not come back. TKS_OBJECT_TRIANGLES: its triangles with their corners rounded, or fewer
+ * triangles where the target takes no more; all of them are in the header, ahead of the texture.
+ * Of `options` these count: bytes (the least error is sought), or psnr (of the surface: 20
+ * log10(diagonal / error), as tks_object_report has it; the fewest bytes are sought), or max_error
+ * (every sample of the base keeps its height within that distance, and the resampling error is at
+ * most a third of it; or every corner stays within that distance); index, progress, threads.
+ * `report` may be NULL.
  *
- * image: the texture of the mesh, which has texcoords, or NULL. Its texels are resampled on the
- * same patches, so that receivers need no coordinates, and it has no seams: about as many of them
- * as the mesh uses of the image, or fewer where `bytes` are few, which is the only target beside an
- * image. Of its place nothing counts.
+ * image: the texture of the mesh, which has texcoords, or NULL. With TKS_OBJECT_RESAMPLED its
+ * texels are resampled on the same patches, so that receivers need no coordinates, and it has no
+ * seams: about as many of them as the mesh uses of the image, or fewer where `bytes` are few. With
+ * TKS_OBJECT_TRIANGLES it is coded as it is, all triangles are kept, and texcoords are rounded to
+ * halves of a texel. `bytes` is the only target beside an image. Of its place nothing counts.
  *
  * TKS_USAGE, with a sentence in message: a mesh, or options, that break the rules; no triangle is
- * left after cleaning; the base mesh takes more than 4096 patches, since there are too many parts;
- * the target cannot be met. */
+ * left after cleaning; the base mesh would take more than 4096 patches, since there are too many
+ * parts, and triangles are not coded either; more than 1048576 triangles would be coded, or they
+ * take more than a megabyte; the target cannot be met. */
 tks_status tks_encode_object(const tks_triangle_mesh* mesh, const tks_image* image,
                              const tks_encode_options* options, tks_object_report* report,
                              tks_buffer* out, char* message, size_t message_size);
@@ -623,6 +638,8 @@ typedef struct tks_info {
   tks_forest texture_forest;        /* likewise */
   uint32_t grid_width, grid_height; /* as in tks_heights */
   tks_base_mesh base_mesh;          /* likewise; owned by the decoder */
+  uint32_t object_triangles;        /* of an object whose triangles are coded as they are: all of
+                                       them, which tks_decode_object gives; 0: others */
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
@@ -845,19 +862,34 @@ tks_status tks_decode_globe(tks_decoder* decoder, tks_mesh_kind kind, uint32_t m
                             const tks_globe* globe, tks_globe_mesh* out);
 void tks_free_globe_mesh(tks_globe_mesh* mesh);
 
-/* The mesh of an object, whose heights lie over a base mesh (tks_base_mesh). Vertex i lies at the
- * point position[3 i], in `unit`, and on sample pixel[2 i], pixel[2 i + 1] of the raster of the
- * forest, counted as in tks_pixel. Without a texture each sample is one vertex; beside a texture
- * vertices on sides come once for each patch, with the same position to the last bit, so that the
- * texture can be laid over the mesh. Taken for one where they are equal, vertices leave no edge
- * open but at borders of the forest. Triangles are counter-clockwise seen from outside. */
-typedef tks_globe_mesh tks_object_mesh;
+/* The mesh of an object. Vertex i lies at the point position[3 i], in `unit`. Triangles are
+ * counter-clockwise seen from outside.
+ *
+ * Of heights over a base mesh (tks_base_mesh) it lies on sample pixel[2 i], pixel[2 i + 1] of the
+ * raster of the forest, counted as in tks_pixel. Without a texture each sample is one vertex;
+ * beside a texture vertices on sides come once for each patch, with the same position to the last
+ * bit, so that the texture can be laid over the mesh. Of triangles that are coded as they are
+ * vertices come once for each texcoord that they have. Taken for one where they are equal, vertices
+ * leave no edge open but at borders of the object. */
+typedef struct tks_object_mesh {
+  uint32_t vertex_count, triangle_count;
+  double* position;    /* 3 a vertex */
+  double* pixel;       /* 2 a vertex; NULL where there is no base mesh */
+  double* texcoord;    /* 2 a vertex: its place on the texture, of which (0, 0) is the upper left
+                          corner and (1, 1) the lower right one; NULL where there is no texture.
+                          With a base mesh it is the middle of a texel of the forest's raster; else
+                          the texture repeats beyond its corners */
+  float* height;       /* NULL where there is no base mesh */
+  uint32_t* triangles; /* 3 a triangle */
+} tks_object_mesh;
 
 /* The surface of an object as a mesh. TKS_MESH_BUDGET: the best mesh of at most max_triangles
  * triangles, by the squared distance between surfaces; 0: of every sample; no fewer than two for
- * each patch. TKS_MESH_CODED: the vertices whose heights the stream tells. Positions have the same
- * bits on every machine. TKS_USAGE: there are no heights, or they have no base mesh. TKS_LIMIT: as
- * tks_decode_mesh, with 100 bytes more a sample. */
+ * each patch. TKS_MESH_CODED: the vertices whose heights the stream tells. Triangles that are coded
+ * as they are come all. Positions have the same bits on every machine. TKS_USAGE: the stream is no
+ * object; it has more triangles, coded as they are, than max_triangles. TKS_LIMIT: as
+ * tks_decode_mesh, with 100 bytes more a sample; or 300 bytes a triangle that is coded as it is.
+ * TKS_CORRUPT: these triangles break a rule. */
 tks_status tks_decode_object(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
                              tks_object_mesh* out);
 void tks_free_object_mesh(tks_object_mesh* mesh);

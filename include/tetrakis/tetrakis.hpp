@@ -89,8 +89,27 @@ class GlobeMesh : public OwnedMesh<tks_globe_mesh, tks_free_globe_mesh> {
 };
 
 /// The mesh of an object (tks_object_mesh says what its arrays promise). Positions are in the unit
-/// of the heights, in the axes of the mesh that was encoded.
-using ObjectMesh = GlobeMesh;
+/// of the stream, in the axes of the mesh that was encoded.
+class ObjectMesh : public OwnedMesh<tks_object_mesh, tks_free_object_mesh> {
+ public:
+  using OwnedMesh::OwnedMesh;
+
+  std::span<const double> positions() const {
+    return {mesh_.position, size_t{3} * mesh_.vertex_count};
+  }
+  /// Empty where there is no base mesh, as the heights are.
+  std::span<const double> pixels() const { return pairsOf(mesh_.pixel); }
+  std::span<const float> heights() const {
+    return {mesh_.height, mesh_.height == nullptr ? 0 : mesh_.vertex_count};
+  }
+  /// Empty where there is no texture.
+  std::span<const double> texcoords() const { return pairsOf(mesh_.texcoord); }
+
+ private:
+  std::span<const double> pairsOf(const double* pairs) const {
+    return {pairs, pairs == nullptr ? 0 : size_t{2} * mesh_.vertex_count};
+  }
+};
 
 /// A mesh kept for many views (tks_mesh_tree). Move only; outlives its decoder.
 class MeshTree {

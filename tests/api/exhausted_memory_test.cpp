@@ -282,8 +282,8 @@ std::vector<Called> globeCalls() {
 
 std::vector<Called> objectCalls() {
   return {{"tks_decode_object", [](Desk& d) {
-             tks_free_object_mesh(&d.globe);
-             return tks_decode_object(d.decoder, TKS_MESH_BUDGET, 60, &d.globe);
+             tks_free_object_mesh(&d.object);
+             return tks_decode_object(d.decoder, TKS_MESH_BUDGET, 0, &d.object);
            }}};
 }
 
@@ -377,6 +377,7 @@ TEST(ExhaustedMemory, OfMeshes) {
 TEST(ExhaustedMemory, OfObjects) {
   exhaustAll(objectCalls(), vectorOf("object_open_17x68"));
   exhaustAll(objectCalls(), vectorOf("object_joint_9x54_17x102"));
+  exhaustAll(objectCalls(), vectorOf("triangles_textured_81"));
   exhaust(encodingAnObject(), {});
 }
 

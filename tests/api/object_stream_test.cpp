@@ -9,32 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/given_mesh.hpp"
 #include "tests/support/stream_fixture.hpp"
 #include "tests/support/triangle_meshes.hpp"
 #include "tests/support/welded_mesh.hpp"
 
 namespace tetrakis::test {
 namespace {
-
-/// A mesh as the C interface takes it, which points into it.
-struct GivenMesh {
-  explicit GivenMesh(const TriangleMesh& mesh) {
-    for (const Point& point : mesh.points)
-      positions.insert(positions.end(), point.begin(), point.end());
-    for (const Triangle& t : mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
-  }
-  tks_triangle_mesh given() const {
-    tks_triangle_mesh out{};
-    out.size = sizeof out;
-    out.vertex_count = static_cast<uint32_t>(positions.size() / 3);
-    out.triangle_count = static_cast<uint32_t>(triangles.size() / 3);
-    out.positions = positions.data();
-    out.triangles = triangles.data();
-    return out;
-  }
-  std::vector<double> positions;
-  std::vector<uint32_t> triangles;
-};
 
 struct Encoded {
   Bytes stream;
@@ -56,8 +37,12 @@ Encoded encodeMesh(const tks_triangle_mesh& mesh, const tks_encode_options& opti
   return out;
 }
 
-Encoded encodeMesh(const TriangleMesh& mesh, const tks_encode_options& options) {
-  return encodeMesh(GivenMesh(mesh).given(), options);
+Encoded encodeMesh(const TriangleMesh& mesh, const tks_encode_options& options,
+                   tks_object_kind kind = TKS_OBJECT_AUTO) {
+  const GivenMesh from(mesh);
+  tks_triangle_mesh given = from.given();
+  given.kind = kind;
+  return encodeMesh(given, options);
 }
 
 struct Closer {
@@ -80,7 +65,7 @@ uint64_t headerBytes(const Bytes& stream) {
 
 struct DecodedMesh {
   std::vector<std::array<double, 3>> points;
-  std::vector<std::array<double, 2>> pixels;
+  std::vector<std::array<double, 2>> pixels, texcoords;
   std::vector<uint32_t> triangles;
 };
 
@@ -91,7 +76,9 @@ DecodedMesh decodedMesh(tks_decoder* decoder, tks_mesh_kind kind, uint32_t most)
   for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
     out.points.push_back(
         {mesh.position[3 * v], mesh.position[3 * v + 1], mesh.position[3 * v + 2]});
-    out.pixels.push_back({mesh.pixel[2 * v], mesh.pixel[2 * v + 1]});
+    if (mesh.pixel != nullptr) out.pixels.push_back({mesh.pixel[2 * v], mesh.pixel[2 * v + 1]});
+    if (mesh.texcoord != nullptr)
+      out.texcoords.push_back({mesh.texcoord[2 * v], mesh.texcoord[2 * v + 1]});
   }
   out.triangles.assign(mesh.triangles, mesh.triangles + 3 * size_t{mesh.triangle_count});
   tks_free_object_mesh(&mesh);
@@ -147,7 +134,7 @@ TEST(ObjectStreams, KeepTheirTopologyAtEveryPrefixAndBudget) {
                                      {made::openGrid(20, 20), 1, 1},
                                      {made::pipe(16, 12), 0, 2}};
   for (const Shape& shape : shapes) {
-    const Encoded made = encodeMesh(shape.mesh, budget(1200));
+    const Encoded made = encodeMesh(shape.mesh, budget(1200), TKS_OBJECT_RESAMPLED);
     const size_t header = headerBytes(made.stream), size = made.stream.size();
     for (const size_t length : {header, header + 1, (header + size) / 2, size}) {
       const OpenedStream decoder = opened(made.stream, length);
@@ -188,6 +175,7 @@ TEST(ObjectStreams, HaveTheTextureOfTheirMesh) {
   const GivenMesh given(grid);
   tks_triangle_mesh mesh = given.given();
   mesh.texcoords = texcoords.data();
+  mesh.kind = TKS_OBJECT_RESAMPLED;
   const Encoded made = encodeMesh(mesh, budget(20000), &image);
   const OpenedStream decoder = opened(made.stream, made.stream.size());
   tks_info info{};
@@ -209,6 +197,9 @@ TEST(ObjectStreams, HaveTheTextureOfTheirMesh) {
     EXPECT_NEAR(decoded[3 * texel], expected(shown.points[v][0]), 12);
     EXPECT_NEAR(decoded[3 * texel + 1], expected(shown.points[v][1]), 12);
     EXPECT_NEAR(decoded[3 * texel + 2], 128, 4);
+    EXPECT_NEAR(shown.texcoords[v][0] * info.texture_width, std::round(column * scale) + 0.5, 1e-9);
+    EXPECT_NEAR(shown.texcoords[v][1] * info.texture_height,
+                patch * info.texture_width + std::round(y * scale) + 0.5, 1e-6);
   }
 }
 

@@ -44,11 +44,10 @@ Sides anyForest(std::mt19937& random, uint32_t patches) {
 
 /// The same surface with patches numbered and turned as a walk meets them.
 Sides asMet(const Sides& sides) {
-  const std::vector<MetPatch> met = patchesAsMet(sides);
+  const std::vector<MetFace> met = facesAsMet(sides, Forest::kSides);
   Sides number(sides.size());
   for (uint32_t i = 0; i < met.size(); ++i) {
-    for (uint32_t k = 0; k < 4; ++k)
-      number[4 * met[i].patch + (met[i].entered + k) % 4] = 4 * i + k;
+    for (uint32_t k = 0; k < 4; ++k) number[4 * met[i].face + (met[i].entered + k) % 4] = 4 * i + k;
   }
   Sides renamed(sides.size(), Forest::kBorder);
   for (size_t side = 0; side < sides.size(); ++side)

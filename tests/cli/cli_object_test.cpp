@@ -13,14 +13,14 @@ namespace {
 
 class CliObject : public CliTest {
  protected:
-  /// A ball with bumps and a texture, blob.glb, blob.obj or blob.ply, and blob.tks; the tests of
-  /// one process encode it once.
+  /// A ball with bumps and a texture, blob.glb, blob.obj or blob.ply, and blob.tks, which resamples
+  /// it; the tests of one process encode it once.
   void makeObject(const std::string& mesh, const std::string& options) {
     static std::map<std::string, std::pair<std::string, std::string>> made;
     ASSERT_EQ(cli("synth --kind blob --triangles 500 -o " + mesh).code, 0);
     const std::string key = mesh + ' ' + options;
     if (!made.contains(key)) {
-      const Outcome run = cli("encode " + mesh + " -o blob.tks " + options);
+      const Outcome run = cli("encode " + mesh + " --class resampled -o blob.tks " + options);
       ASSERT_EQ(run.code, 0) << run.err;
       made[key] = {content("blob.tks"), run.err};
     }
@@ -91,7 +91,8 @@ TEST_F(CliObject, ErrorsAreTargets) {
   EXPECT_GT(figures["surface_psnr"], 54.5);
   EXPECT_LT(figures["surface_psnr"], 62);
   EXPECT_TRUE(figures["colour_psnr"].is_null());
-  ASSERT_EQ(cli("encode blob.ply --max-error 0.1mm --unit cm -o b.tks").code, 0);
+  const std::string exact = "encode blob.ply --class resampled --max-error 0.1mm --unit cm";
+  ASSERT_EQ(cli(exact + " -o b.tks").code, 0);
   EXPECT_EQ(nlohmann::json::parse(cli("info b.tks --json").out)["heights"]["max_error"], 0.01);
 }
 
@@ -119,6 +120,33 @@ TEST_F(CliObject, InfoTellsOfTheBaseMesh) {
     EXPECT_LT(info["object"]["base_from"][axis], info["object"]["base_to"][axis]);
 }
 
+TEST_F(CliObject, TrianglesStayAsTheyAre) {
+  ASSERT_EQ(cli("synth --kind blob --triangles 500 -o blob.glb").code, 0);
+  const Outcome run = cli("encode blob.glb --class triangles --bytes 12k -o blob.tks");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const auto given = tools::readSurface(path("blob.glb"));
+  const size_t triangles = given->triangles.size();
+  EXPECT_NE(run.err.find(std::to_string(triangles) + " triangles; RMS"), std::string::npos);
+  for (const char* name : {"out.glb", "out.obj"}) {
+    ASSERT_EQ(cli(std::string("decode blob.tks --mesh ") + name).code, 0);
+    const auto mesh = tools::readSurface(path(name));
+    ASSERT_TRUE(mesh.ok()) << mesh.status().message();
+    EXPECT_EQ(mesh->triangles.size(), triangles);
+    EXPECT_EQ(mesh->points.size(), given->points.size());
+    EXPECT_TRUE(mesh->texture.has_value());
+    EXPECT_EQ(mesh->texture->width, given->texture->width);
+  }
+  const nlohmann::json info = nlohmann::json::parse(cli("info blob.tks --json").out);
+  EXPECT_EQ(info["object"]["kind"], "triangles");
+  EXPECT_EQ(info["object"]["triangles"], triangles);
+  const nlohmann::json figures = compared("--mesh blob.glb");
+  EXPECT_GT(figures["surface_psnr"], 70);
+  EXPECT_GT(figures["colour_psnr"], 25);
+  const Outcome few = cli("decode blob.tks --mesh few.glb --triangles 100");
+  EXPECT_EQ(few.code, 1);
+  EXPECT_NE(few.err.find("there is no mesh of fewer"), std::string::npos) << few.err;
+}
+
 TEST_F(CliObject, OptionsOfTerrainAreRefused) {
   makeObject("blob.obj", "--bytes 2k");
   makeStream();
@@ -133,6 +161,8 @@ TEST_F(CliObject, OptionsOfTerrainAreRefused) {
                                 "encode blob.obj -o b.tks --bytes 2k --triangles 100",
                                 "encode blob.obj -o b.tks --bytes 2k --report r",
                                 "encode blob.obj -o b.tks --psnr 50 --texture blob.png",
+                                "encode blob.obj -o b.tks --bytes 9k --class quads",
+                                "encode t.pgm -o b.tks --bytes 2k --class triangles",
                                 "encode blob.obj -o b.tks --bytes 20",
                                 "decode blob.tks --mesh b.glb --globe",
                                 "decode blob.tks --mesh b.glb --view low",
@@ -146,7 +176,6 @@ TEST_F(CliObject, OptionsOfTerrainAreRefused) {
                                 "plan blob.tks --channel 1M --renderer 1M",
                                 "reorder blob.tks --view low -o b.tks",
                                 "profile blob.tks --line 1,1,2,2 --points 3",
-                                "view blob.tks --no-browser",
                                 "tiles blob.tks -o b"}) {
     const Outcome run = cli(arguments);
     EXPECT_EQ(run.code, 1) << arguments << "\n" << run.err;

@@ -59,6 +59,13 @@ std::string digestOf(const std::optional<std::vector<uint8_t>>& samples) {
   return samples ? sampleDigest(std::as_bytes(std::span(*samples)), TKS_U8) : "";
 }
 
+std::string digestOf(const reference::Triangles& mesh) {
+  std::vector<double> all;
+  for (const auto& place : mesh.places) all.insert(all.end(), place.begin(), place.end());
+  for (const auto& place : mesh.texcoords) all.insert(all.end(), place.begin(), place.end());
+  return mesh.sound ? doublesDigest(all) : "";
+}
+
 /// The decoder that was written from the text alone gives what the library gave.
 TEST_F(Vectors, ReferenceDecoderPasses) {
   const auto vectors = readManifest(kVectors);
@@ -71,7 +78,11 @@ TEST_F(Vectors, ReferenceDecoderPasses) {
       const reference::Decoded decoded =
           reference::decode(std::span(*stream).first(static_cast<size_t>(cut.bytes)),
                             reference::kMaxSamples, {cut.level, cut.level});
-      EXPECT_EQ(test::statusOf(decoded.outcome), cut.status);
+      const auto triangles =
+          reference::decodeTriangles(std::span(*stream).first(static_cast<size_t>(cut.bytes)));
+      const bool sound = !triangles || triangles->sound;
+      EXPECT_EQ(sound ? test::statusOf(decoded.outcome) : TKS_CORRUPT, cut.status);
+      EXPECT_EQ(triangles ? digestOf(*triangles) : "", cut.triangles);
       EXPECT_EQ(digestOf(decoded.heights), cut.heights);
       EXPECT_EQ(digestOf(decoded.texture), cut.texture);
     }

@@ -106,6 +106,16 @@ void makeMeshes(tetrakis::Decoder& decoder) {
   if (tree) checkMesh(tree->view(std::span<const double, 16>(camera.clip)), info);
 }
 
+/// Of streams that hold an object.
+void makeObjects(tetrakis::Decoder& decoder) {
+  for (const tks_mesh_kind kind : {TKS_MESH_BUDGET, TKS_MESH_CODED}) {
+    const auto mesh = decoder.objectMesh(kind);
+    if (!mesh) continue;
+    for (const uint32_t corner : mesh->triangles())
+      if (corner >= mesh->vertexCount()) std::abort();
+  }
+}
+
 /// Bytes that come in three pieces, or the last before the middle one, and are decoded in between.
 void growAndDecode(std::span<const uint8_t> bytes) {
   const auto header = tetrakis::headerBytes(bytes);
@@ -153,6 +163,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (first) checkWindow(decoder->heights(column), *first, info);
     makeMeshes(*decoder);
   }
+  makeObjects(*decoder);
   planAndMeasure(*decoder);
   if (info.has_texture) static_cast<void>(decoder->texture());
   const auto coarser = [size](uint32_t coarsest) {

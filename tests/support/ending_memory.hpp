@@ -29,6 +29,7 @@ class Desk {
     tks_free_buffer(&buffer);
     tks_free_mesh(&mesh);
     tks_free_globe_mesh(&globe);
+    tks_free_object_mesh(&object);
     tks_free_ranges(&ranges);
     tks_free_mesh_tree(tree);
     tks_close(decoder);
@@ -50,6 +51,8 @@ class Desk {
     add(globe.pixel, 2 * globe.vertex_count * sizeof *globe.pixel);
     add(globe.height, globe.vertex_count * sizeof *globe.height);
     add(globe.triangles, 3 * globe.triangle_count * sizeof *globe.triangles);
+    add(object.position, 3 * object.vertex_count * sizeof *object.position);
+    add(object.triangles, 3 * object.triangle_count * sizeof *object.triangles);
     for (size_t i = 0; i < ranges.count; ++i) add(&ranges.ranges[i], 2 * sizeof(uint64_t));
     return all;
   }
@@ -68,6 +71,7 @@ class Desk {
   tks_buffer buffer = {};
   tks_mesh mesh = {};
   tks_globe_mesh globe = {};
+  tks_object_mesh object = {};
   tks_ranges ranges = {};
   tks_mesh_tree* tree = nullptr;
   char message[128] = "";

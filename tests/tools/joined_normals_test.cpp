@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Normals across seams.
-#include "apps/tools/report/joined_normals.hpp"
+#include "apps/tools/report/surface_normals.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the surface of a mesh shows of its image.
-#include "apps/tools/files/meshes/surface_colours.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cstring>
+
+#include "apps/tools/files/meshes/surface_file.hpp"
 
 namespace tetrakis::tools {
 namespace {

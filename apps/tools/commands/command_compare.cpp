@@ -8,13 +8,15 @@
 
 #include "apps/tools/commands/camera_pictures.hpp"
 #include "apps/tools/commands/command.hpp"
-#include "apps/tools/commands/compare_surface.hpp"
+#include "apps/tools/commands/encode_surface.hpp"
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/commands/options.hpp"
 #include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/text.hpp"
 #include "apps/tools/output/json.hpp"
 #include "apps/tools/report/comparison.hpp"
+#include "apps/tools/report/object_mesh.hpp"
+#include "apps/tools/report/surface_comparison.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -129,10 +131,36 @@ Status printJson(const CompareArguments& arguments, const Json& json) {
   return print(arguments.json ? dump(json) : table(legible(json)));
 }
 
-Status compareMesh(const CompareArguments& arguments, OpenStream& stream, bool quiet) {
-  const Result<Json> json =
-      compareWithMesh(stream, {arguments.mesh, arguments.texture, arguments.triangles}, quiet);
-  return json.ok() ? printJson(arguments, *json) : json.status();
+Json surfaceJson(const tks_info& info, const SurfaceMeasurement& measured) {
+  const MeshDistance& distance = measured.distance;
+  return {{"bytes", info.available_bytes},
+          {"geometry_bytes", info.geometry_bytes},
+          {"texture_bytes", info.texture_bytes},
+          {"triangles", measured.triangles},
+          {"rms_distance", distance.error},
+          {"rms_to_stream", distance.to_second.rms},
+          {"rms_to_mesh", distance.to_first.rms},
+          {"largest_to_stream", distance.to_second.largest},
+          {"largest_to_mesh", distance.to_first.largest},
+          {"surface_psnr", finiteOrNull(distance.psnr)},
+          {"colour_psnr", measured.colour_psnr ? finiteOrNull(*measured.colour_psnr) : Json()}};
+}
+
+/// An object beside the mesh that was encoded, with the texture that `encode` takes.
+Status compareMesh(const CompareArguments& arguments, Decoder& decoder, bool quiet) {
+  const tks_info& info = decoder.info();
+  if (!isObject(info))
+    return {TKS_USAGE,
+            "--mesh is for streams that hold an object: give --height or "
+            "--texture"};
+  Result<SurfaceFile> original = readTexturedSurface(arguments.mesh, arguments.texture, quiet);
+  if (!original.ok()) return original.status();
+  if (!arguments.texture.empty()) original->texture->white_level = info.texture_white_level;
+  const Result<SurfaceMeasurement> measured =
+      compareSurface(decoder, *original, arguments.triangles);
+  if (!measured.ok()) return measured.status();
+  tellNote(coarsestNote(measured->triangles, arguments.triangles), quiet);
+  return printJson(arguments, surfaceJson(info, *measured));
 }
 
 Status compare(const CompareArguments& arguments, bool quiet) {
@@ -140,7 +168,7 @@ Status compare(const CompareArguments& arguments, bool quiet) {
     return {TKS_USAGE, "--triangles is about a mesh: give --height or --mesh"};
   Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
-  if (!arguments.mesh.empty()) return compareMesh(arguments, *stream, quiet);
+  if (!arguments.mesh.empty()) return compareMesh(arguments, stream->decoder, quiet);
   const tks_info& info = stream->decoder.info();
   if (isObject(info))
     return {TKS_USAGE, quoted(arguments.source.path) + " holds an object: compare it with --mesh"};

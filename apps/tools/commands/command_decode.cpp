@@ -125,10 +125,10 @@ class Decoding {
 
   Status writeSurfaceMesh() {
     const tks_info& info = decoder_.info();
-    if (!info.has_heights)
+    if (!info.has_heights && !isObject(info))
       return Status(TKS_USAGE, "the stream has no heights, so there is no mesh");
     const ImageFile* texture = nullptr;
-    if (info.has_texture && (!isObject(info) || hasAtlas(info))) {
+    if (info.has_texture && (info.base_mesh.position_bits == 0 || hasAtlas(info))) {
       const Result<ImageFile>& image = picture();
       if (!image.ok()) return image.status();
       texture = &*image;

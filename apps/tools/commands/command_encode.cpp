@@ -296,6 +296,8 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
     const Status status = checkSurfaceArguments(arguments);
     return status.ok() ? encodeSurface(arguments, quiet) : status;
   }
+  if (arguments.kind != "auto")
+    return {TKS_USAGE, "--class is about meshes of triangles, and the input is none"};
   Result<EncodeOutputs> outputs = planOutputs(arguments);
   if (!outputs.ok()) return outputs.status();
   Result<Reference> inputs = readInputs(arguments, quiet);

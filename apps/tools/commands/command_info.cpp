@@ -70,6 +70,8 @@ Json forestJson(const tks_info& info) {
 /// The box holds the corners of the base mesh, so that the object may reach a little beyond it.
 Json objectJson(const tks_info& info) {
   const tks_base_mesh& base = info.base_mesh;
+  if (info.object_triangles > 0)
+    return {{"kind", "triangles"}, {"triangles", info.object_triangles}};
   if (!isObject(info)) return {};
   std::array<std::vector<double>, 2> box{std::vector<double>(3), std::vector<double>(3)};
   for (size_t axis = 0; axis < 3; ++axis) {
@@ -82,7 +84,8 @@ Json objectJson(const tks_info& info) {
     box[1][axis] = base.origin[axis] + base.cell * most;
   }
   const uint64_t side = (uint64_t{1} << info.forest.depth) + 1;
-  return {{"patches", info.forest.patches},
+  return {{"kind", "resampled"},
+          {"patches", info.forest.patches},
           {"samples_of_patch", side * side},
           {"position_bits", base.position_bits},
           {"cell", base.cell},

@@ -188,7 +188,7 @@ Result<int> bind(httplib::Server& server, int port) {
 }
 
 Status view(const ViewArguments& arguments) {
-  const Result<OpenStream> stream = openTerrain(arguments.source);
+  const Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
   const Result<fs::path> folder = viewerFolder();
   if (!folder.ok()) return folder.status();

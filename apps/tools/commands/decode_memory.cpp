@@ -24,6 +24,7 @@ Status DecodeMemory::checkHeights(uint64_t beside) {
 }
 
 Status DecodeMemory::checkMesh(uint64_t beside) {
+  if (info_.object_triangles > 0) return checkMemoryFor("a mesh of triangles", mesh() + beside);
   const tks_part part = arguments_.coded_mesh ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH;
   return check(part, std::nullopt, mesh() + beside);
 }
@@ -54,8 +55,11 @@ uint64_t DecodeMemory::texture() const {
 
 uint64_t DecodeMemory::mesh() const {
   constexpr uint64_t kTriangle = 64;  // in space with half a vertex, and in the file's order
-  constexpr uint64_t kSample = 16;    // of the surface that a camera is placed over
+  constexpr uint64_t kDecodedTriangle = 300;
+  constexpr uint64_t kSample = 16;  // of the surface that a camera is placed over
   const uint64_t samples = uint64_t{info_.width} * info_.height;
+  if (info_.object_triangles > 0)
+    return stream_.bytes.size() + (kDecodedTriangle + kTriangle) * info_.object_triangles;
   const bool all = arguments_.coded_mesh || arguments_.triangles == 0;
   const uint64_t triangles =
       all ? 2 * samples : std::min<uint64_t>(arguments_.triangles, 2 * samples);

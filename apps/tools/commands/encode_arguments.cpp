@@ -65,6 +65,11 @@ void addTuning(CLI::App& verb, EncodeArguments& arguments) {
                   "With --domain cube: its faces have 2^N x 2^N squares; else chosen")
       ->check(silent(CLI::Range(1, TKS_MOST_CUBE_DEPTH)))
       ->type_name("N");
+  verb.add_option(
+          "--class", arguments.kind,
+          "How a mesh is coded: resampled, triangles (as they are), or auto (what is nearer)")
+      ->check(silent(CLI::IsMember({"auto", "resampled", "triangles"})))
+      ->type_name("CLASS");
   addThreads(verb, arguments.threads);
   verb.add_flag("--index", arguments.index, "Write the front index of all packets");
   verb.add_flag(

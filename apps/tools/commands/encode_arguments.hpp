@@ -19,7 +19,8 @@ struct EncodeArguments {
   bool lossless = false;
   uint32_t depth = 0;  ///< of a cube; 0: chosen
   uint32_t triangles = 0, threads = hardwareThreads();
-  std::string regions = "auto", weights = "psnr", engine = "modelled", domain = "auto";
+  std::string regions = "auto", weights = "psnr", engine = "modelled", domain = "auto",
+              kind = "auto";
   double step = 0;
   std::optional<double> scale, offset, nodata;
   uint32_t white_level = 0;  ///< 0: found

@@ -10,8 +10,6 @@
 #include "apps/tools/commands/encode_notes.hpp"
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/files/memory_limit.hpp"
-#include "apps/tools/files/meshes/surface_colours.hpp"
-#include "apps/tools/files/meshes/surface_file.hpp"
 #include "apps/tools/files/text.hpp"
 #include "apps/tools/output/output.hpp"
 #include "apps/tools/output/output_names.hpp"
@@ -23,52 +21,44 @@ namespace {
 /// What the encoder is to take.
 struct SurfaceInputs {
   SurfaceFile mesh;
-  std::optional<ImageFile> image;
   std::string unit;
 };
 
-/// The texture that is given, or that of the mesh, which goes with a number of bytes alone.
-Status addTexture(const EncodeArguments& arguments, bool quiet, SurfaceInputs& inputs) {
-  if (!arguments.texture.empty()) {
-    if (inputs.mesh.texcoords.empty())
-      return {TKS_USAGE, quoted(arguments.height) +
-                             " has no texture coordinates, so that --texture cannot lie on it"};
-    std::string remark;
-    const Result<ImageFile> image = readImage(arguments.texture, &remark);
-    if (!image.ok()) return image.status();
-    tellNote(remark, quiet);
-    inputs.image = withoutAlpha(*image);
-    if (arguments.white_level > 0) inputs.image->white_level = arguments.white_level;
-    inputs.image->place = {};
-  } else if (inputs.mesh.texture && arguments.bytes > 0) {
-    inputs.image = shownTexture(inputs.mesh);
-  } else if (inputs.mesh.texture) {
-    tellNote("the texture is left out: it goes with --bytes alone", quiet);
-  }
-  return {};
+Result<ImageFile> readTexture(const std::string& path, bool quiet) {
+  std::string remark;
+  const Result<ImageFile> image = readImage(path, &remark);
+  if (!image.ok()) return image.status();
+  tellNote(remark, quiet);
+  ImageFile texture = withoutAlpha(*image);
+  texture.place = {};
+  return texture;
 }
 
+/// The texture of a mesh itself goes with a number of bytes alone.
 Result<SurfaceInputs> readSurfaceInputs(const EncodeArguments& arguments, bool quiet) {
-  std::string remark;
-  Result<SurfaceFile> mesh = readSurface(arguments.height, &remark, arguments.texture.empty());
+  Result<SurfaceFile> mesh = readTexturedSurface(arguments.height, arguments.texture, quiet);
   if (!mesh.ok()) return mesh.status();
-  if (!remark.empty()) tellNote(quoted(arguments.height) + ": " + remark, quiet);
-  SurfaceInputs inputs{std::move(*mesh), std::nullopt, ""};
+  if (mesh->texture && arguments.texture.empty() && arguments.bytes == 0) {
+    mesh->texture.reset();
+    tellNote("the texture is left out: it goes with --bytes alone", quiet);
+  } else if (mesh->texture && !arguments.texture.empty() && arguments.white_level > 0) {
+    mesh->texture->white_level = arguments.white_level;
+  }
+  SurfaceInputs inputs{std::move(*mesh), ""};
   inputs.unit = arguments.unit ? canonicalUnit(*arguments.unit) : inputs.mesh.y_is_up ? "m" : "";
-  if (Status status = addTexture(arguments, quiet, inputs); !status.ok()) return status;
   return inputs;
 }
 
 /// Measured: what encoding takes beside the streams that are tried.
 Status checkSurfaceMemory(const SurfaceInputs& inputs) {
   constexpr uint64_t kTriangle = 600, kImages = 3;
-  const uint64_t image = inputs.image ? inputs.image->data.size() : 0;
+  const uint64_t image = inputs.mesh.texture ? inputs.mesh.texture->data.size() : 0;
   return checkMemoryFor("encoding so many triangles",
                         kTriangle * inputs.mesh.triangles.size() + kImages * image);
 }
 
 /// A view of the inputs.
-tks_triangle_mesh asTriangleMesh(const SurfaceInputs& inputs) {
+tks_triangle_mesh asTriangleMesh(const SurfaceInputs& inputs, const std::string& kind) {
   const SurfaceFile& file = inputs.mesh;
   tks_triangle_mesh mesh = makeTriangleMesh();
   mesh.vertex_count = static_cast<uint32_t>(file.points.size());
@@ -77,7 +67,10 @@ tks_triangle_mesh asTriangleMesh(const SurfaceInputs& inputs) {
   mesh.triangles = file.triangles.front().data();
   if (!inputs.unit.empty()) mesh.unit = inputs.unit.c_str();
   if (!file.name.empty()) mesh.description = file.name.c_str();
-  if (inputs.image) mesh.texcoords = file.texcoords.front().data();
+  if (file.texture) mesh.texcoords = file.texcoords.front().data();
+  mesh.kind = kind == "auto"        ? TKS_OBJECT_AUTO
+              : kind == "triangles" ? TKS_OBJECT_TRIANGLES
+                                    : TKS_OBJECT_RESAMPLED;
   return mesh;
 }
 
@@ -120,12 +113,33 @@ Result<Buffer> encodeMesh(const EncodeArguments& arguments, const SurfaceInputs&
   Progress progress("encoding", quiet);
   options->progress = &Progress::report;
   options->user = &progress;
-  const tks_triangle_mesh mesh = asTriangleMesh(inputs);
-  const tks_image image = inputs.image ? asImage(*inputs.image) : tks_image{};
-  return encodeObject(mesh, inputs.image ? &image : nullptr, *options, &report);
+  const tks_triangle_mesh mesh = asTriangleMesh(inputs, arguments.kind);
+  const std::optional<ImageFile>& texture = inputs.mesh.texture;
+  const tks_image image = texture ? asImage(*texture) : tks_image{};
+  return encodeObject(mesh, texture ? &image : nullptr, *options, &report);
 }
 
 }  // namespace
+
+Result<SurfaceFile> readTexturedSurface(const std::string& path, const std::string& texture,
+                                        bool quiet) {
+  std::string remark;
+  Result<SurfaceFile> mesh = readSurface(path, &remark, texture.empty());
+  if (!mesh.ok()) return mesh.status();
+  if (!remark.empty()) tellNote(quoted(path) + ": " + remark, quiet);
+  if (!texture.empty()) {
+    if (mesh->texcoords.empty())
+      return Status(TKS_USAGE, quoted(path) +
+                                   " has no texture coordinates, so that --texture cannot lie on "
+                                   "it");
+    Result<ImageFile> image = readTexture(texture, quiet);
+    if (!image.ok()) return image.status();
+    mesh->texture = std::move(*image);
+  } else if (mesh->texture) {
+    mesh->texture = shownTexture(*mesh);
+  }
+  return mesh;
+}
 
 Status checkSurfaceArguments(const EncodeArguments& arguments) {
   if (arguments.lossless)
@@ -175,10 +189,13 @@ std::string cleaningNote(const tks_object_report& report) {
 
 std::string objectNote(const tks_object_report& report, const std::string& unit) {
   const std::string exact = std::isfinite(report.psnr) ? fixed(report.psnr, 1) : "infinitely many";
-  return squares(report.patches, report.depth) + " samples" +
-         (report.texture_depth > 0
-              ? ", " + std::to_string((1u << report.texture_depth) + 1) + " texels a side"
-              : std::string()) +
+  const std::string texels =
+      report.texture_depth > 0
+          ? ", " + std::to_string((1u << report.texture_depth) + 1) + " texels a side"
+          : std::string();
+  return (report.kind == TKS_OBJECT_TRIANGLES
+              ? counted(report.coded_triangles, "triangle", "triangles")
+              : squares(report.patches, report.depth) + " samples" + texels) +
          "; RMS distance to the mesh " + inUnit(report.error, unit) + " (" + exact +
          " dB of its diagonal), largest " + inUnit(report.largest, unit);
 }

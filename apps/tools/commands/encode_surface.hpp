@@ -5,9 +5,15 @@
 #include <string>
 
 #include "apps/tools/commands/encode_arguments.hpp"
+#include "apps/tools/files/meshes/surface_file.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::tools {
+
+/// Reads a mesh with what its surface shows: the image in the file `texture`, without alpha, or if
+/// that is "", its own texture. Tells what is remarkable about the files.
+Result<SurfaceFile> readTexturedSurface(const std::string& path, const std::string& texture,
+                                        bool quiet);
 
 /// TKS_USAGE if there are options that mean nothing to a mesh.
 Status checkSurfaceArguments(const EncodeArguments& arguments);

@@ -40,9 +40,9 @@ Result<Decoder> openDecoder(std::span<const uint8_t> bytes);
 /// Reads, checks (strict), cuts and opens. A cut that leaves no whole header gives TKS_TRUNCATED.
 Result<OpenStream> openStream(const StreamSource& source);
 
-/// Whether the heights of a stream lie over a base mesh.
+/// Whether a stream holds an object: heights over a base mesh, or triangles as they are.
 inline bool isObject(const tks_info& info) {
-  return info.base_mesh.position_bits > 0;
+  return info.base_mesh.position_bits > 0 || info.object_triangles > 0;
 }
 
 /// openStream() for what takes heights over ground: TKS_USAGE if the stream holds an object.

@@ -9,7 +9,7 @@
 
 #include "apps/tools/files/place/ground_spacing.hpp"
 #include "apps/tools/files/place/texture_place.hpp"
-#include "apps/tools/report/joined_normals.hpp"
+#include "apps/tools/report/surface_normals.hpp"
 
 namespace tetrakis::tools {
 namespace {

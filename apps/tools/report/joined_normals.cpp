@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tools/report/joined_normals.hpp"
-
+// Normals across seams.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
+
+#include "apps/tools/report/surface_normals.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -5,11 +5,12 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/tools/report/joined_normals.hpp"
+#include "apps/tools/report/surface_normals.hpp"
 
 namespace tetrakis::tools {
 
-std::vector<float> atlasCoordinates(const tks_info& info, const ObjectMesh& mesh) {
+std::vector<float> objectTexcoords(const tks_info& info, const ObjectMesh& mesh) {
+  if (!hasAtlas(info)) return {mesh.texcoords().begin(), mesh.texcoords().end()};
   const PatchAtlas atlas = atlasOf(info);
   const double squares = std::ldexp(1.0, static_cast<int>(info.forest.depth));
   std::vector<float> coordinates;
@@ -32,7 +33,7 @@ Result<MeshFile> objectMesh(Decoder& decoder, tks_mesh_kind kind, uint32_t max_t
   for (const double part : mesh->positions()) file.positions.push_back(static_cast<float>(part));
   file.triangles.assign(mesh->triangles().begin(), mesh->triangles().end());
   file.normals = joinedNormals(mesh->positions(), mesh->triangles());
-  if (hasAtlas(decoder.info())) file.texcoords = atlasCoordinates(decoder.info(), *mesh);
+  file.texcoords = objectTexcoords(decoder.info(), *mesh);
   return file;
 }
 

@@ -24,12 +24,13 @@ inline PatchAtlas atlasOf(const tks_info& info) {
   return {info.texture_forest.patches, info.texture_forest.depth};
 }
 
-/// Where the vertices lie on it, two numbers each, from (0, 0) at its top left corner to (1, 1).
-std::vector<float> atlasCoordinates(const tks_info& info, const ObjectMesh& mesh);
+/// Where the vertices lie on the picture of the texture, two numbers each, from (0, 0) at its top
+/// left corner to (1, 1); of an object with an atlas on that. Empty where there is no texture.
+std::vector<float> objectTexcoords(const tks_info& info, const ObjectMesh& mesh);
 
 /// With at most max_triangles (0: every sample; or the mesh that the bytes themselves code).
-/// Normals are those of the mesh, the same on both sides of a seam. Texture coordinates are those
-/// of the atlas, if the stream has a texture. The errors of tks_decode_object.
+/// Normals are those of the mesh, the same on both sides of a seam. The errors of
+/// tks_decode_object.
 Result<MeshFile> objectMesh(Decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles);
 
 }  // namespace tetrakis::tools

@@ -97,11 +97,11 @@ Result<PaintedMesh> decodedMesh(Decoder& decoder, uint32_t max_triangles) {
     const auto corners = mesh->triangles().subspan(i, 3);
     painted.mesh.triangles.push_back({corners[0], corners[1], corners[2]});
   }
-  if (!hasAtlas(decoder.info())) return painted;
+  const std::vector<float> places = objectTexcoords(decoder.info(), *mesh);
+  if (places.empty()) return painted;
   const Result<ImageFile> raster = decodeImage(decoder);
   if (!raster.ok()) return raster.status();
-  painted.image = atlasOf(decoder.info()).pictureOf(*raster);
-  const std::vector<float> places = atlasCoordinates(decoder.info(), *mesh);
+  painted.image = hasAtlas(decoder.info()) ? atlasOf(decoder.info()).pictureOf(*raster) : *raster;
   for (const uint32_t corner : mesh->triangles())
     painted.texcoords.push_back({places[2 * size_t{corner}], places[2 * size_t{corner} + 1]});
   return painted;

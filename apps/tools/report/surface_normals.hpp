@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// surfaceNormals() and normalMap() compute normals of the decoded surface, for vertices and as a
-// map. They show more detail than the mesh has.
+// surfaceNormals() and normalMap() compute normals of the decoded surface of a terrain, for
+// vertices and as a map. They show more detail than the mesh has. joinedNormals() computes those of
+// a mesh that is cut open where its texture has seams.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,5 +27,11 @@ Result<std::vector<float>> surfaceNormals(Decoder& decoder, std::span<const uint
 /// has it: red along rows (east, where the first row is the northern one), green up in the picture
 /// (north), blue up; 8 bits, -1 to 1 as 0 to 255. copies: bytes that have to fit beside.
 Result<ImageFile> normalMap(Decoder& decoder, uint64_t copies);
+
+/// Three numbers a vertex, of length 1: the sum over the triangles at its place, each weighing its
+/// area. Vertices with equal positions (three numbers each) have the same normal, so that light
+/// falls in the same way on both sides of a seam. (0, 1, 0) where no triangle has an area.
+std::vector<float> joinedNormals(std::span<const double> positions,
+                                 std::span<const uint32_t> triangles);
 
 }  // namespace tetrakis::tools

@@ -79,7 +79,9 @@ tks_status web_open(const uint8_t* data, size_t size, double max_memory, tks_dec
   NUMBER(textureDomain, texture_domain)                    \
   NUMBER(textureOpaque, texture_opaque)                    \
   NUMBER(textureWhiteLevel, texture_white_level)           \
-  NUMBER(voidsKnown, voids_known)
+  NUMBER(voidsKnown, voids_known)                          \
+  NUMBER(basePositionBits, base_mesh.position_bits)        \
+  NUMBER(objectTriangles, object_triangles)
 
 /// The names, in the order in which web_numbers() writes the numbers.
 const char* web_names() {
@@ -92,8 +94,9 @@ tks_status web_numbers(const tks_decoder* decoder, double* out) {
   tks_info info{};
   info.size = sizeof info;
   if (const tks_status status = tks_get_info(decoder, &info); status != TKS_OK) return status;
-  if (isCube(info.forest)) info.domain = kCube;
-  if (isCube(info.texture_forest)) info.texture_domain = kCube;
+  const bool has_base = info.base_mesh.position_bits > 0;  // which six patches may be, too
+  if (!has_base && isCube(info.forest)) info.domain = kCube;
+  if (!has_base && isCube(info.texture_forest)) info.texture_domain = kCube;
 #define TKS_VALUE(name, field) *out++ = static_cast<double>(info.field);
   TKS_WEB_NUMBERS(TKS_VALUE)
 #undef TKS_VALUE

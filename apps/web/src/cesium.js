@@ -8,7 +8,7 @@ import {
 
 import {Cutter} from './cut.js';
 import {TksError, open} from './index.js';
-import {boxOf, spansOf} from './place.js';
+import {boxOf, checkGround, spansOf} from './place.js';
 
 export {TksError};
 
@@ -129,6 +129,7 @@ export class TksTerrainProvider {
     const terrain = await open(input, options);
     try {
       const {info} = terrain;
+      checkGround(info);
       if (!info.hasHeights) throw new TksError('usage', 'This stream is an image without heights.');
       const shared = new Shared(terrain, {bounds, project, heightOffset, credit});
       if (info.hasTexture) shared.imagery = new TksImageryProvider(shared);

@@ -5,7 +5,7 @@ import {Columns} from './columns.js';
 import {filled} from './fill.js';
 import {groundScale} from './index.js';
 import {GROWTH} from './pace.js';
-import {placeOf, turnsTo} from './place.js';
+import {checkGround, placeOf, turnsTo} from './place.js';
 import {Scan} from './scan.js';
 
 /** Of columns and rows that are interpolated, in samples. */
@@ -82,6 +82,7 @@ export class Cutter {
   constructor(terrain, given) {
     this.#terrain = terrain;
     const {info} = terrain;
+    checkGround(info);
     if (info.hasHeights) this.#places.heights = placeOf(info, 'heights', given);
     if (info.hasTexture) this.#places.texture = placeOf(info, 'texture', given);
     this.#bytes = Math.min(info.streamBytes, terrain.loaded.bytes);

@@ -4,7 +4,7 @@
 import {groundAxes, normalsOn, straightAxes, trianglesOn} from './axes.js';
 import {TksError, groundScale, open} from './index.js';
 import {FIRST_BYTES, GROWTH} from './pace.js';
-import {isPlaced, placeOf, turnsTo} from './place.js';
+import {checkGround, isPlaced, placeOf, turnsTo} from './place.js';
 
 export {TksError};
 
@@ -99,6 +99,7 @@ async function parse(input, {tks, terrain: layer} = {}) {
   const terrain = await open(input, decoder);
   try {
     const {info} = terrain;
+    checkGround(info);
     if (!info.hasHeights) throw new TksError('usage', 'This stream is an image: it has no mesh.');
     const frame = await terrain.decode({bytes, triangles, texels, normals: true});
     return {

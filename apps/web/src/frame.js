@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a frame is made of: a mesh with normals, a surface, a texture, each at the level that suits.
 import {bodyOf} from './body.js';
-import {normalsOfGlobe} from './globe.js';
 import {groundScale} from './ground.js';
+import {joinedNormals} from './joined_normals.js';
+import {atlasOf, objectOf} from './object.js';
 import {PARTS} from './parts.js';
 
 /** Mip level at which neither side has more than `most` samples. */
@@ -55,6 +56,7 @@ const TRIANGLES_OF_BYTE = 4;
 
 /** As many as were asked for, and no more than the bytes of a prefix feed. */
 function trianglesFor({triangles}, opened, info) {
+  if (info.objectTriangles) return info.objectTriangles;  // there is no mesh of fewer
   const isComplete = opened.size >= info.streamBytes;
   return isComplete ? triangles
     : Math.min(triangles, Math.max(2, TRIANGLES_OF_BYTE * info.geometryBytes));
@@ -67,13 +69,20 @@ function globeOf({globe}, info) {
   return {exaggeration, semiMajor, semiMinor};
 }
 
-/** Makes the parts of a frame that `request` asks for, one at each step; returns them all. */
+/** Makes the parts of a frame that `request` asks for, one at each step; returns them all. `centre`
+ * of a request: that of the object in the frames before, if there is one. */
 export function* partsOf(opened, info, request) {
   const parts = {}, {textureLevel, surfaceLevel} = levelsOf(opened, info, request);
-  if (request.mesh && request.globe && info.hasHeights) {
+  const atlas = atlasOf(info, request.texels);
+  if (request.mesh && request.globe && (info.hasHeights || info.isObject)) {
     parts.globe = opened.globe(trianglesFor(request, opened, info), globeOf(request, info));
     yield;
-    if (request.normals) parts.globe.normals = normalsOfGlobe(parts.globe);
+    if (request.normals) parts.globe.normals = joinedNormals(parts.globe);
+    yield;
+  } else if (request.mesh && info.isObject) {
+    const mesh = opened.object(trianglesFor(request, opened, info));
+    yield;
+    parts.object = objectOf(mesh, info, {...request, atlas});
     yield;
   } else if (request.mesh && info.hasHeights) {
     parts.mesh = opened.mesh(trianglesFor(request, opened, info), request.cut);
@@ -99,17 +108,18 @@ export function* partsOf(opened, info, request) {
     yield;
   }
   if (request.texture && info.hasTexture) {
-    const at = shown(0);
-    parts.texture = {level: textureLevel, width: at.textureWidth, height: at.textureHeight,
-      geotransform: at.textureGeotransform, data: opened.rgba(at)};
+    const at = shown(0), data = opened.rgba(at);
+    parts.texture = atlas?.pictureOf(data) ?? {level: textureLevel, width: at.textureWidth,
+      height: at.textureHeight, geotransform: at.textureGeotransform, data};
+    if (info.objectTriangles) parts.texture.repeats = true;
   }
   return parts;
 }
 
 /** The buffers of a frame, to be handed over between threads instead of copied. */
 export function buffersOf(frame) {
-  const {mesh = {}, globe = {}} = frame;
-  const arrays = [frame.texture?.data, frame.surface?.data, ...Object.values(mesh),
-    ...Object.values(globe)];
-  return arrays.filter(Boolean).map((array) => array.buffer);
+  const {mesh, globe, object, texture, surface} = frame;
+  const parts = [mesh, globe, object, texture, surface];
+  const values = parts.flatMap((part) => Object.values(part ?? {}));
+  return values.filter(ArrayBuffer.isView).map((array) => array.buffer);
 }

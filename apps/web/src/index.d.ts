@@ -54,10 +54,11 @@ export interface FrameOptions {
   signal?: AbortSignal;
   /** The mesh has at most so many, a whole number from 2 on, or those of the coarsest one: of long
    * grids that has as many as squares of the short side take (1025 x 3: 1024). Default 20000. Of a
-   * part of the stream it has no more than its bytes feed. */
+   * part of the stream it has no more than its bytes feed. Of info.objectTriangles it has all. */
   triangles?: number;
   /** What is looked at. 16 numbers: of the mesh only what they may show. With a picture: bytes are
-   * fetched that help it most, if the stream has an index and the server knows ranges. */
+   * fetched that help it most, if the stream has an index and the server knows ranges. Of objects
+   * it counts for nothing. */
   view?: ArrayLike<number> | View | null;
   mesh?: boolean;
   /** A mesh round a globe in the place of the flat one, of heights that go round it (goesRound()).
@@ -69,7 +70,7 @@ export interface FrameOptions {
   /** The heights as a grid. Default false. */
   surface?: boolean;
   /** Longest side of the texture, by the mip levels of the stream, of which none is finer than the
-   * bytes that are here feed. Default 4096. */
+   * bytes that are here feed; where that is an atlas, of the atlas. Default 4096. */
   texels?: number;
   /** Longest side of the grid of heights, likewise. Default 4096. */
   samples?: number;
@@ -108,6 +109,11 @@ export interface TerrainInfo {
   textureBytes: number;
   hasHeights: boolean;
   hasTexture: boolean;
+  /** A scan, a sculpture, a designed part: frames have an `object`. */
+  isObject: boolean;
+  /** Of an object whose triangles are coded as they are, which all frames have; 0: of any other
+   * stream. An object has heights, over a base mesh, or such triangles. */
+  objectTriangles: number;
   width: number;
   height: number;
   /** Metres; 0: unknown. */
@@ -183,12 +189,38 @@ export interface Globe {
   normals?: Float32Array;
 }
 
+/** The surface of an object, cut open between the patches of its texture, or along the seams of
+ * triangles that are coded as they are: vertices there are several, at positions that are equal to
+ * the last bit. */
+export interface ObjectMesh {
+  /** A point in info.unit, the same in all frames of an open stream; [0, 0, 0] of what has the
+   * origin in its box. */
+  centre: [number, number, number];
+  /** x, y, z of each vertex as the mesh that was encoded has them, less `centre`. */
+  positions: Float32Array;
+  /** Of each vertex on the texture of this frame, or of one with as many `texels`: from (0, 0), the
+   * corner of the first texel, to (1, 1), or beyond them where it repeats. Absent: there is no
+   * texture. */
+  texcoords?: Float32Array;
+  /** Three indices each, counter-clockwise seen from outside. */
+  triangles: Uint32Array;
+  /** As positions; those of vertices at one position are equal. Along an edge of more than 40
+   * degrees between triangles that are coded as they are each side has vertices and normals of its
+   * own. */
+  normals?: Float32Array;
+}
+
 export interface Raster<T> {
   /** Mip level: 1 / 2^level of the full resolution. */
   level: number;
   width: number;
   height: number;
-  geotransform: number[];
+  /** Of an atlas there is none. */
+  geotransform?: number[];
+  /** Of an atlas: texels around each patch. */
+  gutter?: number;
+  /** True where meshes have places beyond its corners, for which it is there again. */
+  repeats?: boolean;
   data: T;
 }
 
@@ -200,7 +232,10 @@ export interface Frame {
   mesh?: Mesh;
   /** In the place of `mesh`, where `globe` was asked for. */
   globe?: Globe;
-  /** RGBA. */
+  /** In the place of `mesh`, of a stream with info.isObject. */
+  object?: ObjectMesh;
+  /** RGBA; of an object with heights an atlas: its patches in rows and columns, each with a gutter
+   * of one texel that repeats its border. */
   texture?: Raster<Uint8ClampedArray>;
   /** In info.unit; voids are NaN. */
   surface?: Raster<Float32Array> & {spacingX: number; spacingY: number};

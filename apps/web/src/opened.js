@@ -9,6 +9,8 @@ const MOST_BEFORE_BODY = 17;
 const BUDGET_MESH = 1;
 /** tks_globe: its size, and four numbers. */
 const GLOBE_BYTES = 40;
+/** tks_object_mesh: two counts, five addresses. */
+const OBJECT_MESH_BYTES = 28;
 /** Texels that become RGBA at a time: the module has no memory for all of them beside a texture. */
 const TEXELS = 2 ** 18;
 
@@ -125,6 +127,7 @@ export class Opened {
         info[name] = info[name] !== 0;
     }
     for (const name of ['domain', 'textureDomain']) info[name] = DOMAINS[info[name]];
+    info.isObject = info.basePositionBits > 0 || info.objectTriangles > 0;
     const gather = (letter) =>
       Array.from({length: 6}, (_, i) => {
         const value = info[letter + i];
@@ -213,6 +216,33 @@ export class Opened {
       triangles: instance.copy(Uint32Array, triangles, 3 * faces),
     };
     instance.calls.tks_free_globe_mesh(out);
+    return mesh;
+  }
+
+  /** The mesh of an object: positions in its unit, and the samples that they lie on; or their
+   * places on a texture, of triangles that are coded as they are. */
+  object(triangles) {
+    const {instance, decoder} = this, {calls} = instance;
+    if (!calls.tks_decode_object) throw new TksError('usage', 'This module makes no meshes.');
+    return instance.with(OBJECT_MESH_BYTES, (out) => {
+      this.check(calls.tks_decode_object(decoder, BUDGET_MESH, triangles, out));
+      return this.#objectAt(out);
+    });
+  }
+  /** tks_object_mesh at `out`. */
+  #objectAt(out) {
+    const {instance} = this;
+    const [vertices, faces, positions, pixels, texcoords, , triangles] =
+      instance.copy(Uint32Array, out, OBJECT_MESH_BYTES / 4);
+    const pairs = (address) =>
+      (address ? instance.copy(Float64Array, address, 2 * vertices) : null);
+    const mesh = {
+      positions: instance.copy(Float64Array, positions, 3 * vertices),
+      pixels: pairs(pixels),
+      texcoords: pairs(texcoords),
+      triangles: instance.copy(Uint32Array, triangles, 3 * faces),
+    };
+    instance.calls.tks_free_object_mesh(out);
     return mesh;
   }
 

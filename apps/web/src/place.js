@@ -236,6 +236,13 @@ function projectionFor({crs, raster}, project) {
     '[longitude, latitude], or `bounds`: [west, south, east, north] in degrees.');
 }
 
+/** Refuses what lies on no ground. */
+export function checkGround({isObject}) {
+  if (isObject) {
+    throw new TksError('unsupported', 'This stream is an object, which lies on no ground.');
+  }
+}
+
 /**
  * Where a part of a stream, 'heights' or 'texture', lies: {width, height, pixels, degrees, bounds,
  * goesRound}.

@@ -37,6 +37,7 @@ export class Decoder {
   #opened = null;
   #chunks = [];  // in the order in which they came
   #length = 0;
+  #centre = null;  // that positions of an object count from, in all frames
 
   constructor(module, memory) {
     this.module = module;
@@ -113,15 +114,13 @@ export class Decoder {
   /** Makes a frame, a part of it at each step. Until it returns it no other call may be made, or it
    * has to be given up. */
   parts(request) {
+    const decoder = this;
     return this.#steps(request.bytes, function* (opened) {
       yield;
       const info = opened.info();
-      return {
-        bytes: opened.size,
-        complete: opened.size >= info.streamBytes,
-        info,
-        ...(yield* partsOf(opened, info, request)),
-      };
+      const parts = yield* partsOf(opened, info, {...request, centre: decoder.#centre});
+      decoder.#centre ??= parts.object?.centre;
+      return {bytes: opened.size, complete: opened.size >= info.streamBytes, info, ...parts};
     });
   }
   decode(request) {

@@ -56,7 +56,9 @@ export class Terrain {
   async load(bytes, {signal, view, triangles = DEFAULTS.triangles} = {}) {
     signal?.throwIfAborted();
     checkBytes(bytes);
-    const asked = {signal, view: plannedView(view), triangles: trianglesOf(triangles)};
+    // Views are of ground.
+    const planned = this.info?.isObject ? null : plannedView(view);
+    const asked = {signal, view: planned, triangles: trianglesOf(triangles)};
     return this.#fetcher.load(bytes, asked);
   }
 

@@ -21,48 +21,65 @@ export interface TerrainOptions {
   material?: Material;
 }
 
+export type ObjectOptions = Omit<TerrainOptions, 'glideTime'>;
+
 export interface TksTerrainEventMap extends Object3DEventMap {
   frame: {frame: Frame};
   error: {error: TksError};
 }
 
-/** x to the east, y up, z to the south, of streams without a place along the rows and down the
- * columns; metres, by groundScale(), for which samples of unknown spacing lie 30 m apart; the
- * middle of the terrain at x = z = 0. */
-export class TksTerrain extends Mesh<BufferGeometry, Material, TksTerrainEventMap> {
-  constructor(terrain: Terrain, options?: TerrainOptions);
+/** What terrains and objects have in common. */
+declare class RefiningMesh extends Mesh<BufferGeometry, Material, TksTerrainEventMap> {
   readonly terrain: Terrain;
   readonly frame: Frame | null;
   triangles: number;
   bytes: number;
   pixelError: number;
-  glideTime: number;
   /** Shows what opening brought: the first frame. */
   begin(): Promise<void>;
   /** Draws a frame of `terrain`; parts that it lacks stay as they are. Event: `frame`. `glide`: the
-   * surface moves there from where it is, as long as glide() is called for each picture. */
+   * surface of a terrain moves there from where it is, as long as glide() is called for each
+   * picture. */
   show(frame: Frame, options?: {glide?: boolean}): void;
+  /** To be called for each picture: fetches and decodes more where this camera sees the difference,
+   * of a terrain with an index what helps this view most. `viewportHeight` in pixels; where it is
+   * 0, or the camera is nowhere, nothing happens. Events: `frame`, and `error`, after which nothing
+   * is fetched. */
+  update(camera: Camera, viewportHeight: number): void;
+  /** Puts a camera so that all fills its picture, with near and far planes for it. It looks along
+   * `direction`, by default at a terrain from the south and above, at an object from the front
+   * (z), a little above. Gives the middle: the target of OrbitControls. */
+  fit(camera: PerspectiveCamera | OrthographicCamera, direction?: Vector3): Vector3;
+  dispose(): void;
+}
+
+/** x to the east, y up, z to the south, of streams without a place along the rows and down the
+ * columns; metres, by groundScale(), for which samples of unknown spacing lie 30 m apart; the
+ * middle of the terrain at x = z = 0. */
+export class TksTerrain extends RefiningMesh {
+  constructor(terrain: Terrain, options?: TerrainOptions);
+  glideTime: number;
   /** Moves the surface on its way to the frame; update() does so as well. False: it is there. */
   glide(): boolean;
-  /** To be called for each picture: fetches and decodes more where this camera sees the difference,
-   * of a stream with an index what helps this view most. `viewportHeight` in pixels; where it is 0,
-   * or the camera is nowhere, nothing happens. Events: `frame`, and `error`, after which nothing is
-   * fetched. */
-  update(camera: Camera, viewportHeight: number): void;
   /** Height of what is drawn at a place of this object: metres, as its vertices have them before
    * the object is moved or scaled. NaN where there is no ground. Takes microseconds, but some ms
    * for the first place of a frame. */
   heightAt(x: number, z: number): number;
-  /** Puts a camera so that the terrain fills its picture, with near and far planes for it. It looks
-   * along `direction`, by default from the south and above. Gives the middle of the terrain: the
-   * target of OrbitControls. */
-  fit(camera: PerspectiveCamera | OrthographicCamera, direction?: Vector3): Vector3;
   /** What this camera looks at, for `terrain.decode({view})`. */
   viewOf(camera: Camera, viewportHeight: number): View;
-  dispose(): void;
 }
 
-export class TksLoader extends Loader<TksTerrain> {
+/** A scan, a sculpture, a designed part (info.isObject), in the coordinates and the unit of the
+ * mesh that was encoded, less `centre`. */
+export class TksObject extends RefiningMesh {
+  constructor(terrain: Terrain, options?: ObjectOptions);
+  /** (0, 0, 0) of what has the origin in its box. Set `position` to it where an object shall lie
+   * beside others of the same coordinates. */
+  readonly centre: Vector3;
+}
+
+/** Gives a TksTerrain, or a TksObject of a stream that holds an object. */
+export class TksLoader<Kind extends TksTerrain | TksObject = TksTerrain> extends Loader<Kind> {
   /** Ends what preload() started. A Worker serves one terrain: for more give its address. */
   setDecoderOptions(
     options: Pick<OpenOptions, 'worker' | 'wasm' | 'memory' | 'requestBytes'>): this;
@@ -74,9 +91,9 @@ export class TksLoader extends Loader<TksTerrain> {
   /** Ends what is being loaded. */
   abort(): this;
   /** As load(), of bytes. */
-  parse(buffer: ArrayBuffer, onLoad: (terrain: TksTerrain) => void,
+  parse(buffer: ArrayBuffer, onLoad: (terrain: Kind) => void,
     onError?: (error: unknown) => void): void;
-  parseAsync(buffer: ArrayBuffer): Promise<TksTerrain>;
+  parseAsync(buffer: ArrayBuffer): Promise<Kind>;
 }
 
 /** What TksLoader decodes before it gives a terrain, and what it fails with. */

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// three.js: a Loader, as DRACOLoader is one, and its mesh, which refines by the camera.
+// three.js: a Loader, as DRACOLoader is one, and its meshes, which refine by the camera.
 import {Loader} from 'three';
 
 import {startDecoder} from './decoders.js';
 import {TksError, open} from './index.js';
 import {FIRST_FRAME} from './pace.js';
 import {textureOf} from './three_frame.js';
+import {TksObject} from './three_object.js';
 import {TksTerrain} from './three_terrain.js';
 
-export {FIRST_FRAME, TksError, TksTerrain, textureOf};
+export {FIRST_FRAME, TksError, TksObject, TksTerrain, textureOf};
 
 /** A material of a terrain's own, which carries its texture. */
 function copyOf(material) {
@@ -55,7 +56,8 @@ export class TksLoader extends Loader {
     return this;
   }
 
-  /** Gives a TksTerrain that shows its first frame; its update() brings the others. */
+  /** Gives a TksTerrain, or a TksObject, that shows its first frame; its update() brings the
+   * others. */
   load(url, onLoad, onProgress, onError) {
     const resolved = this.manager.resolveURL((this.path ?? '') + url);
     this.manager.itemStart(resolved);
@@ -80,7 +82,8 @@ export class TksLoader extends Loader {
     if (this.#spare) [options.decoder, this.#spare] = [this.#spare, null];
     const terrain = await open(input, options);
     const {material, ...others} = this.#terrainOptions;
-    const object = new TksTerrain(terrain, {...others, material: material && copyOf(material)});
+    const Kind = terrain.info.isObject ? TksObject : TksTerrain;
+    const object = new Kind(terrain, {...others, material: material && copyOf(material)});
     try {
       await object.begin();
       return object;

@@ -3,8 +3,8 @@
 // (of streams without a place along the rows and down the columns); metres, with the middle of the
 // terrain at (0, 0).
 import {
-  BufferAttribute, BufferGeometry, DataTexture, LinearFilter, LinearMipmapLinearFilter, RGBAFormat,
-  SRGBColorSpace,
+  BufferAttribute, BufferGeometry, ClampToEdgeWrapping, DataTexture, LinearFilter,
+  LinearMipmapLinearFilter, RGBAFormat, RepeatWrapping, SRGBColorSpace,
 } from 'three';
 
 import {groundAxes, normalsOn, placedOn, trianglesOn} from './axes.js';
@@ -43,15 +43,17 @@ export function geometryOf(frame) {
   return geometry;
 }
 
-/** A texture of RGBA rows, the first row at v = 0. */
-export function textureOf({width, height, data}) {
+/** A texture of RGBA rows, the first row at v = 0. That of an atlas has no mip levels, which would
+ * mix patches: frames have one of the size that is seen. */
+export function textureOf({width, height, gutter, repeats, data}) {
   const bytes = new Uint8Array(data.buffer, data.byteOffset, data.length);
   const texture = new DataTexture(bytes, width, height, RGBAFormat);
   texture.colorSpace = SRGBColorSpace;
-  texture.generateMipmaps = true;
-  texture.minFilter = LinearMipmapLinearFilter;
+  texture.generateMipmaps = !gutter;
+  texture.minFilter = gutter ? LinearFilter : LinearMipmapLinearFilter;
   texture.magFilter = LinearFilter;
-  texture.anisotropy = 8;
+  texture.anisotropy = gutter ? 1 : 8;
+  texture.wrapS = texture.wrapT = repeats ? RepeatWrapping : ClampToEdgeWrapping;
   texture.needsUpdate = true;
   return texture;
 }

@@ -15,10 +15,12 @@ export function isSliced(texture, renderer) {
 export class Upload {
   #row = -1;  // the next one; -1: there is no memory yet
 
-  constructor(texture) {
+  /** `show` is called behind the last slice. */
+  constructor(texture, show) {
     this.texture = texture;
+    this.show = show;
   }
-  /** One slice more; true: that was the last one. */
+  /** Brings one slice more. */
   step(renderer) {
     const {texture} = this, {width, height} = texture.image;
     if (this.#row < 0) {
@@ -26,7 +28,7 @@ export class Upload {
       renderer.initTexture(texture);
       texture.source.dataReady = true;
       this.#row = 0;
-      return false;
+      return;
     }
     const end = Math.min(height, this.#row + Math.ceil(SLICE / (4 * width)));
     // three.js takes what lies in one row.
@@ -34,8 +36,9 @@ export class Upload {
     texture.needsUpdate = true;
     renderer.initTexture(texture);
     this.#row = end;
-    if (end === height) this.#makeMipmaps(renderer, renderer.getContext());
-    return end === height;
+    if (end < height) return;
+    if (texture.generateMipmaps) this.#makeMipmaps(renderer, renderer.getContext());
+    this.show();
   }
   #makeMipmaps({properties, state}, gl) {
     state.bindTexture(gl.TEXTURE_2D, properties.get(this.texture).__webglTexture);

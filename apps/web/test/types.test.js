@@ -56,7 +56,7 @@ test('the examples of README are accepted', async () => {
         await writeFile(web + files.at(-1), `${GIVEN[heading]}\n${besides}\n${example}`);
       }
     }
-    assert.equal(files.length, 8);
+    assert.equal(files.length, 9);
     assert.deepEqual(complaints(files, RESOLUTIONS[0]), []);
   } finally {
     await rm(folder, {recursive: true});

@@ -10,7 +10,7 @@ import {TksTerrainProvider} from 'tetrakis/cesium';
 import {TksLoader as DeckLoader, imageOf, meshOf} from 'tetrakis/deck';
 import {encode} from 'tetrakis/encode';
 import {TksProtocol} from 'tetrakis/maplibre';
-import {TksLoader, textureOf, type TksTerrain} from 'tetrakis/three';
+import {TksLoader, textureOf, type TksObject, type TksTerrain} from 'tetrakis/three';
 import {PerspectiveCamera, Scene, Vector3} from 'three';
 
 export async function core(): Promise<Frame> {
@@ -42,6 +42,17 @@ export async function three(scene: Scene, camera: PerspectiveCamera): Promise<vo
   scene.add(terrain);
   terrain.update(camera, 480);
   if (terrain.frame?.texture) terrain.material.needsUpdate = textureOf(terrain.frame.texture).flipY;
+}
+
+export async function scan(scene: Scene, camera: PerspectiveCamera): Promise<void> {
+  const object = await new TksLoader<TksObject>().loadAsync('scan.tks');
+  object.position.copy(object.centre);
+  camera.lookAt(object.fit(camera));
+  scene.add(object);
+  object.update(camera, 480);
+  const {object: mesh, info} = await object.terrain.decode({texels: 2048, normals: true});
+  console.log(info.isObject, info.objectTriangles, info.unit);
+  console.log(mesh?.texcoords?.length, mesh?.centre[2]);
 }
 
 export async function maplibre(map: WebMap): Promise<void> {

@@ -3,7 +3,7 @@
 // light already, as `tetrakis decode` writes it.
 
 const FLOAT = 5126, UNSIGNED = 5125, ARRAY = 34962, INDICES = 34963, LINEAR_MIPMAPS = 9987;
-const LINEAR = 9729, CLAMP = 33071;
+const LINEAR = 9729, CLAMP = 33071, REPEAT = 10497;
 const padded = (size) => size + (-size & 3);
 
 const boundsOf = (positions) => [Math.min, Math.max].map((pick) => {
@@ -13,7 +13,7 @@ const boundsOf = (positions) => [Math.min, Math.max].map((pick) => {
 });
 
 /** The document, and the parts of the buffer that it speaks of. */
-function documentOf({positions, normals, places, triangles}, picture) {
+function documentOf({positions, normals, places, triangles, centre}, picture) {
   const parts = [positions, normals, places, triangles, ...(picture ? [picture.bytes] : [])];
   let offset = 0;
   const bufferViews = parts.map(({byteLength}, i) => {
@@ -31,7 +31,8 @@ function documentOf({positions, normals, places, triangles}, picture) {
     : {pbrMetallicRoughness: {metallicFactor: 0, roughnessFactor: 1}};
   const document = {
     asset: {version: '2.0', generator: 'Tetrakis'},
-    scene: 0, scenes: [{nodes: [0]}], nodes: [{mesh: 0, name: 'terrain'}],
+    scene: 0, scenes: [{nodes: [0]}],
+    nodes: [{mesh: 0, name: centre ? 'object' : 'terrain', translation: centre}],
     meshes: [{primitives: [
       {attributes: {POSITION: 0, NORMAL: 1, TEXCOORD_0: 2}, indices: 3, material: 0},
     ]}],
@@ -42,10 +43,11 @@ function documentOf({positions, normals, places, triangles}, picture) {
     bufferViews, buffers: [{byteLength: offset}],
   };
   if (picture) {
+    const wrap = picture.repeats ? REPEAT : CLAMP;
     Object.assign(document, {
       extensionsUsed: ['KHR_materials_unlit'],
       images: [{bufferView: 4, mimeType: picture.type}],
-      samplers: [{magFilter: LINEAR, minFilter: LINEAR_MIPMAPS, wrapS: CLAMP, wrapT: CLAMP}],
+      samplers: [{magFilter: LINEAR, minFilter: LINEAR_MIPMAPS, wrapS: wrap, wrapT: wrap}],
       textures: [{source: 0, sampler: 0}],
     });
   }
@@ -54,7 +56,8 @@ function documentOf({positions, normals, places, triangles}, picture) {
 
 /**
  * The bytes of a mesh {positions, normals, places, triangles} in metres, y up, (0, 0) of `places`
- * the first texel. `picture`: {bytes, type, hasAlpha} of a PNG or JPEG, or null.
+ * the first texel. `centre`: what positions of an object count from. `picture`: {bytes, type,
+ * hasAlpha, repeats} of a PNG or JPEG, or null.
  */
 export function glbOf(mesh, picture = null) {
   const {document, parts, length} = documentOf(mesh, picture);

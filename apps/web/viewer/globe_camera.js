@@ -74,9 +74,4 @@ export class GlobeCamera {
   get below() {
     return this.#camera.position.clone().setLength(this.#radius);
   }
-  /** From x to the east, y up and z to the south of what the camera looks down on. */
-  turnOverhead(direction) {
-    const {x, y, z} = direction;
-    direction.copy(new Vector3(x, -z, y)).applyQuaternion(this.#camera.quaternion);
-  }
 }

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lies under the pointer on a globe.
-import {MathUtils, Raycaster, Vector2} from 'three';
+import {MathUtils} from 'three';
 
 import {bodyOf, eccentricityOf} from '../src/body.js';
 import {degreesText} from './pointer.js';
-
-const ray = new Raycaster();
+import {hitOn} from './ray.js';
 
 /** The point at a place of the page, {x, y, z, height}; null: none. */
 export function placeOnGlobe(globe, camera, x, y) {
-  ray.setFromCamera(new Vector2((2 * x) / innerWidth - 1, 1 - (2 * y) / innerHeight), camera);
-  const [hit] = ray.intersectObject(globe);
+  const hit = hitOn(globe, camera, x, y);
   if (!hit) return null;
   const {face: {a, b, c}, barycoord} = hit, tall = globe.geometry.getAttribute('tall');
   const height = barycoord.x * tall.getX(a) + barycoord.y * tall.getX(b) +

@@ -25,9 +25,13 @@ export class Light {
     this.#at.set(
       Math.sin(turn) * Math.cos(rise), Math.sin(rise), -Math.cos(turn) * Math.cos(rise));
   }
-  /** Over a globe the sun goes along with the camera, so that there is light where it looks. */
-  place(globe) {
+  /** Round a globe or an object the sun goes along with `camera`, so that there is light where it
+   * looks; null: it stays. */
+  place(camera) {
     this.#sun.position.copy(this.#at);
-    if (globe.isOn) globe.turnOverhead(this.#sun.position);
+    if (!camera) return;
+    // From x to the east, y up and z to the south of what the camera looks down on.
+    const {x, y, z} = this.#at;
+    this.#sun.position.set(x, -z, y).applyQuaternion(camera.quaternion);
   }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a line of sight meets a terrain: steps along it until it is below the ground, then halves
 // the last one. Ridges thinner than a step are missed.
-import {Matrix4, Ray, Vector3} from 'three';
+import {Matrix4, Ray, Raycaster, Vector2, Vector3} from 'three';
 
 const STEPS = 512, HALVINGS = 20;
 
@@ -23,6 +23,14 @@ function spanOf({origin, direction}, box) {
     far = Math.min(far, Math.max(...ends));
   }
   return near < far ? [near, far] : null;
+}
+
+/** Where the line of sight through a place of the page meets the triangles of a mesh that is no
+ * terrain: as Raycaster tells it; nothing where it does not. */
+export function hitOn(mesh, camera, x, y) {
+  const ray = new Raycaster();
+  ray.setFromCamera(new Vector2((2 * x) / innerWidth - 1, 1 - (2 * y) / innerHeight), camera);
+  return ray.intersectObject(mesh)[0];
 }
 
 /** The first point of the terrain on the way, or null. */

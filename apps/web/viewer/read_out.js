@@ -25,11 +25,13 @@ function readQuality(info, isScattered) {
 
 function readShares(info) {
   const share = (bytes) => `${(100 * bytes) / info.streamBytes}%`;
-  $('split-heights').style.width = share(info.geometryBytes);
+  const [surface, surfaceBytes] = info.objectTriangles
+    ? ['mesh', info.headerBytes] : ['heights', info.geometryBytes];
+  $('split-heights').style.width = share(surfaceBytes);
   $('split-texture').style.width = share(info.textureBytes);
-  $('heights-share').textContent = `heights ${formatBytes(info.geometryBytes)}`;
+  $('heights-share').textContent = `${surface} ${formatBytes(surfaceBytes)}`;
   $('texture-share').textContent = `texture ${formatBytes(info.textureBytes)}`;
-  $('heights-share').hidden = !info.hasHeights;
+  $('heights-share').hidden = !info.hasHeights && !info.isObject;
   $('texture-share').hidden = !info.hasTexture;
 }
 
@@ -41,20 +43,20 @@ function readFetched({requests, bytes}) {
 }
 
 /** `loaded`: of its terrain. */
-export function readOut({info, bytes, mesh, globe}, loaded) {
+export function readOut({info, bytes, mesh, globe, object}, loaded) {
   $('bytes-here').textContent = formatBytes(bytes);
   $('bytes-of').textContent = `of ${formatBytes(info.streamBytes)}`;
-  $('triangles-here').textContent = formatCount(
-    mesh || globe ? (mesh ?? globe).triangles.length / 3 : 2);
+  const surface = mesh ?? globe ?? object;
+  $('triangles-here').textContent = formatCount(surface ? surface.triangles.length / 3 : 2);
   readQuality(info, loaded.ranges.length > 1);
   readShares(info);
   readFetched(loaded);
 }
 
 /** What leaves the picture empty, if anything does. */
-export function emptiness({info, mesh, globe, texture, complete}) {
+export function emptiness({info, mesh, globe, object, texture, complete}) {
   if (!complete) return '';
-  if (info.hasHeights && (mesh ?? globe)?.triangles.length === 0) {
+  if (info.hasHeights && (mesh ?? globe ?? object)?.triangles.length === 0) {
     return 'All heights of this stream are voids';
   }
   if (!info.textureCutout || !texture) return '';
@@ -64,7 +66,12 @@ export function emptiness({info, mesh, globe, texture, complete}) {
 
 /** How large a stream is, in words. */
 export function sizeOf(info) {
-  const sizes = [];
+  const sizes = [], {width, height, textureWidth, objectTriangles} = info;
+  if (objectTriangles) sizes.push(`${formatCount(objectTriangles)} triangles`);
+  else if (info.isObject) {
+    const texels = info.hasTexture ? ` · ${textureWidth} × ${textureWidth} texels` : '';
+    return `${height / width} patches of ${width} × ${width} heights${texels}`;
+  }
   if (info.hasHeights) sizes.push(`${info.width} × ${info.height} heights`);
   if (info.hasTexture) sizes.push(`${info.textureWidth} × ${info.textureHeight} texels`);
   return sizes.join(' · ');

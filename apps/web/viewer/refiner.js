@@ -5,6 +5,7 @@ import {FIRST_FRAME} from '../src/three.js';
 import {globeFor} from './globe_view.js';
 import {tell} from './page.js';
 import {formatBytes} from './read_out.js';
+import {hasTint} from './tint.js';
 
 export class Refiner {
   #picture;
@@ -16,8 +17,8 @@ export class Refiner {
   #first = null;  // a promise of the first frame, where that is being made already
   #wanted = {};
   #isPumping = false;
-  /** Bytes and triangles of the frame that is shown, of a globe its exaggeration, and whether it
-   * has all texels. */
+  /** Bytes, triangles and texels of the frame that is shown, of a globe its exaggeration, and
+   * whether it has all texels that are wanted. */
   shown = {};
 
   /** Calls show(frame) with each frame, and fail(error) if one cannot be made. signal(): ends what
@@ -33,8 +34,15 @@ export class Refiner {
   }
   /** {bytes, triangles, height}: as the sliders say. */
   want(wanted) {
-    this.#wanted = wanted;
+    this.#wanted = {...wanted, texels: this.#texels};
     this.pump();
+  }
+  /** As many a side as the card takes, of an object as it is seen. */
+  get #texels() {
+    const {renderer: {capabilities}, camera, pixels} = this.#picture, object = this.#object;
+    const most = Math.min(4096, capabilities.maxTextureSize);
+    if (!object.isObject || !object.frame) return most;
+    return Math.min(most, object.needs(camera, pixels, this.shown.texels ?? 0).texels);
   }
   /** For another view other bytes may help. */
   replan() {
@@ -45,14 +53,14 @@ export class Refiner {
   }
   /** Of streams with an index bytes come for what is looked at, on flat ground. */
   get #isPlanned() {
-    const {frame, isGlobe} = this.#object;
-    return this.#terrain.info.hasIndex && frame !== null && !isGlobe;
+    const {frame, isGlobe, isObject} = this.#object;
+    return this.#terrain.info.hasIndex && frame !== null && !isGlobe && !isObject;
   }
   /** Whether it is what is wanted. */
   get isShown() {
     const {shown} = this, wanted = this.#wanted;
-    return shown.isWhole && shown.bytes === wanted.bytes &&
-      shown.triangles === wanted.triangles && shown.height === wanted.height;
+    return shown.isWhole &&
+      ['bytes', 'triangles', 'height', 'texels'].every((name) => shown[name] === wanted[name]);
   }
 
   async pump() {
@@ -77,11 +85,11 @@ export class Refiner {
 
   /** What frames are made of, but for bytes. */
   #options(triangles) {
-    const {info} = this.#terrain, {capabilities} = this.#picture.renderer;
+    const {info} = this.#terrain, {texels, height} = this.#wanted;
     return {
-      triangles, normals: true, surface: !info.hasTexture, samples: 1024,
-      texels: Math.min(4096, capabilities.maxTextureSize), signal: this.#signal(),
-      globe: globeFor(info, Number(this.#wanted.height)),
+      triangles, texels, mesh: !this.#object.hasFinalMesh, normals: true,
+      surface: hasTint(info), samples: 1024,
+      signal: this.#signal(), globe: globeFor(info, Number(height)),
     };
   }
   /** Shows what opening brought, roughly; other bytes come meanwhile. */
@@ -98,7 +106,7 @@ export class Refiner {
     this.#first = null;
     this.#show(frame);
     const isWhole = Math.max(info.textureWidth, info.textureHeight) <= texels;
-    this.shown = {bytes: frame.bytes, triangles, height: wanted.height, isWhole};
+    this.shown = {...wanted, bytes: frame.bytes, triangles, isWhole};
   }
   /** Frames of more bytes, until others are wanted. */
   async #refine(current) {
@@ -121,8 +129,9 @@ export class Refiner {
   }
   /** One frame of bytes that are here. */
   async #redraw(current) {
-    const wanted = this.#wanted, {bytes, triangles} = wanted;
-    const kept = bytes === this.shown.bytes && this.shown.isWhole
+    const wanted = this.#wanted, {bytes, triangles, texels} = wanted;
+    const {shown} = this;
+    const kept = bytes === shown.bytes && shown.isWhole && texels === shown.texels
       ? {texture: false, surface: false} : {};
     const here = Math.min(bytes, current.loaded.bytes);
     const frame = await current.decode({...this.#options(triangles), bytes: here, ...kept});

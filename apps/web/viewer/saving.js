@@ -14,17 +14,19 @@ async function pngOf({width, height, data}) {
   return canvas.convertToBlob({type: 'image/png'});
 }
 
-/** The mesh as it is drawn, in metres, without the exaggeration of the page. */
+/** The mesh as it is drawn, in metres, an object in its unit, without the exaggeration of the
+ * page. */
 async function meshFile({geometry: {attributes, index}, frame}) {
+  const {array: positions, count} = attributes.position;
   const mesh = {
-    positions: attributes.position.array, normals: attributes.normal.array,
-    places: attributes.uv.array, triangles: index.array,
+    positions, normals: attributes.normal.array, triangles: index.array,
+    places: attributes.uv?.array ?? new Float32Array(2 * count), centre: frame.object?.centre,
   };
   if (!frame.texture) return new Blob([glbOf(mesh)], {type: 'model/gltf-binary'});
   const png = await pngOf(frame.texture);
   const picture = {
     bytes: new Uint8Array(await png.arrayBuffer()), type: png.type,
-    hasAlpha: !frame.info.textureOpaque,
+    hasAlpha: !frame.info.textureOpaque, repeats: frame.texture.repeats,
   };
   return new Blob([glbOf(mesh, picture)], {type: 'model/gltf-binary'});
 }

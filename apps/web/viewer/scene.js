@@ -11,6 +11,7 @@ import {lookAtAll} from './home.js';
 import {Journey, wayAcross} from './journey.js';
 import {moveByKey} from './keys.js';
 import {Light} from './light.js';
+import {orbitFor} from './object_view.js';
 import {NARROW} from './page.js';
 import {pointOn} from './ray.js';
 
@@ -117,9 +118,9 @@ export class Picture {
       const moving = this.fly.update(seconds, 0.25 * this.#radius);
       const travelling = this.journey.step(now);
       if (!this.fly.enabled) this.orbit.update();
-      const gliding = this.#object?.glide();
+      const {isGlobe, isObject} = this.#object ?? {}, gliding = this.#object?.glide();
       this.#fitDepth();
-      this.light.place(this.globe);
+      this.light.place(isGlobe || isObject ? this.camera : null);
       this.#render();
       this.ondraw();
       if (moving) this.#moved();
@@ -157,6 +158,7 @@ export class Picture {
     this.#object = object;
     this.journey.end();
     this.globe.isOn = object?.isGlobe ?? false;
+    Object.assign(this.orbit, orbitFor(object));
     if (object) this.#scene.add(object);
     this.draw();
   }
@@ -181,6 +183,7 @@ export class Picture {
   /** What lies under a place of the page, in metres as the mesh has them; null: nothing. */
   pointAt(x, y) {
     if (!this.#object?.frame) return null;
+    if (this.#object.isObject) return this.#object.pointAt(this.camera, x, y);
     return (this.globe.isOn ? placeOnGlobe : pointOn)(this.#object, this.camera, x, y);
   }
   /** Turns the camera around what it looks at until north is above. */
@@ -221,7 +224,7 @@ export class Picture {
     }
   }
 
-  /** From the south, above, with all of the terrain in the picture. */
+  /** From the south, above, with all of the terrain in the picture, or from before an object. */
   home() {
     if (!this.#object) return;
     this.isMoved = false;

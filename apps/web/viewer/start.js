@@ -4,6 +4,7 @@
 import {FIRST_FRAME, open} from '../src/index.js';
 import {decoder} from './decoder.js';
 import {globeFor} from './globe_view.js';
+import {hasTint} from './tint.js';
 
 const address = new URLSearchParams(location.search).get('tks');
 let asked = null;
@@ -12,7 +13,7 @@ if (address) {
   const {signal} = stop, terrain = open(address, {...decoder, signal});
   const first = terrain.then((opened) => opened.decode({
     ...FIRST_FRAME, bytes: opened.loaded.bytes, samples: 1024, normals: true,
-    surface: !opened.info.hasTexture, globe: globeFor(opened.info), signal,
+    surface: hasTint(opened.info), globe: globeFor(opened.info), signal,
   }));
   asked = {address, stop, terrain, first};
   for (const each of [terrain, first]) each.catch(() => {});  // the viewer tells why

@@ -15,6 +15,9 @@ function colourAt(share) {
   return [1, 2, 3].map((channel) => low[channel] + t * (high[channel] - low[channel]));
 }
 
+/** Heights of objects are told by their shape. */
+export const hasTint = ({hasTexture, isObject}) => !hasTexture && !isObject;
+
 export function tint({width, height, data}) {
   let least = Infinity, most = -Infinity;
   for (const value of data) {

@@ -16,6 +16,7 @@ import {Globe} from './globe.js';
 import {globeDescriber} from './globe_pointer.js';
 import {exaggerationOf, globeFor, keepFlat} from './globe_view.js';
 import {listenToLooks, setWireframe} from './looks.js';
+import {ViewedObject, hideControls, isInMetres, objectDescriber} from './object_view.js';
 import {originalInLink} from './original_link.js';
 import {$, entitle, explainMoves, freeArea, isSmallScreen, tell} from './page.js';
 import {describer, listenToPointer} from './pointer.js';
@@ -46,6 +47,9 @@ let reopen = () => {};
 /** The text of a point of the terrain. */
 let describe = () => '';
 
+const describerOf = ({isGlobe, isObject}) =>
+  (isGlobe ? globeDescriber : isObject ? objectDescriber : describer);
+
 function show(frame) {
   const first = object.frame === null;
   object.show(frame, {glide: !STILL.matches});
@@ -56,11 +60,12 @@ function show(frame) {
     picture.home();
     $('bearings').hidden = false;
     if (!followLink()) visits.follow();
+    if (object.isObject) setWanted();  // the texels that are seen
   }
   const empty = emptiness(frame);
   if (empty) tell(`${empty}: there is nothing to draw.`, true);
-  readOut(frame, terrain.loaded);
-  describe = (object.isGlobe ? globeDescriber : describer)(frame.info);
+  readOut(object.frame, terrain.loaded);
+  describe = describerOf(object)(frame.info, object);
   map.draw();
   document.body.dataset.bytes = frame.bytes;
   picture.draw();
@@ -102,23 +107,36 @@ function rest() {
     keep(picture.isMoved
       ? {eye: position, target, height: Number($('exaggeration').value)} : null);
   }
-  refiner.replan();
+  if (object?.isObject) setWanted();
+  else refiner.replan();
 }
-/** Whether a metre on the ground is known. */
-const isMeasured = (info) => info.hasHeights && (info.spacingX > 0 || info.hasGeotransform);
+/** Whether a metre of what is shown is known. */
+const isMeasured = (info) => (info.isObject ? isInMetres(info)
+  : info.hasHeights && (info.spacingX > 0 || info.hasGeotransform));
 
 /** Sliders and switches for what was opened. */
 function prepareControls(info) {
   $('panel').hidden = false;
   picture.resize();
   setSliders(info);
-  for (const control of document.querySelectorAll('.of-heights')) control.hidden = !info.hasHeights;
-  for (const control of document.querySelectorAll('.of-texture')) control.hidden = !info.hasTexture;
+  const {hasHeights, hasTexture, isObject} = info;
+  const isPresent = {heights: hasHeights, texture: hasTexture, mesh: hasHeights || isObject};
+  for (const [part, present] of Object.entries(isPresent)) {
+    for (const control of document.querySelectorAll(`.of-${part}`)) control.hidden = !present;
+  }
   $('round').hidden = !goesRound(info);
   $('globe').checked = $('fly').parentElement.hidden = object.isGlobe ?? false;
   if (object.isGlobe && $('fly').checked) $('fly').click();
+  hideControls(info);
   $('textured-name').textContent = info.hasTexture ? 'Texture' : 'Colours';
   visits.prepare(object, info);
+}
+
+/** What draws a stream in the scene. */
+function drawnOf(opened) {
+  if (opened.info.isObject) return new ViewedObject(opened);
+  const material = new MeshLambertMaterial();
+  return globeFor(opened.info) ? new Globe(opened, material) : new TksTerrain(opened, {material});
 }
 
 /** Ends what was being opened, for something else. */
@@ -141,12 +159,11 @@ async function openInput(input, name, asked, original = null) {
     if (signal.aborted) return opened.dispose();
     terrain = opened;
     map.show(terrain);
-    const material = new MeshLambertMaterial();
-    object = globeFor(terrain.info)
-      ? new Globe(terrain, material) : new TksTerrain(terrain, {material});
+    object = drawnOf(terrain);
     setWireframe(object);
     picture.setObject(object);
-    comparison.of(object.isGlobe ? null : original, terrain.info);
+    const isFlat = !object.isGlobe && !object.isObject;
+    comparison.of(isFlat ? original : null, terrain.info);
     $('save').hidden = true;
     prepareControls(terrain.info);
     refiner.begin({terrain, object, first: asked?.first});
@@ -154,7 +171,7 @@ async function openInput(input, name, asked, original = null) {
     called = {name, title, size: sizeOf(terrain.info)};
     entitle(called);
     setWanted();
-    if (asked && !object.isGlobe) compareWithLink(terrain);
+    if (asked && isFlat) compareWithLink(terrain);
   } catch (error) {
     if (!signal.aborted) failToOpen(error);
   }
@@ -207,6 +224,7 @@ async function openFiles(files) {
 /** What is higher than wide, often because it states no unit or a wrong one, is flattened. */
 function exaggerate() {
   if (!object?.frame) return;
+  if (object.isObject) return picture.setExaggeration(1);
   const {tallness} = picture, usual = tallness > 1 ? 1 / (8 * tallness) : 1;
   const {value} = $('exaggeration');
   const times = object.isGlobe ? exaggerationOf(value, terrain.info) : usual * 10 ** (value / 20);

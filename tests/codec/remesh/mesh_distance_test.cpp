@@ -9,13 +9,18 @@
 namespace tetrakis {
 namespace {
 
+MeshDistance distanceOf(const TriangleMesh& first, const TriangleMesh& second,
+                        size_t count = kDistanceSamples) {
+  return meshDistance(TriangleTree(first), TriangleTree(second), count);
+}
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TEST(MeshDistances, OfSpheresAreTheDifferenceOfTheirRadii) {
   constexpr double kSag = 0.001;  // facets lie below the sphere by that part of the radius
   const std::array<double, 2> radii{1, 1.25};
   const TriangleMesh small = sphere(4, radii[0]), large = sphere(4, radii[1]);
-  const MeshDistance found = meshDistance(small, large, 4000);
+  const MeshDistance found = distanceOf(small, large, 4000);
   for (const OneWayDistance& way : {found.to_second, found.to_first}) {
     EXPECT_NEAR(way.rms, 0.25, 3 * kSag);
     EXPECT_NEAR(way.largest, 0.25, 3 * kSag);
@@ -32,7 +37,7 @@ TEST(MeshDistances, OfMovedSpheresFollowTheFormula) {
   TriangleMesh moved = mesh;
   const double s = 0.3;
   for (Point& point : moved.points) point[0] += s;
-  const MeshDistance found = meshDistance(mesh, moved, 10000);
+  const MeshDistance found = distanceOf(mesh, moved, 10000);
   const double expected = std::sqrt(2 + s * s - 2 * (1 + s * s / 3));
   EXPECT_NEAR(found.to_second.rms, expected, 1e-3);
   EXPECT_NEAR(found.to_first.rms, expected, 1e-3);
@@ -41,7 +46,7 @@ TEST(MeshDistances, OfMovedSpheresFollowTheFormula) {
 
 TEST(MeshDistances, OfAMeshToItselfAreNothing) {
   for (const TriangleMesh& mesh : {sphere(2, 3), randomGrid(5, 5, 1), soup(50, 2)}) {
-    const MeshDistance found = meshDistance(mesh, mesh, 1000);
+    const MeshDistance found = distanceOf(mesh, mesh, 1000);
     EXPECT_LT(found.error, 1e-12);
     EXPECT_LT(found.to_second.largest, 1e-12);
     EXPECT_GT(found.psnr, 200);
@@ -53,7 +58,7 @@ TEST(MeshDistances, SeeWhatOnlyOneMeshHas) {
   const size_t all = mesh.triangles.size();
   const TriangleMesh whole = mesh;
   mesh.triangles.resize(all / 2);
-  const MeshDistance found = meshDistance(whole, mesh, 2000);
+  const MeshDistance found = distanceOf(whole, mesh, 2000);
   EXPECT_LT(found.to_first.largest, 1e-12);
   EXPECT_GT(found.to_second.rms, 0.1);
   EXPECT_EQ(found.error, found.to_second.rms);
@@ -61,9 +66,9 @@ TEST(MeshDistances, SeeWhatOnlyOneMeshHas) {
 
 TEST(MeshDistances, OfEmptyMeshesAreInfinite) {
   const TriangleMesh mesh = sphere(0, 1);
-  EXPECT_EQ(meshDistance(mesh, TriangleMesh{}).error, kInfinity);
-  EXPECT_EQ(meshDistance(TriangleMesh{}, mesh).error, kInfinity);
-  EXPECT_EQ(meshDistance(TriangleMesh{}, TriangleMesh{}).error, 0);
+  EXPECT_EQ(distanceOf(mesh, TriangleMesh{}).error, kInfinity);
+  EXPECT_EQ(distanceOf(TriangleMesh{}, mesh).error, kInfinity);
+  EXPECT_EQ(distanceOf(TriangleMesh{}, TriangleMesh{}).error, 0);
 }
 
 TEST(MeshDistances, EvenPlacesFollowTheArea) {
@@ -92,7 +97,7 @@ TEST(MeshDistances, EvenPlacesFollowTheArea) {
 TEST(MeshDistances, DegenerateMeshesHavePlacesToo) {
   const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}, {0, 0, 0}}};
   EXPECT_EQ(evenPlaces(mesh, 10).size(), 10U);
-  EXPECT_LT(meshDistance(mesh, mesh, 10).error, 1e-12);
+  EXPECT_LT(distanceOf(mesh, mesh, 10).error, 1e-12);
   EXPECT_TRUE(evenPlaces({}, 10).empty());
 }
 

@@ -35,7 +35,13 @@ def ball():
     image[:16, :, 2], image[16:, :, 0] = 255, 255
     uv = np.stack([np.full(len(points), 0.5), (10 - points[:, 2]) / 20], axis=1)
     return tetrakis.encode_object(
-        points, triangles, texcoords=uv, texture=image, bytes=2500, description="ball"
+        points,
+        triangles,
+        texcoords=uv,
+        texture=image,
+        bytes=2500,
+        kind="resampled",
+        description="ball",
     )
 
 
@@ -95,7 +101,7 @@ def test_a_terrain_lies_round_the_origin_with_its_texture(shape_of):
 
 
 def test_streams_without_images(shape_of):
-    with tetrakis.open(tetrakis.encode_object(*sphere(9, 12), bytes=800)) as stream:
+    with tetrakis.open(tetrakis.encode_object(*sphere(9, 12), bytes=800, kind="resampled")) as stream:
         shape = shape_of(stream, 1)
     assert shape.image is None and shape.corner_uv is None and len(shape.faces) > 100
     holes = np.full((8, 8), np.nan, "f4")

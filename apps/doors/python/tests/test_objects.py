@@ -76,7 +76,9 @@ def volume(points, triangles):
 def shape(request):
     made, off, euler = SHAPES[request.param]
     points, triangles = made()
-    stream = tetrakis.encode_object(points, triangles, bytes=1500, unit="mm", description="a thing")
+    stream = tetrakis.encode_object(
+        points, triangles, bytes=1500, kind="resampled", unit="mm", description="a thing"
+    )
     return SimpleNamespace(stream=stream, off=off, euler=euler, points=points, triangles=triangles)
 
 
@@ -165,7 +167,7 @@ def test_a_target_of_quality_is_met():
     points, triangles = torus()
     by_psnr = tetrakis.encode_object(points, triangles, psnr=48)
     assert 48 <= by_psnr.report.psnr
-    by_error = tetrakis.encode_object(points, triangles, max_error=0.2)
+    by_error = tetrakis.encode_object(points, triangles, max_error=0.2, kind="resampled")
     with tetrakis.open(by_error) as opened:
         assert opened.info.max_error <= 0.2 and (off_torus(opened.object().points) < 0.8).all()
 
@@ -211,7 +213,7 @@ def globe():
     texcoords = np.stack([column / 24, row / 12], axis=-1)
     image = octants(around(theta, phi)).astype("u1")
     stream = tetrakis.encode_object(
-        points, triangles, texcoords=texcoords, texture=image, bytes=8000
+        points, triangles, texcoords=texcoords, texture=image, bytes=8000, kind="resampled"
     )
     return SimpleNamespace(stream=stream)
 
@@ -267,7 +269,7 @@ def test_textures_of_other_kinds(globe):
     uv = (np.arctan2(points[:, 1], points[:, 0]) / (2 * np.pi) + 0.5, 0.5 - points[:, 2] / 20)
     uv = np.stack(uv, axis=1)
     grey, deep = photograph(16, 24, 1), photograph(16, 24, 4, "u2")
-    options = dict(texcoords=uv, bytes=1500)
+    options = dict(texcoords=uv, bytes=1500, kind="resampled")
     stream = tetrakis.encode_object(points, triangles, texture=deep, **options)
     atlas = tetrakis.open(stream).object(100).atlas
     assert atlas.shape[2:] == (4,) and atlas.dtype == np.uint16 and len(stream) <= 1500
@@ -279,12 +281,15 @@ def test_textures_of_other_kinds(globe):
     material = SimpleNamespace(image=grey)  # an array stands for an image of Pillow
     visual = SimpleNamespace(uv=uv * [1, -1] + [0, 1], material=material)
     of_trimesh = SimpleNamespace(vertices=points, faces=triangles, visual=visual)
-    atlas = tetrakis.open(tetrakis.encode_object(of_trimesh, bytes=1500)).object(100).atlas
+    opened = tetrakis.open(
+        tetrakis.encode_object(of_trimesh, bytes=1500, kind="resampled")
+    )
+    atlas = opened.object(100).atlas
     np.testing.assert_allclose(atlas.astype(int), expected, atol=3)
 
 
 def test_notebooks_show_a_picture(globe):
-    plain = tetrakis.encode_object(*sphere(9, 12), bytes=800)
+    plain = tetrakis.encode_object(*sphere(9, 12), bytes=800, kind="resampled")
     for stream in (globe.stream, plain[:400]):
         with tetrakis.open(stream) as opened:
             page, line = opened._repr_html_(), repr(opened)
@@ -372,3 +377,57 @@ def test_the_library_has_the_last_word_on_hostile_texcoords():
             tetrakis.encode_object(points, triangles, texcoords=uv, texture=image, bytes=1500)
         except tetrakis.TksError as error:
             assert str(error).endswith(".")
+
+
+def grid(side):
+    """Points, triangles and texcoords of a square of steps."""
+    y, x = np.divmod(np.arange((side + 1) ** 2), side + 1)
+    corner = (np.arange(side)[:, np.newaxis] * (side + 1) + np.arange(side)).reshape(-1)
+    triangles = np.concatenate(
+        [
+            np.stack([corner, corner + 1, corner + side + 2], axis=1),
+            np.stack([corner, corner + side + 2, corner + side + 1], axis=1),
+        ]
+    )
+    points = np.stack([x, y, (x + y) % 2], axis=1)
+    return points, triangles, np.stack([x, y], axis=1) / side
+
+
+def test_triangles_come_back_as_they_are():
+    points, triangles, _ = grid(7)
+    stream = tetrakis.encode_object(points, triangles, max_error=0.01)
+    assert (stream.report.kind, stream.report.coded_triangles) == ("triangles", len(triangles))
+    assert stream.report.patches == 0 and stream.report.texture_depth is None
+    with tetrakis.open(stream) as opened:
+        assert opened.is_object and opened.info.base_mesh is None
+        assert opened.info.object_triangles == len(triangles)
+        assert repr(opened).startswith("<tetrakis.Stream: object of 98 triangles, ")
+        mesh = opened.object()
+        assert mesh.pixels is None and mesh.texcoords is None and mesh.atlas is None
+        near = np.abs(mesh.points[:, np.newaxis] - points).max(axis=2).min(axis=1)
+        assert near.max() < 0.01 and len(mesh.points) == len(points)
+        assert len(mesh.triangles) == len(triangles)
+        with pytest.raises(tetrakis.TksUsageError, match="98 triangles"):
+            opened.object(97)
+        assert opened._repr_html_().count("98 triangles") == 1
+
+
+def test_triangles_lie_under_their_texture():
+    points, triangles, texcoords = grid(6)
+    rows, columns = np.mgrid[:48, :64]
+    texture = np.stack([4 * columns, 5 * rows, 90 + 0 * rows], axis=2).astype("u1")
+    stream = tetrakis.encode_object(
+        points, triangles, texcoords=texcoords, texture=texture, bytes=6000, kind="triangles"
+    )
+    with tetrakis.open(stream) as opened:
+        mesh = opened.object()
+        assert mesh.atlas.shape == texture.shape
+        np.testing.assert_allclose(mesh.texcoords, mesh.points[:, :2] / 6, atol=0.02)
+        assert np.abs(mesh.atlas.astype(int) - texture).mean() < 3
+        assert opened._repr_html_().startswith("<")
+
+
+def test_kinds_are_named():
+    points, triangles, _ = grid(2)
+    with pytest.raises(tetrakis.TksUsageError, match="kind must be one of"):
+        tetrakis.encode_object(points, triangles, bytes=900, kind="quads")

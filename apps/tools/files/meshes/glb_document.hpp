@@ -66,7 +66,9 @@ struct Glb {
 /// The mesh, with material 0.
 Status addGeometry(Glb& glb, const MeshFile& mesh, MeshCompression compression);
 
-/// Image and texture 0. TKS_USAGE: the format cannot hold the image.
-Status addTexture(Glb& glb, const ImageFile& image, MeshTexture format);
+/// Image and texture 0, which repeats if texcoords lie beyond it. TKS_USAGE: the format cannot hold
+/// the image.
+Status addTexture(Glb& glb, const ImageFile& image, std::span<const float> texcoords,
+                  MeshTexture format);
 
 }  // namespace tetrakis::tools

@@ -14,13 +14,15 @@ using nlohmann::json;
 
 /// A photograph already holds its light: textured terrain is unlit (KHR_materials_unlit) in viewers
 /// that can, and rough in others.
-Status addMaterial(Glb& glb, const ImageFile* image, MeshTexture format) {
+Status addMaterial(Glb& glb, const MeshFile& mesh, MeshTexture format) {
+  const ImageFile* image = mesh.texture;
   json material{{"name", "terrain"},
                 {"pbrMetallicRoughness", {{"metallicFactor", 0}, {"roughnessFactor", 1}}}};
   std::optional<ImageFile> picture;
   if (image && image->hasFurtherColour()) image = &picture.emplace(withoutFurtherColour(*image));
   if (image) {
-    if (const Status status = addTexture(glb, *image, format); !status.ok()) return status;
+    if (const Status status = addTexture(glb, *image, mesh.texcoords, format); !status.ok())
+      return status;
     glb.useExtension("KHR_materials_unlit", false);
     material["extensions"] = {{"KHR_materials_unlit", json::object()}};
     material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
@@ -64,7 +66,7 @@ Result<std::vector<std::byte>> encodeGlb(const MeshFile& mesh, const MeshOptions
                   {"buffers", listOf(json::object())}};
   if (mesh.origin != std::array<double, 3>{}) glb.document["nodes"][0]["translation"] = mesh.origin;
   Status status = addGeometry(glb, mesh, options.compression);
-  if (status.ok()) status = addMaterial(glb, mesh.texture, options.texture);
+  if (status.ok()) status = addMaterial(glb, mesh, options.texture);
   if (!status.ok()) return status;
   glb.binary.padTo4('\0');
   glb.document["buffers"][0]["byteLength"] = glb.binary.bytes.size();

@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr int kTextureQuality = 90;
-constexpr int kLinear = 9729, kLinearMipmapLinear = 9987, kClampToEdge = 33071;
+constexpr int kLinear = 9729, kLinearMipmapLinear = 9987, kClampToEdge = 33071, kRepeat = 10497;
 
 Result<EncodedTexture> ofType(const char* mime_type, Result<std::vector<std::byte>> bytes) {
   if (!bytes.ok()) return bytes.status();
@@ -83,15 +83,19 @@ Result<EncodedTexture> encodeTexture(const ImageFile& image, MeshTexture format)
   return ofType("image/png", encodePng(texels));
 }
 
-Status addTexture(Glb& glb, const ImageFile& image, MeshTexture format) {
+Status addTexture(Glb& glb, const ImageFile& image, std::span<const float> texcoords,
+                  MeshTexture format) {
   const auto encoded = encodeTexture(image, format);
   if (!encoded.ok()) return encoded.status();
   const size_t view = glb.addView(std::span<const std::byte>(encoded->bytes), 0);
   glb.document["images"] = listOf({{"bufferView", view}, {"mimeType", encoded->mime_type}});
+  const bool inside = std::all_of(texcoords.begin(), texcoords.end(),
+                                  [](float place) { return place >= 0 && place <= 1; });
+  const int wrap = inside ? kClampToEdge : kRepeat;
   glb.document["samplers"] = listOf({{"magFilter", kLinear},
                                      {"minFilter", kLinearMipmapLinear},
-                                     {"wrapS", kClampToEdge},
-                                     {"wrapT", kClampToEdge}});
+                                     {"wrapS", wrap},
+                                     {"wrapT", wrap}});
   json texture{{"sampler", 0}};
   if (const char* const extension = extensionOf(format)) {
     texture["extensions"] = {{extension, {{"source", 0}}}};

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of stored values: sRGB (IEC 61966-2-1).
-#include "apps/tools/files/meshes/surface_colours.hpp"
-
+// The colours that a surface shows. Light of stored values: sRGB (IEC 61966-2-1).
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "apps/tools/files/meshes/surface_file.hpp"
 #include "base/portable_math.hpp"
 
 namespace tetrakis::tools {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // readSurface() reads a textured mesh of triangles of any shape, such as a scan, from the files of
 // other programs: glTF (.glb, .gltf, with Draco or without), OBJ with its MTL, PLY and STL.
+// shownTexture() makes its image what the surface shows.
 #pragma once
 
 #include <array>
@@ -38,5 +39,14 @@ bool isMeshFile(const std::string& path);
 /// with_texture: false leaves the texture where it is.
 Result<SurfaceFile> readSurface(const std::string& path, std::string* note = nullptr,
                                 bool with_texture = true);
+
+/// The image without its alpha: grey or RGB. A further colour is left out as well.
+ImageFile withoutAlpha(const ImageFile& image);
+
+/// What a mesh shows of the texture that it has: the image without its alpha, multiplied by the
+/// mesh's base colour. That is a factor of light where glTF gives it, and of the stored values
+/// where others do. Black counts as white: programs write it beside textures, which would leave
+/// nothing of them.
+ImageFile shownTexture(const SurfaceFile& surface);
 
 }  // namespace tetrakis::tools

@@ -5,40 +5,24 @@
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_map>
+
+#include "codec/remesh/half_edges.hpp"
 
 namespace tetrakis::tools::synth {
 namespace {
 
-constexpr uint32_t kNone = ~0u;
-
-/// Across each side of each triangle, or kNone: 3 a triangle. No edge has more than two.
-std::vector<uint32_t> neighboursOf(const Shape& shape) {
-  std::vector<uint32_t> across(3 * shape.triangles.size(), kNone);
-  std::unordered_map<uint64_t, uint32_t> open;
-  for (uint32_t side = 0; side < across.size(); ++side) {
-    const Corners& t = shape.triangles[side / 3];
-    const auto [low, high] = std::minmax(t[side % 3], t[(side + 1) % 3]);
-    const auto [found, is_new] = open.try_emplace(uint64_t{low} << 32 | high, side);
-    if (is_new) continue;
-    across[side] = found->second / 3;
-    across[found->second] = side / 3;
-  }
-  return across;
-}
-
 class Grower {
  public:
-  Grower(const Shape& shape, const ChartLimits& limits)
-      : shape_(shape), limits_(limits), across_(neighboursOf(shape)) {
+  Grower(const TriangleMesh& shape, const ChartLimits& limits)
+      : shape_(shape), limits_(limits), opposite_(gluedSides(shape.triangles).opposite) {
     charts.assign(shape.triangles.size(), kNone);
     for (uint32_t i = 0; i < charts.size(); ++i)
       if (charts[i] == kNone) grow(i);
   }
   bool isBorder(uint32_t triangle) const {
     for (size_t side = 0; side < 3; ++side) {
-      const uint32_t next = across_[3 * size_t{triangle} + side];
-      if (next == kNone || charts[next] != charts[triangle]) return true;
+      const uint32_t other = opposite_[3 * size_t{triangle} + side];
+      if (other == kNone || charts[other / 3] != charts[triangle]) return true;
     }
     return false;
   }
@@ -48,15 +32,17 @@ class Grower {
  private:
   void grow(uint32_t first) {
     const auto chart = static_cast<uint32_t>(directions.size());
-    const Spot facing = directionOf(shape_.normal(shape_.triangles[first]));
+    const Spot facing = directionOf(areaNormal(shape_, shape_.triangles[first]));
     directions.push_back(facing);
     std::vector<uint32_t> grown{first};
     charts[first] = chart;
     for (size_t i = 0; i < grown.size(); ++i) {
       for (size_t side = 0; side < 3 && grown.size() < limits_.most_triangles; ++side) {
-        const uint32_t next = across_[3 * grown[i] + side];
-        if (next == kNone || charts[next] != kNone) continue;
-        if (dot(directionOf(shape_.normal(shape_.triangles[next])), facing) < limits_.least_cosine)
+        const uint32_t other = opposite_[3 * size_t{grown[i]} + side];
+        if (other == kNone || charts[other / 3] != kNone) continue;
+        const uint32_t next = other / 3;
+        if (dot(directionOf(areaNormal(shape_, shape_.triangles[next])), facing) <
+            limits_.least_cosine)
           continue;
         charts[next] = chart;
         grown.push_back(next);
@@ -64,18 +50,18 @@ class Grower {
     }
   }
 
-  const Shape& shape_;
+  const TriangleMesh& shape_;
   ChartLimits limits_;
-  std::vector<uint32_t> across_;
+  std::vector<uint32_t> opposite_;  ///< for each side of a triangle the one glued to it
 };
 
-struct Box {
+struct FlatBox {
   std::array<double, 2> low{1e300, 1e300}, high{-1e300, -1e300};
   double extent(size_t axis) const { return high[axis] - low[axis]; }
 };
 
 /// Flat, in the unit of the shape.
-std::vector<std::array<double, 2>> seenFrom(const Shape& shape, const Grower& grown) {
+std::vector<std::array<double, 2>> seenFrom(const TriangleMesh& shape, const Grower& grown) {
   std::vector<std::array<double, 2>> places;
   for (size_t i = 0; i < shape.triangles.size(); ++i) {
     const Spot& facing = grown.directions[grown.charts[i]];
@@ -89,10 +75,10 @@ std::vector<std::array<double, 2>> seenFrom(const Shape& shape, const Grower& gr
 }
 
 /// Of each chart.
-std::vector<Box> boxesOf(const Atlas& atlas, size_t charts) {
-  std::vector<Box> boxes(charts);
+std::vector<FlatBox> boxesOf(const Atlas& atlas, size_t charts) {
+  std::vector<FlatBox> boxes(charts);
   for (size_t i = 0; i < atlas.places.size(); ++i) {
-    Box& box = boxes[atlas.charts[i / 3]];
+    FlatBox& box = boxes[atlas.charts[i / 3]];
     for (size_t axis = 0; axis < 2; ++axis) {
       box.low[axis] = std::min(box.low[axis], atlas.places[i][axis]);
       box.high[axis] = std::max(box.high[axis], atlas.places[i][axis]);
@@ -102,7 +88,7 @@ std::vector<Box> boxesOf(const Atlas& atlas, size_t charts) {
 }
 
 /// Corners of the boxes in a square of this side, shelf by shelf; none if they do not fit.
-std::vector<std::array<double, 2>> shelved(const std::vector<Box>& boxes,
+std::vector<std::array<double, 2>> shelved(const std::vector<FlatBox>& boxes,
                                            const std::vector<uint32_t>& order, double side,
                                            double gap) {
   std::vector<std::array<double, 2>> at(boxes.size());
@@ -124,19 +110,19 @@ std::vector<std::array<double, 2>> shelved(const std::vector<Box>& boxes,
 
 }  // namespace
 
-Atlas unwrap(const Shape& shape, const ChartLimits& limits) {
+Atlas unwrap(const TriangleMesh& shape, const ChartLimits& limits) {
   constexpr double kGap = 1.0 / 200, kFirst = 1.02, kMore = 1.03;
   const Grower grown(shape, limits);
   Atlas atlas{seenFrom(shape, grown), grown.charts, {}};
   for (uint32_t i = 0; i < shape.triangles.size(); ++i) atlas.borders.push_back(grown.isBorder(i));
-  const std::vector<Box> boxes = boxesOf(atlas, grown.directions.size());
+  const std::vector<FlatBox> boxes = boxesOf(atlas, grown.directions.size());
   std::vector<uint32_t> order(boxes.size());
   std::iota(order.begin(), order.end(), 0U);
   std::stable_sort(order.begin(), order.end(), [&boxes](uint32_t a, uint32_t b) {
     return boxes[a].extent(1) > boxes[b].extent(1);
   });
   double area = 0;
-  for (const Box& box : boxes) area += box.extent(0) * box.extent(1);
+  for (const FlatBox& box : boxes) area += box.extent(0) * box.extent(1);
   double side = kFirst * std::sqrt(area);
   auto at = shelved(boxes, order, side, kGap * side);
   for (; at.empty(); at = shelved(boxes, order, side, kGap * side)) side *= kMore;

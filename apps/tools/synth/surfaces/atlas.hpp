@@ -21,10 +21,10 @@ struct ChartLimits {
   size_t most_triangles;
 };
 
-Atlas unwrap(const Shape& shape, const ChartLimits& limits);
+Atlas unwrap(const TriangleMesh& shape, const ChartLimits& limits);
 
 /// RGB8, side x side texels: the colours of a stone, by the place in space, some texels beyond the
 /// borders of charts; grey elsewhere.
-ImageFile paint(const Shape& shape, const Atlas& atlas, uint32_t side, uint64_t seed);
+ImageFile paint(const TriangleMesh& shape, const Atlas& atlas, uint32_t side, uint64_t seed);
 
 }  // namespace tetrakis::tools::synth

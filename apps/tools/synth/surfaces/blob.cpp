@@ -23,7 +23,7 @@ constexpr std::array<Spot, 12> kIcosahedron{{{-1, kGolden, 0},
                                              {kGolden, 0, 1},
                                              {-kGolden, 0, -1},
                                              {-kGolden, 0, 1}}};
-constexpr std::array<Corners, 20> kFaces{
+constexpr std::array<Triangle, 20> kFaces{
     {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
@@ -32,13 +32,13 @@ constexpr std::array<Corners, 20> kFaces{
 class Sphere {
  public:
   explicit Sphere(uint32_t parts) : parts_(parts) {
-    for (const Corners& face : kFaces) addFace(face);
+    for (const Triangle& face : kFaces) addFace(face);
   }
-  Shape shape{};
+  TriangleMesh shape{};
 
  private:
   /// Weights of a face's corners in parts; corners that weigh nothing do not count.
-  uint32_t numberOf(const Corners& face, const std::array<uint32_t, 3>& weights) {
+  uint32_t numberOf(const Triangle& face, const std::array<uint32_t, 3>& weights) {
     std::array<std::array<uint32_t, 2>, 3> key{};
     Spot sum{};
     for (size_t k = 0; k < 3; ++k)
@@ -52,7 +52,7 @@ class Sphere {
     if (is_new) shape.points.push_back(directionOf(sum));
     return found->second;
   }
-  void addFace(const Corners& face) {
+  void addFace(const Triangle& face) {
     const auto at = [&](uint32_t i, uint32_t j) { return numberOf(face, {parts_ - i - j, i, j}); };
     for (uint32_t i = 0; i < parts_; ++i) {
       for (uint32_t j = 0; i + j < parts_; ++j) {
@@ -69,11 +69,11 @@ class Sphere {
 
 }  // namespace
 
-Shape blob(uint32_t triangles, uint64_t seed) {
+TriangleMesh blob(uint32_t triangles, uint64_t seed) {
   constexpr double kFaceCount = 20, kBumps = 0.7, kWidth = 1.3;
   constexpr int kOctaves = 2;
   const double parts = std::sqrt(triangles / kFaceCount);
-  Shape shape = Sphere(std::max(1U, static_cast<uint32_t>(parts + 0.5))).shape;
+  TriangleMesh shape = Sphere(std::max(1U, static_cast<uint32_t>(parts + 0.5))).shape;
   for (Spot& point : shape.points)
     point = (1 + kBumps * solidFractal(seed, kWidth * point, kOctaves)) * point;
   return shape;

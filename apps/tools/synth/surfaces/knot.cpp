@@ -45,13 +45,13 @@ Middle middleAt(double t) {
 
 }  // namespace
 
-Shape knot(uint32_t triangles, uint64_t seed) {
+TriangleMesh knot(uint32_t triangles, uint64_t seed) {
   constexpr double kLongerThanWide = 12, kBumps = 0.35, kWidth = 4;
   constexpr int kOctaves = 3;
   const double fitting = std::sqrt(triangles / (2 * kLongerThanWide));
   const auto around = std::max(3U, static_cast<uint32_t>(fitting + 0.5));
   const auto along = std::max(24U, triangles / (2 * around));
-  Shape shape;
+  TriangleMesh shape;
   for (uint32_t i = 0; i < along; ++i) {
     const Middle middle = middleAt(double{1} * i / along);
     for (uint32_t j = 0; j < around; ++j) {

@@ -22,7 +22,7 @@ class Marcher {
       for (size_t y = 0; y < cells.side; ++y)
         for (size_t x = 0; x < cells.side; ++x) march(x + row_ * (y + row_ * z));
   }
-  Shape shape{};
+  TriangleMesh shape{};
 
  private:
   Spot placeOf(size_t i) const {
@@ -63,8 +63,8 @@ class Marcher {
     }
   }
   /// The way out of the tetrahedron tells which side of the triangle is outside.
-  void add(Corners t, const Spot& outward) {
-    if (dot(shape.normal(t), outward) < 0) std::swap(t[1], t[2]);
+  void add(Triangle t, const Spot& outward) {
+    if (dot(areaNormal(shape, t), outward) < 0) std::swap(t[1], t[2]);
     shape.triangles.push_back(t);
   }
   uint32_t between(size_t in, size_t out) {
@@ -101,10 +101,10 @@ Spot onto(const Field& field, const Spot& point, double step) {
 }
 
 /// Each point goes to the middle of its neighbours, and back onto the surface.
-void relax(const Field& field, double step, Shape& shape) {
+void relax(const Field& field, double step, TriangleMesh& shape) {
   std::vector<Spot> sums(shape.points.size());
   std::vector<double> counts(shape.points.size());
-  for (const Corners& t : shape.triangles) {
+  for (const Triangle& t : shape.triangles) {
     for (size_t k = 0; k < 3; ++k) {
       sums[t[k]] = sums[t[k]] + shape.points[t[(k + 1) % 3]] + shape.points[t[(k + 2) % 3]];
       counts[t[k]] += 2;
@@ -116,10 +116,10 @@ void relax(const Field& field, double step, Shape& shape) {
 
 }  // namespace
 
-Shape levelSet(const Field& field, const Cells& cells) {
+TriangleMesh levelSet(const Field& field, const Cells& cells) {
   constexpr int kRounds = 3;
   constexpr double kFine = 0.01;
-  Shape shape = Marcher(field, cells).shape;
+  TriangleMesh shape = Marcher(field, cells).shape;
   const double step = kFine * cells.half / cells.side;
   for (int i = 0; i < kRounds; ++i) relax(field, step, shape);
   return shape;

@@ -19,6 +19,6 @@ struct Cells {
 
 /// Closed if the field is positive on the border of the cube, and manifold (marching tetrahedra:
 /// Doi and Koide 1991); then relaxed, so that triangles are of about one size.
-Shape levelSet(const Field& field, const Cells& cells);
+TriangleMesh levelSet(const Field& field, const Cells& cells);
 
 }  // namespace tetrakis::tools::synth

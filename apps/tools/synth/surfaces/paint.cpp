@@ -40,11 +40,11 @@ struct FlatTriangle {
 
 class Painter {
  public:
-  Painter(const Shape& shape, uint64_t seed, ImageFile& image)
+  Painter(const TriangleMesh& shape, uint64_t seed, ImageFile& image)
       : shape_(shape), seed_(seed), image_(image) {}
 
   /// Texels whose middles lie in the triangle, or up to `margin` texels off.
-  void fill(const Corners& t, const FlatTriangle& flat, double margin) {
+  void fill(const Triangle& t, const FlatTriangle& flat, double margin) {
     if (!(std::abs(flat.area()) > 0)) return;
     const auto range = [&](size_t axis) {
       const auto [low, high] =
@@ -59,7 +59,7 @@ class Painter {
   }
 
  private:
-  void fillTexel(const Corners& t, const FlatTriangle& flat, const std::array<uint32_t, 2>& at,
+  void fillTexel(const Triangle& t, const FlatTriangle& flat, const std::array<uint32_t, 2>& at,
                  double margin) {
     const Spot weights = flat.weights({at[0] + 0.5, at[1] + 0.5});
     if (margin == 0 && *std::min_element(weights.begin(), weights.end()) < 0) return;
@@ -71,14 +71,14 @@ class Painter {
       texel[k] = static_cast<std::byte>(std::clamp(std::floor(colour[k] + 0.5), 0.0, 255.0));
   }
 
-  const Shape& shape_;
+  const TriangleMesh& shape_;
   uint64_t seed_;
   ImageFile& image_;
 };
 
 }  // namespace
 
-ImageFile paint(const Shape& shape, const Atlas& atlas, uint32_t side, uint64_t seed) {
+ImageFile paint(const TriangleMesh& shape, const Atlas& atlas, uint32_t side, uint64_t seed) {
   constexpr std::byte kGrey{128};
   constexpr double kMargin = 2;
   ImageFile image{side, side, 3, TKS_U8, std::vector<std::byte>(size_t{3} * side * side, kGrey)};

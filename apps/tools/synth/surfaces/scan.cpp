@@ -78,10 +78,10 @@ class Body {
 };
 
 /// A mesh of about so many triangles. Their number grows with the square of the number of cells.
-Shape meshOf(const Field& field, uint32_t triangles) {
+TriangleMesh meshOf(const Field& field, uint32_t triangles) {
   constexpr double kHalf = 1.55;
   constexpr uint32_t kFewest = 48;  // that limbs and handles survive
-  Shape coarsest = levelSet(field, {kHalf, kFewest});
+  TriangleMesh coarsest = levelSet(field, {kHalf, kFewest});
   const auto found = static_cast<double>(coarsest.triangles.size());
   const auto side = static_cast<uint32_t>(kFewest * std::sqrt(triangles / found));
   return side > kFewest ? levelSet(field, {kHalf, side}) : coarsest;
@@ -90,9 +90,9 @@ Shape meshOf(const Field& field, uint32_t triangles) {
 using Edges = std::map<std::pair<uint32_t, uint32_t>, int>;
 
 /// Marks points at which more than one gap begins; whether there are any.
-bool markPinched(const Shape& shape, std::vector<bool>& gone) {
+bool markPinched(const TriangleMesh& shape, std::vector<bool>& gone) {
   Edges edges;
-  for (const Corners& t : shape.triangles)
+  for (const Triangle& t : shape.triangles)
     for (size_t k = 0; k < 3; ++k) ++edges[std::minmax(t[k], t[(k + 1) % 3])];
   std::vector<int> border(shape.points.size());
   for (const auto& [edge, count] : edges) {
@@ -107,14 +107,14 @@ bool markPinched(const Shape& shape, std::vector<bool>& gone) {
   return any;
 }
 
-void removePoints(const std::vector<bool>& gone, Shape& shape) {
+void removePoints(const std::vector<bool>& gone, TriangleMesh& shape) {
   std::erase_if(shape.triangles,
-                [&gone](const Corners& t) { return gone[t[0]] || gone[t[1]] || gone[t[2]]; });
+                [&gone](const Triangle& t) { return gone[t[0]] || gone[t[1]] || gone[t[2]]; });
 }
 
 /// Cuts holes in sides of the cube whose corners bear limbs and handles. Points that have lost
 /// their triangles stay.
-void pierce(uint64_t seed, Shape& shape) {
+void pierce(uint64_t seed, TriangleMesh& shape) {
   constexpr double kRadius = 0.15;
   std::vector<bool> gone(shape.points.size());
   for (size_t hole = 0; hole < kHoles; ++hole) {
@@ -133,12 +133,12 @@ void pierce(uint64_t seed, Shape& shape) {
 }
 
 /// Each point by itself, along its normal, by a share of the length of edges.
-void addNoise(uint64_t seed, Shape& shape) {
+void addNoise(uint64_t seed, TriangleMesh& shape) {
   constexpr double kShare = 0.06;
   std::vector<Spot> normals(shape.points.size());
   double area = 0;
-  for (const Corners& t : shape.triangles) {
-    const Spot normal = shape.normal(t);
+  for (const Triangle& t : shape.triangles) {
+    const Spot normal = areaNormal(shape, t);
     area += length(normal);
     for (const uint32_t corner : t) normals[corner] = normals[corner] + normal;
   }
@@ -151,8 +151,8 @@ void addNoise(uint64_t seed, Shape& shape) {
 
 }  // namespace
 
-Shape scan(uint32_t triangles, uint64_t seed) {
-  Shape shape = meshOf(Body(seed), triangles);
+TriangleMesh scan(uint32_t triangles, uint64_t seed) {
+  TriangleMesh shape = meshOf(Body(seed), triangles);
   pierce(seed, shape);
   addNoise(seed, shape);
   return shape;

@@ -11,7 +11,7 @@
 namespace tetrakis::tools {
 namespace {
 
-synth::Shape shapeOf(const SynthSurfaceOptions& options) {
+TriangleMesh shapeOf(const SynthSurfaceOptions& options) {
   switch (options.kind) {
     case SynthSurfaceKind::kBlob:
       return synth::blob(options.triangles, options.seed);
@@ -24,7 +24,7 @@ synth::Shape shapeOf(const SynthSurfaceOptions& options) {
 }
 
 /// A vertex for each chart that meets a point.
-MeshFile meshOf(const synth::Shape& shape, const synth::Atlas& atlas) {
+MeshFile meshOf(const TriangleMesh& shape, const synth::Atlas& atlas) {
   MeshFile mesh;
   std::unordered_map<uint64_t, uint32_t> numbers;
   for (size_t i = 0; i < shape.triangles.size(); ++i) {
@@ -58,7 +58,7 @@ SynthSurface synthesizeSurface(const SynthSurfaceOptions& options) {
   constexpr synth::ChartLimits kWide{0.5, ~size_t{0}};
   constexpr double kScanCosine = 0.7;
   constexpr size_t kScanCharts = 80;
-  const synth::Shape shape = shapeOf(options);
+  const TriangleMesh shape = shapeOf(options);
   const bool is_scan = options.kind == SynthSurfaceKind::kScan;
   const synth::ChartLimits limits =
       is_scan ? synth::ChartLimits{kScanCosine, shape.triangles.size() / kScanCharts + 1} : kWide;

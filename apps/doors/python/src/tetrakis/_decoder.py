@@ -195,12 +195,19 @@ class Decoder:
         finally:
             c.lib.tks_free_globe_mesh(raw)
 
-    def object_mesh(self, kind: int, triangles: int) -> Tuple[NDArray[Any], ...]:
-        """As `globe_mesh`, of an object."""
-        raw = c.GlobeMesh()
+    def object_mesh(self, kind: int, triangles: int) -> Tuple[Optional[NDArray[Any]], ...]:
+        """Positions, pixels and texcoords of the vertices, the last two where there are any, and
+        (n, 3) corners."""
+        raw = c.ObjectMesh()
         self.check(c.lib.tks_decode_object(self._handle, kind, triangles, raw))
         try:
-            return _arrays(raw)
+            vertices = raw.vertex_count
+            return (
+                _copied(raw.position, 3 * vertices, "f8").reshape(-1, 3),
+                _copied(raw.pixel, 2 * vertices, "f8").reshape(-1, 2) if raw.pixel else None,
+                _copied(raw.texcoord, 2 * vertices, "f8").reshape(-1, 2) if raw.texcoord else None,
+                _copied(raw.triangles, 3 * raw.triangle_count, "u4").reshape(-1, 3),
+            )
         finally:
             c.lib.tks_free_object_mesh(raw)
 

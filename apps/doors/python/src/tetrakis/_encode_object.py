@@ -58,7 +58,11 @@ class ObjectReport(NamedTuple):
     psnr: float
     """20 log10(diagonal / error)."""
     texture_depth: Optional[int]
-    """As `depth`, of texels; None: there is no texture."""
+    """As `depth`, of texels; None: there is no texture on the patches."""
+    kind: str
+    """How it was coded: "resampled" or "triangles", which have no patches."""
+    coded_triangles: Optional[int]
+    """Of "triangles": how many there are."""
 
 
 class EncodedObject(builtins.bytes):
@@ -181,7 +185,10 @@ def _mesh_struct(given: _Given, texts: dict) -> Tuple[c.TriangleMesh, Tuple[Any,
 
 def _report(raw: c.ObjectReport) -> ObjectReport:
     told = {name: getattr(raw, name) for name in ObjectReport._fields}
-    return ObjectReport(**{**told, "texture_depth": raw.texture_depth or None})
+    told["kind"] = c.OBJECT_KINDS[raw.kind]
+    for name in ("texture_depth", "coded_triangles"):
+        told[name] = told[name] or None
+    return ObjectReport(**told)
 
 
 def encode_object(
@@ -193,6 +200,7 @@ def encode_object(
     bytes: Optional[int] = None,
     psnr: Optional[float] = None,
     max_error: Optional[float] = None,
+    kind: str = "auto",
     unit: Optional[str] = None,
     description: Optional[str] = None,
     index: Union[bool, str] = False,
@@ -200,9 +208,13 @@ def encode_object(
     progress: Optional[stoppable.Progress] = None,
 ) -> EncodedObject:
     """Codes the surface of a triangle mesh, such as a scan, into one stream, of which every prefix
-    that holds the header is a stream as well. The mesh is resampled over quads: what comes back is
-    its surface, as triangles of any number, not its triangles. The result is bytes, as that of
+    that holds the header is a stream as well. The result is bytes, as that of
     :func:`tetrakis.encode`, and has a `report`, an :class:`ObjectReport`.
+
+    kind: "resampled": the mesh is resampled over quads; what comes back is its surface, as triangles
+        of any number, not its triangles. This suits scans and sculptures. "triangles": they are
+        coded as they are, or fewer ones where the target takes no more; this suits designed parts
+        and models of few triangles. "auto": in whichever way comes nearer to the mesh.
 
     The mesh
         points: (n, 3) of any numbers that float64 holds. triangles: (m, 3) places in `points`,
@@ -212,14 +224,15 @@ def encode_object(
         texcoords: (n, 2), or (m, 3, 2) where corners of triangles have their own: places in the
             texture. (0, 0) is its upper left corner and (1, 1) its lower right one, as in glTF; it
             repeats beyond these. They become float32.
-        texture: as that of `encode`. It is resampled on the quads, and needs no texcoords there.
+        texture: as that of `encode`. It is resampled on quads, and needs no texcoords there.
         unit: of `points`, such as "mm". description: a name.
 
     Targets: one of them
-        bytes: the stream takes at most so many; the quads with the least error are sought. With a
-            texture the only target.
+        bytes: the stream takes at most so many; the least error is sought. With a texture the only
+            target.
         psnr: of the surface, 20 log10(diagonal / error), in dB. The fewest bytes are sought.
-        max_error: every sample keeps its height within this distance, in `unit`.
+        max_error: every sample keeps its height, or every corner its place, within this distance,
+            in `unit`.
 
     index, threads, progress: as for `encode`; each number of quads that is tried begins a progress
     of its own.
@@ -243,6 +256,7 @@ def encode_object(
     if given.texture is None and given.texcoords is not None:
         raise TksUsageError("texcoords are places in a texture: give one.")
     mesh, arrays = _mesh_struct(given, dict(unit=unit, description=description))
+    mesh.kind = values.choice(kind, c.OBJECT_KINDS, "kind")
     image, texels = None, None
     if given.texture is not None:
         image, texels = image_struct(given.texture, _PLAIN_IMAGE)

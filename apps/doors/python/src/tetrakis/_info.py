@@ -103,6 +103,8 @@ class Info:
 
     base_mesh: Optional[objects.BaseMesh] = field(compare=False)
     """Of an object: the quads that its heights lie over."""
+    object_triangles: Optional[int]
+    """Of an object whose triangles are coded as they are: how many these are."""
 
 
 _PLAIN = (
@@ -172,6 +174,7 @@ def _as_coded(raw: c.StreamInfo) -> Info:
         domain=c.DOMAINS[raw.domain],
         cube_depth=None,
         base_mesh=objects.base_of(raw),
+        object_triangles=raw.object_triangles or None,
         texture_domain=c.DOMAINS[raw.texture_domain],
         index=c.INDEXES[raw.index],
         nodata=raw.nodata if raw.has_nodata else None,

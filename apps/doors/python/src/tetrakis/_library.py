@@ -36,6 +36,7 @@ GEOTRANSFORM = c_double * 6
 REGISTRATIONS = (None, "area", "point")
 WEIGHTS = ("psnr", "visual")
 INDEXES = (False, True, "windows")
+OBJECT_KINDS = ("auto", "resampled", "triangles")
 DOMAINS = ("plane", "cylinder", "forest")
 GIVEN_DOMAINS = ("plane", "cylinder", "cube")  # a cube is a forest
 
@@ -219,6 +220,7 @@ class TriangleMesh(ctypes.Structure):
         ("unit", c_char_p),
         ("description", c_char_p),
         ("texcoords", c_void_p),
+        ("kind", c_int),
     ]
 
 
@@ -240,6 +242,8 @@ class ObjectReport(ctypes.Structure):
         ("largest", c_double),
         ("psnr", c_double),
         ("texture_depth", c_uint32),
+        ("kind", c_int),
+        ("coded_triangles", c_uint32),
     ]
 
 
@@ -344,6 +348,7 @@ class StreamInfo(ctypes.Structure):
         ("grid_width", c_uint32),
         ("grid_height", c_uint32),
         ("base_mesh", BaseMesh),
+        ("object_triangles", c_uint32),
     ]
 
 
@@ -402,6 +407,20 @@ class GlobeMesh(ctypes.Structure):
         ("triangle_count", c_uint32),
         ("position", POINTER(c_double)),
         ("pixel", POINTER(c_double)),
+        ("height", POINTER(c_float)),
+        ("triangles", POINTER(c_uint32)),
+    ]
+
+
+class ObjectMesh(ctypes.Structure):
+    """tks_object_mesh."""
+
+    _fields_ = [
+        ("vertex_count", c_uint32),
+        ("triangle_count", c_uint32),
+        ("position", POINTER(c_double)),
+        ("pixel", POINTER(c_double)),
+        ("texcoord", POINTER(c_double)),
         ("height", POINTER(c_float)),
         ("triangles", POINTER(c_uint32)),
     ]
@@ -470,6 +489,7 @@ STRUCTS = {
     "tks_mesh": Mesh,
     "tks_globe": Globe,
     "tks_globe_mesh": GlobeMesh,
+    "tks_object_mesh": ObjectMesh,
     "tks_screen_camera": ScreenCamera,
     "tks_screen": Screen,
     "tks_fetch": Fetch,
@@ -537,8 +557,8 @@ PROTOTYPES = {
         [c_void_p, c_int, c_uint32, POINTER(Globe), POINTER(GlobeMesh)],
     ),
     "tks_free_globe_mesh": (None, [POINTER(GlobeMesh)]),
-    "tks_decode_object": (c_int, [c_void_p, c_int, c_uint32, POINTER(GlobeMesh)]),
-    "tks_free_object_mesh": (None, [POINTER(GlobeMesh)]),
+    "tks_decode_object": (c_int, [c_void_p, c_int, c_uint32, POINTER(ObjectMesh)]),
+    "tks_free_object_mesh": (None, [POINTER(ObjectMesh)]),
     "tks_cube_sides": (POINTER(c_uint32), []),
     "tks_cube_depth": (c_uint32, [c_uint32]),
     "tks_cube_from_grid": (

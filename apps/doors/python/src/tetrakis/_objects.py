@@ -55,9 +55,9 @@ class ObjectMesh(NamedTuple):
     once for each patch, equal to the last bit."""
     triangles: NDArray[Any]
     """uint32 (m, 3): places in `points`, counter-clockwise seen from outside."""
-    pixels: NDArray[Any]
+    pixels: Optional[NDArray[Any]]
     """float64 (n, 2): column and row in the raster of the patches, of which (0, 0) is the outer
-    corner of the first sample."""
+    corner of the first sample. None where triangles are coded as they are."""
     texcoords: Optional[NDArray[Any]]
     """float64 (n, 2): place in the atlas; (0, 0) is its upper left corner, (1, 1) its lower right
     one. So v grows downwards, as in glTF; trimesh and PyVista take ``1 - v``. None without a
@@ -65,7 +65,8 @@ class ObjectMesh(NamedTuple):
     atlas: Optional[NDArray[Any]]
     """(rows, columns) or (rows, columns, channels) of `Info.texture_dtype`: patch p lies in row
     p // k and column p % k of a grid, k = ceil(sqrt(patches)); its texels have a rim of one texel
-    round them, a copy of the nearest one. Fields that no patch fills are 0."""
+    round them, a copy of the nearest one. Fields that no patch fills are 0. Where triangles are
+    coded as they are: the texture itself, which repeats beyond its corners."""
 
 
 def base_of(raw: c.StreamInfo) -> Optional[BaseMesh]:

@@ -85,4 +85,5 @@ def _colours(atlas: NDArray[Any], white: int) -> NDArray[Any]:
 
 def _looked_up(colours: NDArray[Any], uv: NDArray[Any]) -> NDArray[Any]:
     rows, columns = colours.shape[:2]
+    uv = uv - np.floor(uv)  # the texture repeats
     return colours[(uv[:, 1] * rows).astype(int), (uv[:, 0] * columns).astype(int)].astype("f8")

@@ -136,8 +136,8 @@ class Stream:
             )
             if shape
         ]
-        if info.base_mesh is not None:
-            parts.insert(0, f"object of {_patches(info.base_mesh)}")
+        if self.is_object:
+            parts.insert(0, f"object of {_parts(info)}")
         parts.append(f"{info.available_bytes} of {info.stream_bytes} bytes")
         return f"<tetrakis.Stream: {', '.join(parts)}>"
 
@@ -153,13 +153,14 @@ class Stream:
             "largest error": info.max_error and f"{info.max_error} {info.unit or ''}",
             "CRS": info.crs and info.crs[:60],
         }
-        if info.base_mesh is not None:
-            facts = {"object": info.description or "", "quads": _patches(info.base_mesh), **facts}
+        if self.is_object:
+            facts = {"object": info.description or "", "of": _parts(info), **facts}
         return picture.page(picture.png(self._thumbnail(info)), facts)
 
     def _thumbnail(self, info: Info) -> NDArray[Any]:
-        if info.base_mesh is not None:
-            return sketch.drawn(self.object(sketch.TRIANGLES), info.texture_white_level or 65535)
+        if self.is_object:
+            most = 0 if info.base_mesh is None else sketch.TRIANGLES
+            return sketch.drawn(self.object(most), info.texture_white_level or 65535)
         if info.texture_shape is not None:
             level = _level_for(info.texture_shape, info.texture_coarsest_level)
             return picture.eight_bits(self.texture(level), info.texture_white_level or 65535)
@@ -341,7 +342,7 @@ class Stream:
             info = decoder.info()
             if info.cube_depth is not None:
                 raise TksUsageError("Heights on a cube have a mesh round the globe: globe_mesh().")
-            if info.base_mesh is not None:
+            if info.base_mesh is not None or info.object_triangles is not None:
                 raise TksUsageError("The surface of an object is a mesh of its own: object().")
             if coordinates == "crs" and info.shape and info.geotransform is None:
                 raise TksUsageError("The stream does not say where its heights lie.")
@@ -390,8 +391,10 @@ class Stream:
     @property
     def is_object(self) -> bool:
         """Whether this is the surface of an object, whose mesh :meth:`object` gives. Its heights
-        are those along the normals of `info.base_mesh`."""
-        return self.info.base_mesh is not None
+        are those along the normals of `info.base_mesh`; or it has none, but
+        `info.object_triangles`."""
+        info = self.info
+        return info.base_mesh is not None or info.object_triangles is not None
 
     def object(
         self, triangles: int = 0, coded: bool = False, bytes: Optional[int] = None
@@ -399,6 +402,7 @@ class Stream:
         """The surface of an object as the best mesh of at most `triangles` triangles, by the
         squared distance between surfaces, but no fewer than two for each of its patches. 0: of
         every sample. With its texture, where it has one, as an image that lies on the mesh.
+        Triangles that are coded as they are come all: fewer cannot be asked for.
 
         coded: the vertices whose heights the stream tells, however many these are.
         bytes: of a prefix of so many bytes.
@@ -412,12 +416,17 @@ class Stream:
             raise TksUsageError("A coded mesh has the triangles that the stream tells: give none.")
         with self._access.prefix(bytes) as decoder:
             info = decoder.info()
-            points, pixels, _, corners = decoder.object_mesh(kind, count)
-            if info.base_mesh is None or info.base_mesh.texture_depth is None:
+            points, pixels, texcoords, corners = decoder.object_mesh(kind, count)
+            base = info.base_mesh
+            if base is not None and base.texture_depth is None or info.texture_shape is None:
                 return objects.ObjectMesh(points, corners, pixels, None, None)
-            atlas = objects.atlas_of(decoder.texture(info, None, None))
-        texcoords = objects.texcoords_of(pixels, info.base_mesh)
-        return objects.ObjectMesh(points, corners, pixels, texcoords, atlas)
+            texture = decoder.texture(info, None, None)
+        if base is None:
+            return objects.ObjectMesh(points, corners, None, texcoords, texture)
+        atlas = objects.atlas_of(texture)
+        return objects.ObjectMesh(
+            points, corners, pixels, objects.texcoords_of(pixels, base), atlas
+        )
 
     def locate(
         self, columns: ArrayLike, rows: ArrayLike, *, part: str = "heights"
@@ -470,9 +479,12 @@ def _levels(heights: int, texture: int) -> Tuple[int, int]:
     return values.unsigned(heights, "level"), values.unsigned(texture, "level")
 
 
-def _patches(base: objects.BaseMesh) -> str:
-    side = 2**base.depth + 1
-    return f"{len(base.corners)} patches of {side} x {side}"
+def _parts(info: Info) -> str:
+    """Of an object."""
+    if info.base_mesh is None:
+        return f"{info.object_triangles} triangles"
+    side = 2**info.base_mesh.depth + 1
+    return f"{len(info.base_mesh.corners)} patches of {side} x {side}"
 
 
 def _level_for(shape: Sequence[int], coarsest: int) -> int:

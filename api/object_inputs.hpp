@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// GivenObject is a mesh that is to be coded, with all that its encoders share; CodedObject is what
+// one of them has made of it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/watch.hpp"
+#include "codec/remesh/mesh_colours.hpp"
+#include "codec/remesh/mesh_distance.hpp"
+#include "codec/remesh/object.hpp"
+#include "tetrakis/result.hpp"
+#include "tetrakis/tetrakis.h"
+
+namespace tetrakis::inline api {
+
+/// Meshes are decimated to so many triangles, unless their topology needs more.
+inline constexpr uint32_t kFewestTriangles = 16;
+
+/// Places of either surface by which trials are compared; reports take more.
+inline constexpr size_t kTrialPlaces = 6000;
+
+/// Tells the caller how far the search is. Nobody knows how many streams will be tried: each takes
+/// a part of what is left.
+class SearchProgress {
+ public:
+  explicit SearchProgress(const tks_encode_options& options) : options_(options) {}
+
+  /// A stream is tried by an encoding under these options.
+  void attend(tks_encode_options& options) {
+    begin_ = done_;
+    options.progress = options_.progress != nullptr ? &SearchProgress::told : nullptr;
+    options.user = this;
+  }
+  /// Another trial has begun. Throws Stopped.
+  void tell() {
+    if (options_.progress == nullptr) return;
+    begin_ = done_;
+    if (told(this, 0.1) != 0) throw Stopped();
+  }
+  bool isStopped() const { return stopped_; }
+
+ private:
+  static int told(void* user, double done) {
+    constexpr double kOfTheRest = 0.4;
+    auto& self = *static_cast<SearchProgress*>(user);
+    self.done_ = self.begin_ + done * kOfTheRest * (1 - self.begin_);
+    self.stopped_ = self.options_.progress(self.options_.user, self.done_) != 0;
+    return self.stopped_;
+  }
+
+  const tks_encode_options& options_;
+  double begin_ = 0, done_ = 0;
+  bool stopped_ = false;
+};
+
+/// TKS_USAGE with a sentence.
+Status misusedObject(const std::string& sentence);
+
+/// A mesh whose fields are sound.
+struct GivenObject {
+  /// All outlive this. image: null, or checked.
+  GivenObject(const tks_triangle_mesh& from, const TriangleMesh& triangles,
+              const tks_image* its_image, const tks_encode_options& target)
+      : mesh(from),
+        image(its_image),
+        options(target),
+        source(triangles, kFewestTriangles),
+        progress(target) {}
+
+  double wantedError() const;
+  /// The colours of the image, which is there.
+  MeshColours colours() const;
+
+  const tks_triangle_mesh& mesh;
+  const tks_image* image;
+  const tks_encode_options& options;
+  ObjectSource source;
+  SearchProgress progress;
+};
+
+struct CodedObject {
+  std::vector<uint8_t> stream;
+  MeshDistance distance;     ///< to the mesh
+  double texture_error = 0;  ///< RMS over the surface, in levels of the image; 0: there is none
+  /// Of tks_object_report, where they are of the stream.
+  tks_object_kind kind = TKS_OBJECT_RESAMPLED;
+  uint32_t patches = 0, depth = 0, texture_depth = 0, coded_triangles = 0;
+  double resampling_error = 0;
+};
+
+Result<TriangleMesh> meshOf(const tks_triangle_mesh& given);
+Status checkMeshImage(const tks_triangle_mesh& mesh, const tks_image* image);
+Status checkObjectOptions(const tks_encode_options& options);
+
+/// Encodes heights (null: none), image (null: none), or both.
+Result<std::vector<uint8_t>> encodedTrial(GivenObject& given, tks_encode_options options,
+                                          const tks_heights* heights, const tks_image* image);
+
+/// The texture of a stream, interleaved; of 8 bits in the low ones.
+Result<std::vector<uint16_t>> decodedTexels(const std::vector<uint8_t>& stream);
+
+/// The root of the mean square of the differences. As many of both.
+double rootMeanSquare(const std::vector<uint16_t>& a, const std::vector<uint16_t>& b);
+
+}  // namespace tetrakis::inline api

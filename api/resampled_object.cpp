@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: Apache-2.0
+// A coarse base takes few bytes, and leaves more to its heights, and loses thin parts: how many
+// triangles the base has is found by trying.
+#include "api/resampled_object.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "base/forest.hpp"
+#include "base/portable_math.hpp"
+
+namespace tetrakis::inline api {
+namespace {
+
+/// Base meshes are tried that have this many triangles, or 2^k times as many.
+constexpr uint32_t kCoarsestBase = 125, kFinestBase = 8000;
+
+/// Bytes of a budget for each triangle of the base that is tried first.
+constexpr double kBytesForTriangle = 5;
+
+/// Most of a squared error comes from the coding, not from the resampling.
+constexpr double kResamplingPart = 1.0 / 3;
+
+/// Of a mesh with a texture, what its heights get while a base is sought, and no fewer bytes than
+/// the least.
+constexpr double kHeightsPart = 0.25;
+constexpr uint64_t kLeastHeightBytes = 1000;
+
+/// Texels for each byte of a budget: more cannot be told from fewer.
+constexpr double kTexelsForByte = 64;
+
+/// A texture on the patches of an object.
+struct PatchTexture {
+  Forest forest;
+  std::vector<SurfacePoint> places;  ///< of its texels
+  std::vector<uint16_t> texels;      ///< interleaved
+  uint32_t channels = 0;
+};
+
+/// A base that was tried, and the stream over it.
+struct Trial {
+  ResampledObject object;
+  CodedObject coded;
+};
+
+using SharedTrial = std::shared_ptr<const Trial>;
+
+/// Samples for each patch: more show the mesh better, and take time.
+constexpr int kDepth = 4;
+
+/// Coarse bases need fewer bits: heights make up for what their corners are off.
+int positionBits(uint32_t triangles) {
+  return triangles <= 1000 ? 8 : triangles <= 4000 ? 9 : 10;
+}
+
+/// The mean of the colours of two texels of `values`.
+uint16_t between(const std::vector<uint16_t>& values, size_t a, size_t b) {
+  return static_cast<uint16_t>((uint32_t{values[a]} + values[b] + 1) / 2);
+}
+
+class ResampledSearch {
+ public:
+  explicit ResampledSearch(GivenObject& given) : given_(given) {}
+
+  Result<CodedObject> run() {
+    if (given_.source.fewestTriangles() > 2 * Forest::kMostPatches)
+      return misusedObject("The smallest base mesh has " +
+                           std::to_string(given_.source.fewestTriangles()) +
+                           " triangles; a stream takes at most " +
+                           std::to_string(2 * Forest::kMostPatches) + ". Leave small parts out.");
+    Result<SharedTrial> taken = given_.options.bytes > 0 ? withinBytes() : withinError();
+    if (taken.ok() && given_.image != nullptr) taken = withTexture(**taken);
+    if (!taken.ok()) return taken.status();
+    CodedObject measured = (*taken)->coded;
+    const ResampledObject& object = (*taken)->object;
+    measured.resampling_error = distanceOf(object, object.surface.heights, kDistanceSamples).error;
+    const Result<std::vector<float>> heights = decode(measured.stream, object);
+    if (!heights.ok()) return heights.status();
+    measured.distance = distanceOf(object, *heights, kDistanceSamples);
+    measured.patches = object.base.forest->patches();
+    measured.depth = static_cast<uint32_t>(object.base.forest->depth());
+    return measured;
+  }
+
+ private:
+  /// The base with the least error within the budget: from the one tried first to finer or coarser
+  /// ones, as long as they are better.
+  Result<SharedTrial> withinBytes() {
+    const double wished = static_cast<double>(heightBytes()) / kBytesForTriangle;
+    uint32_t triangles = kCoarsestBase;
+    while (triangles < mostTriangles() && triangles * std::sqrt(2.0) < wished) triangles *= 2;
+    Result<SharedTrial> best = inBudget(triangles);
+    const auto better = [&](const Result<SharedTrial>& trial) {
+      return trial.ok() &&
+             (!best.ok() || (*trial)->coded.distance.error < (*best)->coded.distance.error);
+    };
+    bool found_finer = false;
+    for (uint32_t finer = 2 * triangles; finer <= mostTriangles() && best.ok(); finer *= 2) {
+      Result<SharedTrial> trial = inBudget(finer);
+      if (!better(trial)) break;
+      best = std::move(trial);
+      found_finer = true;
+    }
+    for (uint32_t coarser = triangles / 2; !found_finer && coarser >= kCoarsestBase; coarser /= 2) {
+      Result<SharedTrial> trial = inBudget(coarser);
+      const bool unmet = !best.ok();
+      if (better(trial))
+        best = std::move(trial);
+      else if (!unmet)
+        break;
+    }
+    return best;
+  }
+
+  /// The first size of a base that all triangles of the mesh fit in, or the largest one.
+  uint32_t mostTriangles() const {
+    uint32_t most = kCoarsestBase;
+    while (most < kFinestBase && most < given_.source.cleaned().mesh.triangles.size()) most *= 2;
+    return most;
+  }
+
+  /// Of a budget, while a base is sought.
+  uint64_t heightBytes() const {
+    if (given_.image == nullptr) return given_.options.bytes;
+    const double part = kHeightsPart * static_cast<double>(given_.options.bytes);
+    return std::min(given_.options.bytes, std::max(kLeastHeightBytes, static_cast<uint64_t>(part)));
+  }
+
+  Result<SharedTrial> inBudget(uint32_t triangles) {
+    tks_encode_options options = given_.options;
+    options.psnr = options.max_error = 0;
+    options.bytes = heightBytes();
+    return coded({resampled(triangles), {}}, options, nullptr);
+  }
+
+  /// The heights of a trial beside the texture, which the target is of as well.
+  Result<SharedTrial> withTexture(const Trial& trial) {
+    const PatchTexture texture = textureOn(trial.object);
+    const bool is_byte = given_.image->sample == TKS_U8;
+    const std::vector<uint8_t> bytes(texture.texels.begin(),
+                                     is_byte ? texture.texels.end() : texture.texels.begin());
+    tks_image image = *given_.image;
+    const Extent raster = texture.forest.raster();
+    image.width = raster.width;
+    image.height = raster.height;
+    image.data = is_byte ? static_cast<const void*>(bytes.data()) : texture.texels.data();
+    image.has_geotransform = 0;
+    image.domain = TKS_DOMAIN_FOREST;
+    image.forest = {static_cast<uint32_t>(texture.forest.depth()), texture.forest.patches(),
+                    texture.forest.sides().data()};
+    Result<SharedTrial> made = coded(trial, given_.options, &image);
+    if (!made.ok()) return made;
+    const Result<std::vector<uint16_t>> decoded = decodedTexels((*made)->coded.stream);
+    if (!decoded.ok()) return decoded.status();
+    Trial both = **made;
+    both.coded.texture_depth = image.forest.depth;
+    both.coded.texture_error = textureError(texture, *decoded);
+    return std::make_shared<const Trial>(std::move(both));
+  }
+
+  /// Half-way between texels, where receivers show means of them: so it counts what was lost with
+  /// the detail between texels as well. Of pairs along diagonals whose ends lie in one triangle;
+  /// where there are none, of the texels.
+  double textureError(const PatchTexture& texture, const std::vector<uint16_t>& decoded) const {
+    std::vector<SurfacePoint> middles;
+    std::vector<uint16_t> shown;
+    const size_t side = texture.forest.side(), channels = texture.channels;
+    for (size_t texel = 0; texel + side + 1 < texture.places.size(); ++texel) {
+      const SurfacePoint& a = texture.places[texel];
+      const SurfacePoint& b = texture.places[texel + side + 1];
+      if (a.triangle != b.triangle || texel % side + 1 == side) continue;
+      SurfacePoint& middle = middles.emplace_back(a);
+      for (size_t k = 0; k < 3; ++k) middle.weights[k] = (a.weights[k] + b.weights[k]) / 2;
+      for (size_t c = 0; c < channels; ++c)
+        shown.push_back(between(decoded, texel * channels + c, (texel + side + 1) * channels + c));
+    }
+    if (middles.empty()) return rootMeanSquare(texture.texels, decoded);
+    return rootMeanSquare(given_.colours().at(middles), shown);
+  }
+
+  /// As many texels as the mesh shows of the image, unless the budget is too small for them.
+  PatchTexture textureOn(const ResampledObject& object) const {
+    const MeshColours colours = given_.colours();
+    const double wanted =
+        std::min(colours.shown(), kTexelsForByte * static_cast<double>(given_.options.bytes));
+    int depth = 1;
+    const double patches = object.base.forest->patches();
+    while (depth < TKS_MOST_OBJECT_DEPTH && patches * std::ldexp(1.0, 2 * depth) < wanted &&
+           object.base.forest->patches() < Forest::mostPatches(depth + 1))
+      ++depth;
+    PatchTexture out{Forest(depth, object.base.forest->sides()),
+                     given_.source.placesOn(object, depth),
+                     {},
+                     given_.image->channels};
+    out.texels = colours.at(out.places);
+    return out;
+  }
+
+  /// The fewest bytes over bases whose resampling leaves room for errors.
+  Result<SharedTrial> withinError() {
+    const double error = given_.wantedError();
+    Result<SharedTrial> best =
+        misusedObject("No base mesh of up to " + std::to_string(kFinestBase) +
+                      " triangles comes as near to the mesh as asked for: ask for a larger error.");
+    for (uint32_t triangles = kCoarsestBase; triangles <= mostTriangles(); triangles *= 2) {
+      Trial trial{resampled(triangles), {}};
+      trial.coded.resampling_error =
+          distanceOf(trial.object, trial.object.surface.heights, kTrialPlaces).error;
+      if (trial.coded.resampling_error > kResamplingPart * error) continue;
+      Result<SharedTrial> made = given_.options.max_error > 0
+                                     ? coded(std::move(trial), given_.options, nullptr)
+                                     : toPsnr(std::move(trial), error);
+      if (!made.ok()) return made;
+      if (best.ok() && (*made)->coded.stream.size() >= (*best)->coded.stream.size()) break;
+      best = std::move(made);
+    }
+    return best;
+  }
+
+  /// Heights whose error makes up the rest of the surface's; a little less where that is too much.
+  Result<SharedTrial> toPsnr(Trial trial, double error) {
+    constexpr int kTries = 6;
+    constexpr double kLess = 0.97;
+    const auto [low, high] = std::minmax_element(trial.object.surface.heights.begin(),
+                                                 trial.object.surface.heights.end());
+    const double range = double{*high} - double{*low};
+    double of_heights =
+        std::sqrt(error * error - trial.coded.resampling_error * trial.coded.resampling_error);
+    Result<SharedTrial> made = misusedObject("The error that is asked for cannot be met.");
+    for (int attempt = 0; attempt < kTries; ++attempt) {
+      tks_encode_options options = given_.options;
+      options.psnr = std::max(1.0, 20 * portable::log10(range / of_heights));
+      made = coded(trial, options, nullptr);
+      if (!made.ok() || (*made)->coded.distance.error <= error) return made;
+      of_heights *= kLess * std::min(1.0, error / (*made)->coded.distance.error);
+    }
+    return misusedObject("The error that is asked for cannot be met.");
+  }
+
+  ResampledObject resampled(uint32_t triangles) const {
+    return given_.source.resampled({triangles, kDepth, positionBits(triangles)});
+  }
+
+  MeshDistance distanceOf(const ResampledObject& object, const std::vector<float>& heights,
+                          size_t places) const {
+    const TriangleMesh mesh = meshOfSamples(object.base, heights);
+    return meshDistance(given_.source.tree(), TriangleTree(mesh), places);
+  }
+
+  Result<SharedTrial> coded(Trial trial, const tks_encode_options& options,
+                            const tks_image* image) {
+    const tks_heights heights = heightsOf(trial.object);
+    Result<std::vector<uint8_t>> stream = encodedTrial(given_, options, &heights, image);
+    if (!stream.ok()) return stream.status();
+    trial.coded.stream = std::move(*stream);
+    const Result<std::vector<float>> decoded = decode(trial.coded.stream, trial.object);
+    if (!decoded.ok()) return decoded.status();
+    trial.coded.distance = distanceOf(trial.object, *decoded, kTrialPlaces);
+    return std::make_shared<const Trial>(std::move(trial));
+  }
+
+  static Result<std::vector<float>> decode(const std::vector<uint8_t>& stream,
+                                           const ResampledObject& object) {
+    std::vector<float> heights(object.surface.heights.size());
+    tks_decoder* decoder = nullptr;
+    tks_status status = tks_open(stream.data(), stream.size(), nullptr, &decoder, nullptr, 0);
+    if (status == TKS_OK) status = tks_decode_surface(decoder, heights.data(), heights.size());
+    tks_close(decoder);
+    if (status != TKS_OK) return Status(status, "The stream of the object is not sound.");
+    return heights;
+  }
+
+  tks_heights heightsOf(const ResampledObject& object) const {
+    const BaseMesh& base = object.base;
+    tks_heights heights{};
+    heights.size = sizeof heights;
+    heights.width = base.forest->raster().width;
+    heights.height = base.forest->raster().height;
+    heights.sample = TKS_F32;
+    heights.data = object.surface.heights.data();
+    heights.scale = 1;
+    heights.unit = given_.mesh.unit;
+    heights.description = given_.mesh.description;
+    heights.domain = TKS_DOMAIN_FOREST;
+    heights.forest = {static_cast<uint32_t>(base.forest->depth()), base.forest->patches(),
+                      base.forest->sides().data()};
+    heights.base_mesh.position_bits = static_cast<uint32_t>(base.bits);
+    heights.base_mesh.cell = base.cell;
+    std::copy(base.origin.begin(), base.origin.end(), heights.base_mesh.origin);
+    heights.base_mesh.corners = base.corners[0].data();
+    return heights;
+  }
+
+  GivenObject& given_;
+};
+
+}  // namespace
+
+Result<CodedObject> encodeResampled(GivenObject& given) {
+  return ResampledSearch(given).run();
+}
+
+}  // namespace tetrakis::inline api

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many triangles on a coarse grid or few ones on a fine grid take as many bytes: how many there are
+// is found by trying, and for each number the grid.
+#include "api/triangles_search.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/portable_math.hpp"
+#include "bitstream/stream/header.hpp"
+#include "codec/remesh/half_edges.hpp"
+#include "codec/remesh/mapped_decimation.hpp"
+#include "codec/trianglemesh/triangle_encoder.hpp"
+
+namespace tetrakis::inline api {
+namespace {
+
+/// Grids are numbered: four steps double the places along a side, of which there are 2^(step / 4).
+constexpr int kSteps = 4;
+constexpr int kCoarsest = 5 * kSteps, kFinest = kSteps * TriangleMeshHeader::kMostPlaceBits;
+constexpr int kTriedFirst = 11 * kSteps;
+
+uint32_t placesOf(int grid) {
+  return static_cast<uint32_t>(portable::pow(2.0, grid / double{kSteps}) + 0.5);
+}
+
+/// A triangle takes more bits, whatever its mesh.
+constexpr double kLeastTriangleBits = 2;
+
+/// Each number of triangles that is tried is the one before by this.
+constexpr double kFewer = 1.41421356;
+
+/// Of a budget, the most for triangles beside a texture, and the grid that is tried first.
+constexpr double kTrianglesPart = 0.5;
+constexpr int kBesideTexture = 12 * kSteps;
+
+/// Texture coordinates are rounded to parts of texels: to halves.
+uint8_t texcoordFraction(const tks_image* image) {
+  if (image == nullptr) return 0;
+  return static_cast<uint8_t>(std::bit_width(std::max(image->width, image->height) - 1) + 1);
+}
+
+std::span<const std::array<float, 2>> pairs(const tks_triangle_mesh& mesh) {
+  static_assert(sizeof(std::array<float, 2>) == 2 * sizeof(float));
+  return {reinterpret_cast<const std::array<float, 2>*>(mesh.texcoords),
+          3 * size_t{mesh.triangle_count}};
+}
+
+/// One number of triangles, which is tried on several grids.
+class TriangleTrial {
+ public:
+  TriangleTrial(const GivenObject& given, const MappedDecimation& decimation, uint32_t triangles)
+      : given_(given),
+        mesh_(decimation.base(triangles).mesh),
+        texcoords_(texcoordsOf(given)),
+        encoder_({mesh_.points, mesh_.triangles, gluedSides(mesh_.triangles).opposite, texcoords_},
+                 texcoordFraction(given.image)) {}
+
+  /// Without a texture: the whole stream. Nothing where no decoder reads as long a header.
+  std::optional<std::vector<uint8_t>> streamOf(int grid) const {
+    StreamHeader header;
+    addTo(header, grid);
+    std::vector<uint8_t> stream = writeHeader(header);
+    if (stream.size() > kMaxHeaderBytes) return {};
+    return stream;
+  }
+
+  void addTo(StreamHeader& header, int grid) const {
+    header.triangle_mesh = encoder_.encode(placesOf(grid));
+    if (given_.mesh.unit != nullptr) header.metadata.unit = given_.mesh.unit;
+    if (given_.mesh.description != nullptr)
+      header.georeference.description = given_.mesh.description;
+  }
+
+  MeshDistance distanceOf(const std::vector<uint8_t>& stream, size_t places) const {
+    const TriangleMeshHeader header = readHeader(stream)->header.triangle_mesh;
+    const CodedTriangles coded = *decodeTriangles(header);
+    TriangleMesh mesh;
+    for (const Place& place : coded.places) {
+      Point& point = mesh.points.emplace_back();
+      for (size_t axis = 0; axis < 3; ++axis)
+        point[axis] = header.cell * static_cast<double>(header.origin[axis] + place[axis]);
+    }
+    for (size_t corner = 0; corner < coded.vertices.size(); corner += 3)
+      mesh.triangles.push_back(
+          {coded.vertices[corner], coded.vertices[corner + 1], coded.vertices[corner + 2]});
+    return meshDistance(given_.source.tree(), TriangleTree(mesh), places);
+  }
+
+  uint32_t triangles() const { return static_cast<uint32_t>(mesh_.triangles.size()); }
+
+ private:
+  /// Three pairs for each triangle that is left after cleaning, all of which are kept beside them.
+  static std::vector<std::array<std::array<float, 2>, 3>> texcoordsOf(const GivenObject& given) {
+    std::vector<std::array<std::array<float, 2>, 3>> out;
+    if (given.image == nullptr) return out;
+    const auto all = pairs(given.mesh);
+    for (const TriangleSource& source : given.source.cleaned().sources) {
+      auto& corners = out.emplace_back();
+      for (size_t k = 0; k < 3; ++k)
+        corners[k] = all[3 * size_t{source.triangle} + source.corners[k]];
+    }
+    return out;
+  }
+
+  const GivenObject& given_;
+  TriangleMesh mesh_;
+  std::vector<std::array<std::array<float, 2>, 3>> texcoords_;
+  TriangleEncoder encoder_;
+};
+
+struct Found {
+  std::vector<uint8_t> stream;
+  double error = 0;
+};
+
+class TrianglesSearch {
+ public:
+  explicit TrianglesSearch(GivenObject& given)
+      : given_(given),
+        all_(static_cast<uint32_t>(given.source.cleaned().mesh.triangles.size())),
+        decimation_(given.source.cleaned().mesh, keepsAll() ? all_ : kFewestTriangles,
+                    DecimationAim::kNear) {}
+
+  Result<CodedObject> run() {
+    if (all_ > TriangleMeshHeader::kMostTriangles && keepsAll())
+      return misusedObject("The mesh has " + std::to_string(all_) + " triangles; at most " +
+                           std::to_string(TriangleMeshHeader::kMostTriangles) + " are coded.");
+    if (given_.image != nullptr) return withTexture();
+    if (isBound()) return withinBound();
+    return given_.options.bytes > 0 ? best(&TrianglesSearch::finestWithinBytes)
+                                    : best(&TrianglesSearch::coarsestWithinError);
+  }
+
+ private:
+  using Tried = std::optional<Found> (TrianglesSearch::*)(const TriangleTrial&);
+
+  bool isBound() const { return given_.options.max_error > 0; }
+  bool keepsAll() const { return given_.image != nullptr || isBound(); }
+
+  /// From the most triangles that may do to ever fewer, as long as that is better.
+  Result<CodedObject> best(Tried on_its_grid) {
+    const bool by_bytes = given_.options.bytes > 0;
+    double most = std::min<double>(all_, TriangleMeshHeader::kMostTriangles);
+    if (by_bytes)
+      most = std::min(most, 8 * static_cast<double>(given_.options.bytes) / kLeastTriangleBits);
+    std::optional<Found> found;
+    uint32_t found_triangles = 0;
+    for (double count = most; count >= 4; count /= kFewer) {
+      given_.progress.tell();
+      const TriangleTrial trial(given_, decimation_, static_cast<uint32_t>(count));
+      if (trial.triangles() > std::max(count, 4.0)) break;  // it has no fewer
+      std::optional<Found> made = (this->*on_its_grid)(trial);
+      if (!made && (found || !by_bytes)) break;
+      if (!made) continue;
+      const bool is_better = !found || (by_bytes ? made->error < found->error
+                                                 : made->stream.size() < found->stream.size());
+      if (!is_better) break;
+      found = std::move(made);
+      found_triangles = trial.triangles();
+    }
+    if (!found)
+      return misusedObject(by_bytes ? "No mesh of triangles fits in so few bytes."
+                                    : "No mesh of triangles comes as near to the mesh as asked "
+                                      "for: ask for a larger error.");
+    return codedAs(TriangleTrial(given_, decimation_, found_triangles), std::move(found->stream));
+  }
+
+  /// The finest grid of a budget.
+  std::optional<Found> finestWithinBytes(const TriangleTrial& trial) {
+    std::vector<uint8_t> fitting;
+    int low = kCoarsest, high = kFinest;  // finer than high: too many bytes
+    while (low <= high) {
+      const bool is_first = low == kCoarsest && high == kFinest;
+      const int grid = is_first ? kTriedFirst : (low + high) / 2;
+      std::optional<std::vector<uint8_t>> stream = trial.streamOf(grid);
+      if (!stream || stream->size() > given_.options.bytes) {
+        high = grid - 1;
+      } else {
+        fitting = std::move(*stream);
+        low = grid + 1;
+      }
+    }
+    if (fitting.empty()) return {};
+    const double error = trial.distanceOf(fitting, kTrialPlaces).error;
+    return Found{std::move(fitting), error};
+  }
+
+  /// The coarsest grid that an error allows.
+  std::optional<Found> coarsestWithinError(const TriangleTrial& trial) {
+    const double error = given_.wantedError();
+    std::optional<Found> met;
+    int low = kCoarsest, high = kFinest;  // coarser than low: too large an error
+    while (low <= high) {
+      const int grid = (low + high) / 2;
+      std::optional<std::vector<uint8_t>> stream = trial.streamOf(grid);
+      if (!stream) break;
+      const double reached = trial.distanceOf(*stream, kDistanceSamples).error;
+      if (reached > error) {
+        low = grid + 1;
+      } else {
+        met = Found{std::move(*stream), reached};
+        high = grid - 1;
+      }
+    }
+    return met;
+  }
+
+  /// All triangles, each of whose corners is rounded by no more than the bound.
+  Result<CodedObject> withinBound() {
+    const TriangleTrial trial(given_, decimation_, all_);
+    for (int grid = kCoarsest; grid <= kFinest; ++grid) {
+      std::optional<std::vector<uint8_t>> stream = trial.streamOf(grid);
+      if (!stream) return tooMany();
+      const double cell = readHeader(*stream)->header.triangle_mesh.cell;
+      if (cell * std::sqrt(0.75) > given_.options.max_error) continue;
+      return codedAs(trial, std::move(*stream));
+    }
+    return misusedObject("No grid for triangles is as fine as asked for: ask for a larger error.");
+  }
+
+  /// All triangles, and the image for the rest of the budget.
+  Result<CodedObject> withTexture() {
+    const TriangleTrial trial(given_, decimation_, all_);
+    int grid = kBesideTexture;
+    const double most = kTrianglesPart * static_cast<double>(given_.options.bytes);
+    std::optional<std::vector<uint8_t>> alone = trial.streamOf(grid);
+    while (grid > kCoarsest && alone && static_cast<double>(alone->size()) > most)
+      alone = trial.streamOf(--grid);
+    if (!alone) return tooMany();
+    if (static_cast<double>(alone->size()) > most)
+      return misusedObject("The triangles of the mesh leave too few bytes to its texture.");
+    tks_encode_options options = given_.options;
+    options.bytes -= alone->size();
+    tks_image image = *given_.image;
+    image.has_geotransform = 0;
+    const Result<std::vector<uint8_t>> texture = encodedTrial(given_, options, nullptr, &image);
+    if (!texture.ok()) return texture.status();
+    Result<ParsedHeader> parsed = readHeader(*texture);
+    if (!parsed.ok()) return parsed.status();
+    trial.addTo(parsed->header, grid);
+    std::vector<uint8_t> stream = writeHeader(parsed->header);
+    stream.insert(stream.end(), texture->begin() + static_cast<ptrdiff_t>(parsed->bytes),
+                  texture->end());
+    Result<CodedObject> coded = codedAs(trial, std::move(stream));
+    if (coded.ok()) addTextureError(*coded);
+    return coded;
+  }
+
+  /// Of as many places of the mesh as distances are of.
+  void addTextureError(CodedObject& coded) const {
+    const Result<std::vector<uint16_t>> texels = decodedTexels(coded.stream);
+    if (!texels.ok()) return;
+    const MeshColours given = given_.colours();
+    const std::vector<SurfacePoint> places =
+        evenPlaces(given_.source.cleaned().mesh, kDistanceSamples);
+    coded.texture_error = rootMeanSquare(given.at(places), given.withTexels(*texels).at(places));
+  }
+
+  static Status tooMany() {
+    return misusedObject("The triangles of the mesh take more than a megabyte.");
+  }
+
+  Result<CodedObject> codedAs(const TriangleTrial& trial, std::vector<uint8_t> stream) const {
+    if (!readHeader(stream).ok()) return tooMany();
+    CodedObject coded;
+    coded.distance = trial.distanceOf(stream, kDistanceSamples);
+    coded.stream = std::move(stream);
+    coded.kind = TKS_OBJECT_TRIANGLES;
+    coded.coded_triangles = trial.triangles();
+    return coded;
+  }
+
+  GivenObject& given_;
+  uint32_t all_;
+  MappedDecimation decimation_;
+};
+
+}  // namespace
+
+Result<CodedObject> encodeTriangles(GivenObject& given) {
+  return TrianglesSearch(given).run();
+}
+
+}  // namespace tetrakis::inline api

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// An object, such as a scan, in a scene of three.js: a mesh that refines by the camera. Its
+// coordinates are those of the mesh that was encoded, in its unit, less `centre`.
+import {BufferAttribute, BufferGeometry, DoubleSide, Vector3} from 'three';
+
+import {fitCamera} from './fit.js';
+import {PatchAtlas} from './patch_atlas.js';
+import {textureOf} from './three_frame.js';
+import {GOOD_PSNR, RefiningMesh} from './three_refining.js';
+
+/** Seen from the front, a little above. */
+const USUAL = new Vector3(-0.45, -0.3, -1);
+
+function geometryOf({positions, normals, texcoords, triangles}) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(positions, 3));
+  if (texcoords) geometry.setAttribute('uv', new BufferAttribute(texcoords, 2));
+  geometry.setIndex(new BufferAttribute(triangles, 1));
+  if (normals) geometry.setAttribute('normal', new BufferAttribute(normals, 3));
+  else geometry.computeVertexNormals();
+  return geometry;
+}
+
+/** Of triangles between points of two or three coordinates. */
+function areaOf(triangles, points, dimensions) {
+  const [a, b, c] = Array.from({length: 3}, () => new Vector3());
+  let twice = 0;
+  for (let t = 0; t < triangles.length; t += 3) {
+    [a, b, c].forEach((corner, k) => {
+      corner.fromArray(points, dimensions * triangles[t + k]);
+      if (dimensions < 3) corner.z = 0;
+    });
+    twice += b.sub(a).cross(c.sub(a)).length();
+  }
+  return twice / 2;
+}
+
+/** The share of a texture that lies on an object. What repeats counts once: all of it may lie on a
+ * large triangle. */
+const shareOf = ({triangles, texcoords}, {objectTriangles}) =>
+  (objectTriangles ? Math.min(areaOf(triangles, texcoords, 2), 1) : 1);
+
+/** The side of a texel, about, in the unit of the object. */
+function texelOf(object, info) {
+  const texels = info.textureWidth * info.textureHeight * shareOf(object, info);
+  return Math.sqrt(areaOf(object.triangles, object.positions, 3) / texels) || 1;
+}
+
+export class TksObject extends RefiningMesh {
+  #texel = 1;  // its side
+  #next = null;  // geometry for a texture that is still being brought
+
+  /** `terrain`: of open(). It is disposed with this object, as its material is. */
+  constructor(terrain, options = {}) {
+    super(terrain, options);
+    if (!options.material) this.material.side = DoubleSide;  // scans have holes
+  }
+  get isPlanned() {
+    return false;
+  }
+  /** Triangles that are coded as they are, all of them, are in the header. */
+  get hasFinalMesh() {
+    return Boolean(this.frame?.object && this.frame.info.objectTriangles);
+  }
+  /** What positions of the mesh that was encoded have more than those here. */
+  get centre() {
+    return new Vector3(...this.frame?.object?.centre ?? [0, 0, 0]);
+  }
+
+  draw({object, texture, info}) {
+    if (object) {
+      if (!this.frame && info.hasTexture) this.#texel = texelOf(object, info);
+      this.#next = geometryOf(object);
+    }
+    if (texture) this.take(textureOf(texture), () => this.#showNext());
+    else this.#showNext();
+  }
+  #showNext() {
+    if (this.#next) this.setGeometry(this.#next);
+    this.#next = null;
+  }
+
+  /** Puts a camera so that the object fills its picture, seen along `direction`; gives the middle
+   * of the object, for the target of controls. */
+  fit(camera, direction = USUAL) {
+    return fitCamera(camera, this, direction);
+  }
+
+  needs(camera, viewportHeight, texels) {
+    const {info} = this.frame, pixels = this.pixelsPerUnit(camera, viewportHeight);
+    const level = Math.max(0, Math.floor(-Math.log2(pixels * this.#texel)));
+    const error = info.heightsRmse < 0 ? Infinity : info.heightsRmse * pixels;
+    const more = (info.hasHeights && error > this.pixelError) ||
+      (info.hasTexture && info.texturePsnr < GOOD_PSNR - 6 * level);
+    return {more, texels: this.#texelsFor(level, texels)};
+  }
+  /** Those of a texture at a level, or those that are shown where they do: an atlas is seen without
+   * mip levels, so that a much too fine one flickers. */
+  #texelsFor(level, shown) {
+    const {textureWidth: side, textureHeight, objectTriangles} = this.frame.info;
+    if (!side) return shown;
+    if (objectTriangles) {
+      return Math.max(shown, Math.ceil(Math.max(side, textureHeight) / 2 ** level));
+    }
+    const {width, height} = new PatchAtlas(textureHeight / side, side, level);
+    const texels = Math.ceil(Math.max(width, height));
+    return shown >= texels && shown < 4 * texels ? shown : texels;
+  }
+}
