@@ -6,8 +6,7 @@
 
 #include "api/encoded_stream.hpp"
 #include "api/guarded.hpp"
-#include "api/resampled_object.hpp"
-#include "api/triangles_search.hpp"
+#include "api/object_inputs.hpp"
 #include "base/watch.hpp"
 #include "codec/remesh/mesh_topology.hpp"
 
@@ -17,9 +16,12 @@ namespace {
 /// Whether `a` is the better stream of the two for one target.
 bool isBetter(const CodedObject& a, const CodedObject& b, const tks_encode_options& options) {
   if (options.bytes == 0) return a.stream.size() < b.stream.size();
-  // Beside a texture a tenth off the one error outweighs a tenth more of the other.
-  const auto errorOf = [](const CodedObject& coded) {
-    return coded.distance.error * (coded.texture_error > 0 ? coded.texture_error : 1);
+  // Of two streams with a texture one may be nearer in shape, the other in colour: the product of
+  // both errors counts a part of the one as much as the same part of the other. Colours that are
+  // off by less than rounding are all alike.
+  constexpr double kRounding = 0.29;
+  const auto errorOf = [&](const CodedObject& coded) {
+    return coded.distance.error * std::max(coded.texture_error, kRounding);
   };
   return errorOf(a) < errorOf(b);
 }

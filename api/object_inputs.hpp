@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// GivenObject is a mesh that is to be coded, with all that its encoders share; CodedObject is what
-// one of them has made of it.
+// GivenObject is a mesh that is to be coded, with all that its two encoders share. CodedObject is
+// what one of them has made of it.
 #pragma once
 
 #include <cstdint>
@@ -98,10 +98,16 @@ Status checkObjectOptions(const tks_encode_options& options);
 Result<std::vector<uint8_t>> encodedTrial(GivenObject& given, tks_encode_options options,
                                           const tks_heights* heights, const tks_image* image);
 
-/// The texture of a stream, interleaved; of 8 bits in the low ones.
+/// Within the target of the options: heights over the base mesh that serves it best.
+Result<CodedObject> encodeResampled(GivenObject& given);
+
+/// Within the target of the options: as many triangles, on as fine a grid, as serve it best.
+Result<CodedObject> encodeTriangles(GivenObject& given);
+
+/// The texels of a stream, interleaved. Those of 8 bits become numbers up to 255.
 Result<std::vector<uint16_t>> decodedTexels(const std::vector<uint8_t>& stream);
 
-/// The root of the mean square of the differences. As many of both.
+/// The root of the mean squared difference between two lists of equal length.
 double rootMeanSquare(const std::vector<uint16_t>& a, const std::vector<uint16_t>& b);
 
 }  // namespace tetrakis::inline api

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A coarse base takes few bytes, and leaves more to its heights, and loses thin parts: how many
-// triangles the base has is found by trying.
-#include "api/resampled_object.hpp"
+// encodeResampled() codes an object as heights over a base mesh. A coarse base takes few bytes and
+// leaves more of them to the heights, but loses thin parts: so bases of several sizes are tried.
+#include "api/object_inputs.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -162,9 +161,9 @@ class ResampledSearch {
     return std::make_shared<const Trial>(std::move(both));
   }
 
-  /// Half-way between texels, where receivers show means of them: so it counts what was lost with
-  /// the detail between texels as well. Of pairs along diagonals whose ends lie in one triangle;
-  /// where there are none, of the texels.
+  /// The error half-way between diagonal neighbours, where receivers show the mean of both texels:
+  /// it includes the detail that the texels cannot hold. Pairs whose ends lie in different triangles
+  /// are left out. If no pair is left, it is the error of the texels.
   double textureError(const PatchTexture& texture, const std::vector<uint16_t>& decoded) const {
     std::vector<SurfacePoint> middles;
     std::vector<uint16_t> shown;

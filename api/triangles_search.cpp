@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many triangles on a coarse grid or few ones on a fine grid take as many bytes: how many there are
-// is found by trying, and for each number the grid.
-#include "api/triangles_search.hpp"
+// encodeTriangles() codes an object as triangles. Many triangles on a coarse grid take as many bytes
+// as few triangles on a fine grid: so it tries several numbers of triangles, and for each of them
+// several grids.
+#include "api/object_inputs.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -28,17 +29,17 @@ uint32_t placesOf(int grid) {
   return static_cast<uint32_t>(portable::pow(2.0, grid / double{kSteps}) + 0.5);
 }
 
-/// A triangle takes more bits, whatever its mesh.
+/// A budget is not tried with so many triangles that each gets fewer bits than this.
 constexpr double kLeastTriangleBits = 2;
 
-/// Each number of triangles that is tried is the one before by this.
+/// Each number of triangles that is tried is the one before it divided by this.
 constexpr double kFewer = 1.41421356;
 
-/// Of a budget, the most for triangles beside a texture, and the grid that is tried first.
+/// Beside a texture triangles get at most this part of the budget, and this grid if it fits.
 constexpr double kTrianglesPart = 0.5;
 constexpr int kBesideTexture = 12 * kSteps;
 
-/// Texture coordinates are rounded to parts of texels: to halves.
+/// Texture coordinates are rounded to halves of texels.
 uint8_t texcoordFraction(const tks_image* image) {
   if (image == nullptr) return 0;
   return static_cast<uint8_t>(std::bit_width(std::max(image->width, image->height) - 1) + 1);
@@ -60,7 +61,7 @@ class TriangleTrial {
         encoder_({mesh_.points, mesh_.triangles, gluedSides(mesh_.triangles).opposite, texcoords_},
                  texcoordFraction(given.image)) {}
 
-  /// Without a texture: the whole stream. Nothing where no decoder reads as long a header.
+  /// The stream of the triangles without a texture. Nothing if its header is too long for decoders.
   std::optional<std::vector<uint8_t>> streamOf(int grid) const {
     StreamHeader header;
     addTo(header, grid);
@@ -77,6 +78,29 @@ class TriangleTrial {
   }
 
   MeshDistance distanceOf(const std::vector<uint8_t>& stream, size_t places) const {
+    const TriangleMesh mesh = decoded(stream);
+    return meshDistance(given_.source.tree(), TriangleTree(mesh), places);
+  }
+
+  /// The largest distance of a corner of the stream, whose triangles are all those of the mesh, from
+  /// its place in the mesh.
+  double farthestCorner(const std::vector<uint8_t>& stream) const {
+    const TriangleMesh mesh = decoded(stream);
+    const std::vector<uint32_t> given = encoder_.givenCorners();
+    double farthest = 0;
+    for (size_t corner = 0; corner < given.size(); ++corner) {
+      const auto at = [](const TriangleMesh& of, size_t c) {
+        return of.points[of.triangles[c / 3][c % 3]];
+      };
+      farthest = std::max(farthest, length(at(mesh, corner) - at(mesh_, given[corner])));
+    }
+    return farthest;
+  }
+
+  uint32_t triangles() const { return static_cast<uint32_t>(mesh_.triangles.size()); }
+
+ private:
+  static TriangleMesh decoded(const std::vector<uint8_t>& stream) {
     const TriangleMeshHeader header = readHeader(stream)->header.triangle_mesh;
     const CodedTriangles coded = *decodeTriangles(header);
     TriangleMesh mesh;
@@ -88,13 +112,10 @@ class TriangleTrial {
     for (size_t corner = 0; corner < coded.vertices.size(); corner += 3)
       mesh.triangles.push_back(
           {coded.vertices[corner], coded.vertices[corner + 1], coded.vertices[corner + 2]});
-    return meshDistance(given_.source.tree(), TriangleTree(mesh), places);
+    return mesh;
   }
 
-  uint32_t triangles() const { return static_cast<uint32_t>(mesh_.triangles.size()); }
-
- private:
-  /// Three pairs for each triangle that is left after cleaning, all of which are kept beside them.
+  /// Three places on the image for each triangle that is left after cleaning.
   static std::vector<std::array<std::array<float, 2>, 3>> texcoordsOf(const GivenObject& given) {
     std::vector<std::array<std::array<float, 2>, 3>> out;
     if (given.image == nullptr) return out;
@@ -142,7 +163,8 @@ class TrianglesSearch {
   bool isBound() const { return given_.options.max_error > 0; }
   bool keepsAll() const { return given_.image != nullptr || isBound(); }
 
-  /// From the most triangles that may do to ever fewer, as long as that is better.
+  /// Tries ever fewer triangles, from the most that the target allows on, until a trial is worse
+  /// than the best one so far.
   Result<CodedObject> best(Tried on_its_grid) {
     const bool by_bytes = given_.options.bytes > 0;
     double most = std::min<double>(all_, TriangleMeshHeader::kMostTriangles);
@@ -150,10 +172,10 @@ class TrianglesSearch {
       most = std::min(most, 8 * static_cast<double>(given_.options.bytes) / kLeastTriangleBits);
     std::optional<Found> found;
     uint32_t found_triangles = 0;
-    for (double count = most; count >= 4; count /= kFewer) {
+    for (double count = most;; count /= kFewer) {
       given_.progress.tell();
       const TriangleTrial trial(given_, decimation_, static_cast<uint32_t>(count));
-      if (trial.triangles() > std::max(count, 4.0)) break;  // it has no fewer
+      if (trial.triangles() > count) break;  // the mesh cannot have fewer
       std::optional<Found> made = (this->*on_its_grid)(trial);
       if (!made && (found || !by_bytes)) break;
       if (!made) continue;
@@ -218,6 +240,7 @@ class TrianglesSearch {
       if (!stream) return tooMany();
       const double cell = readHeader(*stream)->header.triangle_mesh.cell;
       if (cell * std::sqrt(0.75) > given_.options.max_error) continue;
+      if (trial.farthestCorner(*stream) > given_.options.max_error) continue;  // numbers round, too
       return codedAs(trial, std::move(*stream));
     }
     return misusedObject("No grid for triangles is as fine as asked for: ask for a larger error.");
@@ -243,15 +266,18 @@ class TrianglesSearch {
     Result<ParsedHeader> parsed = readHeader(*texture);
     if (!parsed.ok()) return parsed.status();
     trial.addTo(parsed->header, grid);
+    parsed->header.lossless = 0;  // corners are rounded, even where the image is not
     std::vector<uint8_t> stream = writeHeader(parsed->header);
     stream.insert(stream.end(), texture->begin() + static_cast<ptrdiff_t>(parsed->bytes),
                   texture->end());
+    if (stream.size() > given_.options.bytes)
+      return Status(TKS_MISMATCH, "The stream of the object is longer than its budget.");
     Result<CodedObject> coded = codedAs(trial, std::move(stream));
     if (coded.ok()) addTextureError(*coded);
     return coded;
   }
 
-  /// Of as many places of the mesh as distances are of.
+  /// Compares the colours of as many places of the mesh as distances are measured at.
   void addTextureError(CodedObject& coded) const {
     const Result<std::vector<uint16_t>> texels = decodedTexels(coded.stream);
     if (!texels.ok()) return;

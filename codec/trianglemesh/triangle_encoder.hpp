@@ -32,6 +32,9 @@ class TriangleEncoder {
   /// places: 3 to 2^kMostPlaceBits.
   TriangleMeshHeader encode(uint32_t places) const;
 
+  /// For each corner of the coded mesh the corner of the given mesh that it was.
+  const std::vector<uint32_t>& givenCorners() const { return given_; }
+
  private:
   void numberTriangles();
   void cutSeams();

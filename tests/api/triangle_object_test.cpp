@@ -164,6 +164,12 @@ TEST(TriangleObjects, HaveTheirTexture) {
   ASSERT_EQ(made.status, TKS_OK) << made.message;
   EXPECT_LE(made.stream.size(), 9000u);
   EXPECT_EQ(made.report.texture_depth, 0u);
+  // The image comes back exactly where bytes are ample, but corners are rounded all the same.
+  const EncodedTriangles ample = encodeAs(TKS_OBJECT_TRIANGLES, mesh, budget(200000), &image);
+  Stream exact(ample.stream);
+  EXPECT_TRUE(std::isinf(exact.info().texture_psnr));
+  EXPECT_EQ(exact.info().lossless, 0);
+  EXPECT_EQ(tks_verify(exact.get()), TKS_OK);
   Stream stream(made.stream);
   EXPECT_EQ(stream.info().texture_width, kSide);
   EXPECT_EQ(stream.info().texture_domain, TKS_DOMAIN_PLANE);
@@ -185,6 +191,23 @@ TEST(TriangleObjects, HaveTheirTexture) {
     EXPECT_EQ(cut.texture().size(), texels.size());
     EXPECT_EQ(tks_decode_object(cut.get(), TKS_MESH_BUDGET, 0, &out), TKS_OK);
     tks_free_object_mesh(&out);
+  }
+}
+
+TEST(TriangleObjects, OfOneTriangleMeetEveryTarget) {
+  for (const uint32_t count : {1u, 2u, 3u}) {
+    TriangleMesh few;
+    for (uint32_t t = 0; t < count; ++t) {
+      few.points.insert(few.points.end(),
+                        {{2.0 * t, 0, 0}, {2.0 * t + 1, 0, 0.1}, {2.0 * t, 1, 0}});
+      few.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    }
+    const GivenMesh given(few);
+    for (const tks_encode_options& options : {budget(200), toPsnr(60), within(0.01)}) {
+      const EncodedTriangles made = encodeAs(TKS_OBJECT_TRIANGLES, given.given(), options);
+      EXPECT_EQ(made.status, TKS_OK) << made.message;
+      EXPECT_EQ(made.report.coded_triangles, count);
+    }
   }
 }
 
