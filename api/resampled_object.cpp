@@ -162,8 +162,8 @@ class ResampledSearch {
   }
 
   /// The error half-way between diagonal neighbours, where receivers show the mean of both texels:
-  /// it includes the detail that the texels cannot hold. Pairs whose ends lie in different triangles
-  /// are left out. If no pair is left, it is the error of the texels.
+  /// it includes the detail that the texels cannot hold. Pairs whose ends lie in different
+  /// triangles are left out. If no pair is left, it is the error of the texels.
   double textureError(const PatchTexture& texture, const std::vector<uint16_t>& decoded) const {
     std::vector<SurfacePoint> middles;
     std::vector<uint16_t> shown;

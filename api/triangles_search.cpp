@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// encodeTriangles() codes an object as triangles. Many triangles on a coarse grid take as many bytes
-// as few triangles on a fine grid: so it tries several numbers of triangles, and for each of them
-// several grids.
+// encodeTriangles() codes an object as triangles. Many triangles on a coarse grid take as many
+// bytes as few triangles on a fine grid: so it tries several numbers of triangles, and for each of
+// them several grids.
 #include "api/object_inputs.hpp"
 
 #include <algorithm>
@@ -82,8 +82,8 @@ class TriangleTrial {
     return meshDistance(given_.source.tree(), TriangleTree(mesh), places);
   }
 
-  /// The largest distance of a corner of the stream, whose triangles are all those of the mesh, from
-  /// its place in the mesh.
+  /// The largest distance between a corner of the stream and its place in the mesh. The stream holds
+  /// all triangles of the mesh.
   double farthestCorner(const std::vector<uint8_t>& stream) const {
     const TriangleMesh mesh = decoded(stream);
     const std::vector<uint32_t> given = encoder_.givenCorners();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The corners of triangles that meet in a point are a fan. CornerFans numbers fans, in the order of
-// their lowest corners, and goes round them.
+// The corners of triangles that meet in a point are a fan. cornerFans() numbers the fans of a mesh
+// in the order of their lowest corners, and visitFan() goes round one.
 #pragma once
 
 #include <cstdint>

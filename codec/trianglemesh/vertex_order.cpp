@@ -34,7 +34,7 @@ class Ordering {
     bool is_told = false;
   };
 
-  /// The vertex that came last of those with the highest rank.
+  /// Of the untold vertices with the highest rank, the one that came last.
   std::optional<uint32_t> take() {
     for (size_t rank = waiting_.size(); rank-- > 0;) {
       std::vector<uint32_t>& ones = waiting_[rank];
@@ -66,7 +66,7 @@ class Ordering {
     wait(fans_.of_corner[corner]);
   }
 
-  /// Vertices that nothing foretells come before those that are beside no known one.
+  /// A neighbour of a known vertex that no triangle foretells still ranks above all others.
   void wait(uint32_t v) {
     if (!vertices_[v].is_told)
       waiting_[1 + std::min(vertices_[v].foretellers, kMostForetellers)].push_back(v);
