@@ -82,8 +82,8 @@ class TriangleTrial {
     return meshDistance(given_.source.tree(), TriangleTree(mesh), places);
   }
 
-  /// The largest distance between a corner of the stream and its place in the mesh. The stream holds
-  /// all triangles of the mesh.
+  /// The largest distance between a corner of the stream and its place in the mesh, for a stream
+  /// of all triangles.
   double farthestCorner(const std::vector<uint8_t>& stream) const {
     const TriangleMesh mesh = decoded(stream);
     const std::vector<uint32_t> given = encoder_.givenCorners();
