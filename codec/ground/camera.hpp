@@ -5,44 +5,16 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "base/coordinates.hpp"
+#include "base/vec3.hpp"
 #include "tetrakis/result.hpp"
 
 namespace tetrakis::inline ground {
-
-// Vec3 is a vector in space, with which cameras and the renderer compute.
-
-using Vec3 = std::array<double, 3>;
-
-inline Vec3 add(const Vec3& a, const Vec3& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-inline Vec3 subtract(const Vec3& a, const Vec3& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-inline Vec3 scale(const Vec3& a, double s) {
-  return {a[0] * s, a[1] * s, a[2] * s};
-}
-inline double dot(const Vec3& a, const Vec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-inline double length(const Vec3& a) {
-  return std::sqrt(dot(a, a));
-}
-/// The zero vector stays zero.
-inline Vec3 normalized(const Vec3& a) {
-  const double l = length(a);
-  return l > 0 ? scale(a, 1 / l) : a;
-}
 
 /// Orthonormal axes of a view: to the right, up in the picture, into the picture.
 struct ViewAxes {
@@ -131,11 +103,16 @@ inline Vec3 centreOf(const Bounds& bounds) {
 /// Named view of a terrain, from the south, north up: "oblique" (sees all of it, 35 degrees above
 /// the horizon), "low" (from just above the highest ground, sees about a tenth before the sky),
 /// "top" (sees all of it, straight down). "all" gives the three, "orbit" the oblique view from four
-/// sides, "any" those of unknownViewer(). Other names, or bounds that are not finite: TKS_USAGE.
+/// sides, "any" those of unknownViewer(), "around" those of camerasAround(). Other names, or bounds
+/// that are not finite: TKS_USAGE.
 Result<std::vector<Camera>> presetCameras(const std::string& view, const Bounds& bounds);
 
 /// A mix for a viewer of whom nothing is known: the oblique and the low view from four sides, which
 /// count as one each, and the top view. Bounds that are not finite: TKS_USAGE.
 Result<std::vector<Camera>> unknownViewer(const Bounds& bounds);
+
+/// Views of an object of which nobody knows the upper side: from the six faces and the eight
+/// corners of a cube around it, each of all of it. Bounds that are not finite: TKS_USAGE.
+Result<std::vector<Camera>> camerasAround(const Bounds& bounds);
 
 }  // namespace tetrakis::inline ground

@@ -91,6 +91,8 @@ Camera seeingAll(Camera camera, const Bounds& bounds) {
 constexpr double kRadian = std::numbers::pi / 180;
 /// Degrees. The angle is narrow, so that far ground is not much smaller than near ground.
 constexpr double kOverviewAngle = 25;
+/// Pixels a side of the pictures around an object.
+constexpr uint32_t kPictureAround = 512;
 
 Camera obliqueView(const Bounds& bounds) {
   constexpr double kElevation = 35 * kRadian;
@@ -228,8 +230,9 @@ Result<std::vector<Camera>> presetCameras(const std::string& view, const Bounds&
   if (view == "all") return std::vector{obliqueView(bounds), lowView(bounds), topView(bounds)};
   if (view == "orbit") return fromFourSides(obliqueView, bounds);
   if (view == "any") return unknownViewer(given);
-  return Status(TKS_USAGE,
-                "no view is called '" + view + "': use oblique, low, top, orbit, all or any");
+  if (view == "around") return camerasAround(given);
+  return Status(TKS_USAGE, "no view is called '" + view +
+                               "': use oblique, low, top, orbit, all, any or around");
 }
 
 Result<std::vector<Camera>> unknownViewer(const Bounds& given) {
@@ -239,6 +242,28 @@ Result<std::vector<Camera>> unknownViewer(const Bounds& given) {
   const std::vector<Camera> low = fromFourSides(lowView, bounds);
   cameras.insert(cameras.end(), low.begin(), low.end());
   cameras.push_back(topView(bounds));
+  return cameras;
+}
+
+Result<std::vector<Camera>> camerasAround(const Bounds& given) {
+  if (Status status = checkBounds(given); !status.ok()) return status;
+  const Bounds bounds = withExtent(given);
+  const double away = length(subtract(bounds.high, bounds.low));
+  std::vector<Camera> cameras;
+  for (int place = 0; place < 27; ++place) {
+    const std::array<int, 3> steps = {place % 3 - 1, place / 3 % 3 - 1, place / 9 - 1};
+    const auto still = std::count(steps.begin(), steps.end(), 0);
+    if (still == 1 || still == 3) continue;  // an edge, or the middle
+    Camera camera;
+    camera.name = "around-" + std::to_string(cameras.size() + 1);
+    camera.fov_y = kOverviewAngle;
+    camera.width = camera.height = kPictureAround;
+    if (steps[0] == 0 && steps[2] == 0) camera.up = {0, 0, -1};
+    camera.target = centreOf(bounds);
+    for (size_t axis = 0; axis < 3; ++axis)
+      camera.eye[axis] = camera.target[axis] + away * steps[axis];
+    cameras.push_back(seeingAll(camera, bounds));
+  }
   return cameras;
 }
 

@@ -11,27 +11,21 @@
 #include <span>
 #include <vector>
 
+#include "base/vec3.hpp"
+
 namespace tetrakis::inline remesh {
 
-using Point = std::array<double, 3>;
+using Point = Vec3;
+using base::cross, base::dot, base::length;
 
 inline Point operator+(const Point& a, const Point& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+  return add(a, b);
 }
 inline Point operator-(const Point& a, const Point& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  return subtract(a, b);
 }
 inline Point operator*(double s, const Point& a) {
-  return {s * a[0], s * a[1], s * a[2]};
-}
-inline double dot(const Point& a, const Point& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline Point cross(const Point& a, const Point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-inline double length(const Point& a) {
-  return std::sqrt(dot(a, a));
+  return scale(a, s);
 }
 
 inline constexpr uint32_t kNone = UINT32_MAX;  ///< no point, no triangle, no side

@@ -11,6 +11,7 @@
 
 #include "base/samples.hpp"
 #include "encoder/views/decoded_nodes.hpp"
+#include "encoder/views/object_pairs.hpp"
 #include "encoder/views/view_inputs.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
 #include "ratecontrol/pictures/picture_errors.hpp"
@@ -81,7 +82,7 @@ std::vector<double> withTexture(const PictureErrors& pictures, const Surfaces& s
 /// at the terrain.
 std::vector<double> modelledErrors(const EncodeInputs& inputs, DecodedNodes& decoded,
                                    const Nodes& nodes) {
-  if (inputs.heights->domain == TKS_DOMAIN_FOREST) return {};  // rays know planes alone
+  if (inputs.heights->domain == TKS_DOMAIN_FOREST) return objectErrors(inputs, decoded, nodes);
   const GroundRays ground(decoded.original());
   const std::vector<Camera> cameras = camerasOf(inputs.options, ground.bounds());
   if (cameras.empty()) return {};

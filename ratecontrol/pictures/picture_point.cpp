@@ -12,16 +12,14 @@
 
 namespace tetrakis::inline pictures {
 
-ScreenTexture::ScreenTexture(const Texels& texels, Extent whole, int first)
-    : whole_(whole), first_(first) {
+std::vector<Lanes> shownTexels(const Texels& texels) {
   const size_t channels = texels.channels;
   const bool has_alpha = texels.hasAlpha();
   const size_t second = channels < 3 ? 0 : 1, third = channels < 3 ? 0 : 2;
   const uint32_t white = texels.white(), most = texels.most();
-  Level level{texels.width, texels.height, {}, 1, 1, 0};
-  level.texels.resize(texels.extent().samples());
+  std::vector<Lanes> shown(texels.extent().samples());
   const uint16_t* texel = texels.samples.data();
-  for (Lanes& lanes : level.texels) {
+  for (Lanes& lanes : shown) {
     const uint32_t alpha = has_alpha ? shownIn8Bits(texel[channels - 1], most) : 255;
     const auto colour = [&](size_t c) -> Lanes {
       const uint32_t value = shownIn8Bits(texel[c], white);
@@ -30,6 +28,12 @@ ScreenTexture::ScreenTexture(const Texels& texels, Extent whole, int first)
     lanes = colour(0) | colour(second) << 16 | colour(third) << 32;
     texel += channels;
   }
+  return shown;
+}
+
+ScreenTexture::ScreenTexture(const Texels& texels, Extent whole, int first)
+    : whole_(whole), first_(first) {
+  Level level{texels.width, texels.height, shownTexels(texels), 1, 1, 0};
   while (level.width > 1 || level.height > 1) {
     Level next = halved(level);
     levels_.push_back(std::move(level));

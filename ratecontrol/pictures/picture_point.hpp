@@ -19,19 +19,22 @@ namespace tetrakis::inline pictures {
 
 using Colour = std::array<float, 3>;  ///< of 0 to 255
 
+/// R, G and B in 16 bits each, from the lowest up: one multiplication weighs all three.
+using Lanes = uint64_t;
+
+/// The texels as they are shown, in 8 bits: grey becomes three equal colours; alpha darkens them.
+std::vector<Lanes> shownTexels(const Texels& texels);
+
 class ScreenTexture {
  public:
   /// texels: the whole image, or its samples at multiples of 2^level in x and y (base/view.hpp),
-  /// which hold what coarser levels of the image show. Grey becomes three equal colours; alpha
-  /// darkens them.
+  /// which hold what coarser levels of the image show.
   ScreenTexture(const Texels& texels, Extent whole, int level = 0);
 
   /// u, v: from 0 to 1 over the image; clamped. level: of detail, 0 the finest resolution.
   Colour at(double u, double v, double level) const;
 
  private:
-  /// R, G and B in 16 bits each, from the lowest up: one multiplication weighs all three.
-  using Lanes = uint64_t;
   struct Level {
     uint32_t width = 0, height = 0;
     std::vector<Lanes> texels;

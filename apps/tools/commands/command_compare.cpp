@@ -17,6 +17,7 @@
 #include "apps/tools/report/comparison.hpp"
 #include "apps/tools/report/object_mesh.hpp"
 #include "apps/tools/report/surface_comparison.hpp"
+#include "apps/tools/report/surface_pictures.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -146,6 +147,33 @@ Json surfaceJson(const tks_info& info, const SurfaceMeasurement& measured) {
           {"colour_psnr", measured.colour_psnr ? finiteOrNull(*measured.colour_psnr) : Json()}};
 }
 
+/// What the cameras see, into `json` and to a folder that was asked for. As of terrain, pictures
+/// that nobody asked for are left out on a machine that cannot draw.
+Status lookAt(const CompareArguments& arguments, const SurfaceFile& original, Decoder& decoder,
+              bool quiet, Json& json) {
+  json["screen_psnr"] = json["screen_exact"] = Json();
+  json["cameras"] = Json::array();
+  const Result<SurfacePictures> drawn =
+      drawSurfaces(original, decoder, arguments.triangles, arguments.cameras);
+  const bool asked = !arguments.cameras.isDefault() || !arguments.pictures.empty();
+  if (!drawn.ok()) {
+    if (drawn.status().code() != TKS_UNSUPPORTED || asked) return drawn.status();
+    tellNote("no screen figures: " + drawn.status().message(), quiet);
+    return Status();
+  }
+  addPsnr(json, "screen", screenPsnr(*drawn));
+  for (size_t i = 0; i < drawn->cameras.size(); ++i) {
+    Json camera = {{"name", drawn->cameras[i].name}};
+    addPsnr(camera, "screen", screenPsnr({drawn->originals[i]}, {drawn->pictures[i]}));
+    json["cameras"].push_back(std::move(camera));
+  }
+  if (arguments.pictures.empty()) return Status();
+  Result<CameraPictures> planned =
+      CameraPictures::plan(arguments.pictures, drawn->cameras.size(), arguments.force);
+  if (!planned.ok()) return planned.status();
+  return planned->write(drawn->pictures, drawn->originals);
+}
+
 /// An object beside the mesh that was encoded, with the texture that `encode` takes.
 Status compareMesh(const CompareArguments& arguments, Decoder& decoder, bool quiet) {
   const tks_info& info = decoder.info();
@@ -160,7 +188,10 @@ Status compareMesh(const CompareArguments& arguments, Decoder& decoder, bool qui
       compareSurface(decoder, *original, arguments.triangles);
   if (!measured.ok()) return measured.status();
   tellNote(coarsestNote(measured->triangles, arguments.triangles), quiet);
-  return printJson(arguments, surfaceJson(info, *measured));
+  Json json = surfaceJson(info, *measured);
+  if (Status status = lookAt(arguments, *original, decoder, quiet, json); !status.ok())
+    return status;
+  return printJson(arguments, json);
 }
 
 Status compare(const CompareArguments& arguments, bool quiet) {
@@ -209,15 +240,11 @@ void addCompare(CLI::App& app, CommandLine& line) {
   verb.add_option("--texture", arguments->texture, "The original texture")->type_name("REF");
   addTriangles(verb, arguments->triangles, "Judge the mesh of at most so many triangles");
   addCameraOptions(verb, arguments->cameras);
-  CLI::Option* const pictures =
-      verb.add_option("--pictures", arguments->pictures, "Also write what the cameras see into DIR")
-          ->type_name("DIR");
+  verb.add_option("--pictures", arguments->pictures, "Also write what the cameras see into DIR")
+      ->type_name("DIR");
   verb.add_option("--mesh", arguments->mesh, "The original mesh of an object")
       ->type_name("REF")
-      ->excludes(height)
-      ->excludes(pictures)
-      ->excludes("--cameras")
-      ->excludes("--view");
+      ->excludes(height);
   verb.add_flag("--json", arguments->json, "JSON instead of a table");
   addForce(verb, arguments->force);
   verb.callback([arguments, &line] {

@@ -71,14 +71,15 @@ CLI::Option* addBytes(CLI::App& app, T& bytes, const std::string& help) {
 
 /// The name of preset cameras (codec/ground/camera.hpp).
 inline CLI::Validator presetView() {
-  return silent(CLI::IsMember({"oblique", "low", "top", "orbit", "all", "any"}));
+  return silent(CLI::IsMember({"oblique", "low", "top", "orbit", "all", "any", "around"}));
 }
 
 /// --cameras FILE.json or --view NAME.
 inline void addCameraOptions(CLI::App& app, CameraChoice& choice) {
   CLI::Option* const file =
       app.add_option("--cameras", choice.file, "Cameras to look with")->type_name("FILE.json");
-  app.add_option("--view", choice.view, "Preset cameras: oblique, low, top, orbit, all, any")
+  app.add_option("--view", choice.view,
+                 "Preset cameras: oblique, low, top, orbit, all, any, around")
       ->check(presetView())
       ->type_name("NAME")
       ->excludes(file);

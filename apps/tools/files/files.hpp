@@ -96,6 +96,7 @@ struct MeshFile {
   std::vector<float> normals;          ///< 3 per vertex, of length 1; empty: smooth ones are made
   std::vector<uint32_t> triangles;     ///< 3 per triangle, counter-clockwise seen from above
   const ImageFile* texture = nullptr;  ///< not owned; may be null
+  bool texture_repeats = false;        ///< beyond (0, 0) and (1, 1); else its edges go on
   std::array<double, 3> origin{};      ///< of the positions; .glb alone keeps it
 };
 

@@ -97,14 +97,15 @@ Status checkMesh(const MeshFile& mesh, bool textured) {
   return mesh.texture ? checkTexture(*mesh.texture) : Status();
 }
 
-SceneTexture::SceneTexture(const ImageFile& image, const GlLimits& limits)
+SceneTexture::SceneTexture(const ImageFile& image, const GlLimits& limits, bool repeats)
     : opaque_(!image.hasAlpha()) {
   const std::vector<TextureLevel> levels = texturePyramid(image, limits.texture);
   bind();
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  const GLint beyond = repeats ? GL_REPEAT : GL_CLAMP_TO_EDGE;
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, beyond);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, beyond);
   for (size_t i = 0; i < levels.size(); ++i)
     glTexImage2D(GL_TEXTURE_2D, static_cast<GLint>(i), GL_RGBA8,
                  static_cast<GLsizei>(levels[i].width), static_cast<GLsizei>(levels[i].height), 0,

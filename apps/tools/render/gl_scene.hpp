@@ -19,7 +19,8 @@ Status checkMesh(const MeshFile& mesh, bool textured);
 /// A texture on the GPU.
 class SceneTexture {
  public:
-  SceneTexture(const ImageFile& image, const GlLimits& limits);
+  /// repeats: beyond its edges, where else they go on.
+  SceneTexture(const ImageFile& image, const GlLimits& limits, bool repeats = false);
   void bind(GLuint unit = 0) const {
     glActiveTexture(GL_TEXTURE0 + unit);
     glBindTexture(GL_TEXTURE_2D, name_);

@@ -68,7 +68,7 @@ class GlesRenderer final : public Renderer {
       if (Status current = context_.makeCurrent(); !current.ok()) return current;
       GlScene scene;
       std::optional<SceneTexture> texture;
-      if (textured) texture.emplace(*mesh.texture, limits_);
+      if (textured) texture.emplace(*mesh.texture, limits_, mesh.texture_repeats);
       const Paint paint = textured ? Paint::kTexture : Paint::kHillshade;
       if (Status uploaded = scene.upload(mesh, paint); !uploaded.ok()) return uploaded;
       if (texture) texture->bind();

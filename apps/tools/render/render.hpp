@@ -39,7 +39,7 @@ class Renderer {
   static Result<std::unique_ptr<Renderer>> create();
   virtual ~Renderer() = default;
 
-  /// Draws the mesh with its texture (trilinear, no light, clamped at the edges), or hill-shaded
+  /// Draws the mesh with its texture (trilinear, no light, edges as the mesh says), or hill-shaded
   /// grey when it has none. Every pixel is the mean of 2 x 2 samples. 16-bit textures are reduced
   /// to 8 bits, textures beyond the driver's largest size by halving, texels of alpha below one
   /// half are holes. Triangles with a corner that is not finite are left out. Errors: TKS_USAGE
