@@ -200,8 +200,10 @@ bool onForest(const auto* raster) {
 Status checkOnForests(const tks_heights* heights, const tks_image* image,
                       const tks_encode_options& o) {
   if (!onForest(heights) && !onForest(image)) return {};
-  if (o.triangles > 0 || o.camera_count > 0 || o.picture_error != nullptr)
-    return misuse("On a forest there are no cameras and no budget of triangles.");
+  if (o.triangles > 0 || o.picture_error != nullptr)
+    return misuse("On a forest there is no budget of triangles and no error of pictures.");
+  if (o.camera_count > 0 && (heights == nullptr || heights->base_mesh.position_bits == 0))
+    return misuse("Cameras look at a forest that has heights over a base mesh.");
   if (o.regions > 1 || o.index == TKS_INDEX_WINDOWS)
     return misuse("On a forest there are no regions.");
   if (heights == nullptr || image == nullptr) return {};

@@ -3,10 +3,14 @@
 // triangles on a grid, whichever comes nearer to it.
 #include <algorithm>
 #include <cstddef>
+#include <optional>
+#include <utility>
 
 #include "api/encoded_stream.hpp"
 #include "api/guarded.hpp"
 #include "api/object_inputs.hpp"
+#include "api/object_pictures.hpp"
+#include "base/portable_math.hpp"
 #include "base/watch.hpp"
 #include "codec/remesh/mesh_topology.hpp"
 
@@ -16,27 +20,57 @@ namespace {
 /// Whether `a` is the better stream of the two for one target.
 bool isBetter(const CodedObject& a, const CodedObject& b, const tks_encode_options& options) {
   if (options.bytes == 0) return a.stream.size() < b.stream.size();
-  // Of two streams with a texture one may be nearer in shape, the other in colour: the product of
-  // both errors counts a part of the one as much as the same part of the other. Colours that are
-  // off by less than rounding are all alike.
-  constexpr double kRounding = 0.29;
-  const auto errorOf = [&](const CodedObject& coded) {
-    return coded.distance.error * std::max(coded.texture_error, kRounding);
-  };
-  return errorOf(a) < errorOf(b);
+  // Pictures tell whether it is the shape that is off, or the colours. Pictures that are off by
+  // less than rounding are all alike.
+  constexpr double kRounding = 1.0 / 12;
+  if (std::max(a.picture_error, b.picture_error) > kRounding)
+    return a.picture_error < b.picture_error;
+  return a.distance.error < b.distance.error;
 }
 
-Result<CodedObject> encodedAs(tks_object_kind kind, GivenObject& given) {
-  if (kind == TKS_OBJECT_RESAMPLED) return encodeResampled(given);
-  if (kind == TKS_OBJECT_TRIANGLES) return encodeTriangles(given);
-  Result<CodedObject> resampled = encodeResampled(given);
-  Result<CodedObject> triangles = encodeTriangles(given);
-  if (!triangles.ok()) return resampled;
-  if (!resampled.ok() || isBetter(*triangles, *resampled, given.options)) return triangles;
-  return resampled;
+/// The streams of both kinds, as far as they were asked for and meet the target.
+struct BothKinds {
+  std::optional<CodedObject> resampled, triangles;
+  bool takes_triangles = false;  ///< else the resampled object is the better one
+
+  const CodedObject& taken() const { return takes_triangles ? *triangles : *resampled; }
+};
+
+/// At least one kind meets the target.
+Result<BothKinds> encodedAs(tks_object_kind kind, GivenObject& given) {
+  BothKinds both;
+  Status status;
+  if (kind != TKS_OBJECT_RESAMPLED) {
+    Result<CodedObject> triangles = encodeTriangles(given);
+    if (triangles.ok())
+      both.triangles = *std::move(triangles);
+    else
+      status = triangles.status();
+  }
+  if (kind != TKS_OBJECT_TRIANGLES) {
+    Result<CodedObject> resampled = encodeResampled(given);
+    if (resampled.ok())
+      both.resampled = *std::move(resampled);
+    else
+      status = resampled.status();
+  }
+  if (!both.resampled && !both.triangles) return status;
+  both.takes_triangles =
+      both.triangles &&
+      (!both.resampled || isBetter(*both.triangles, *both.resampled, given.options));
+  return both;
 }
 
-tks_object_report reportOf(const ObjectSource& source, const CodedObject& coded) {
+tks_object_trial trialOf(const std::optional<CodedObject>& coded) {
+  if (!coded) return {};
+  constexpr double kWhite = 255;
+  const double picture = coded->picture_error;
+  return {coded->stream.size(), coded->distance.psnr,
+          picture > 0 ? 10 * portable::log10(kWhite * kWhite / picture) : 0};
+}
+
+tks_object_report reportOf(const ObjectSource& source, const BothKinds& both) {
+  const CodedObject& coded = both.taken();
   tks_object_report report{};
   report.size = sizeof report;
   const CleanedMesh& cleaned = source.cleaned();
@@ -56,6 +90,8 @@ tks_object_report reportOf(const ObjectSource& source, const CodedObject& coded)
   report.texture_depth = coded.texture_depth;
   report.kind = coded.kind;
   report.coded_triangles = coded.coded_triangles;
+  report.as_resampled = trialOf(both.resampled);
+  report.as_triangles = trialOf(both.triangles);
   return report;
 }
 
@@ -88,10 +124,18 @@ Status encodeObject(const tks_triangle_mesh* mesh, const tks_image* image,
   GivenObject object(given, *triangles, image != nullptr ? &texture : nullptr, known);
   if (object.source.cleaned().mesh.triangles.empty())
     return misusedObject("No triangle of the mesh is left: all have corners at equal places.");
-  const Result<CodedObject> coded = encodedAs(given.kind, object);
+  std::optional<ObjectPictures> pictures;
+  if (known.camera_count > 0 && image == nullptr)
+    return misusedObject("Cameras weigh an image against the mesh, and there is none.");
+  if (image != nullptr) {
+    Result<ObjectPictures> drawn = ObjectPictures::of(object);
+    if (!drawn.ok()) return drawn.status();
+    object.pictures = &pictures.emplace(*std::move(drawn));
+  }
+  const Result<BothKinds> coded = encodedAs(given.kind, object);
   if (!coded.ok()) return coded.status();
   if (report != nullptr) giveSized(reportOf(object.source, *coded), *report);
-  giveBytes(coded->stream, out);
+  giveBytes(coded->taken().stream, out);
   return {};
 }
 

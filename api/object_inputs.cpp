@@ -71,9 +71,11 @@ Status checkObjectOptions(const tks_encode_options& o) {
   if (!std::isfinite(o.psnr) || o.psnr < 0 || !std::isfinite(o.max_error) || o.max_error < 0 ||
       (o.bytes != 0) + (o.psnr != 0) + (o.max_error != 0) != 1)
     return misusedObject("Give exactly one of bytes, psnr and max-error.");
-  if (o.triangles > 0 || o.camera_count > 0 || o.picture_error != nullptr || o.regions > 1)
+  if (o.triangles > 0 || o.picture_error != nullptr || o.regions > 1)
     return misusedObject(
-        "Of an object there are no cameras, regions and budgets of triangles yet.");
+        "Of an object there are no regions, budgets of triangles and errors of a caller's "
+        "pictures.");
+  if (o.camera_count > 0 && o.cameras == nullptr) return misusedObject("The cameras are missing.");
   return {};
 }
 
@@ -123,15 +125,6 @@ Result<std::vector<uint16_t>> decodedTexels(const std::vector<uint8_t>& stream) 
     return Status(TKS_MISMATCH, "The texture of the object is not sound.");
   if (!bytes.empty()) texels.assign(bytes.begin(), bytes.end());
   return texels;
-}
-
-double rootMeanSquare(const std::vector<uint16_t>& a, const std::vector<uint16_t>& b) {
-  double sum = 0;
-  for (size_t i = 0; i < a.size(); ++i) {
-    const double off = double{static_cast<double>(a[i])} - b[i];
-    sum += off * off;
-  }
-  return a.empty() ? 0 : std::sqrt(sum / static_cast<double>(a.size()));
 }
 
 }  // namespace tetrakis::inline api

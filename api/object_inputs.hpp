@@ -58,6 +58,8 @@ class SearchProgress {
 /// TKS_USAGE with a sentence.
 Status misusedObject(const std::string& sentence);
 
+class ObjectPictures;
+
 /// A mesh whose fields are sound.
 struct GivenObject {
   /// All outlive this. image: null, or checked.
@@ -78,12 +80,13 @@ struct GivenObject {
   const tks_encode_options& options;
   ObjectSource source;
   SearchProgress progress;
+  const ObjectPictures* pictures = nullptr;  ///< by which streams are compared; null: no image
 };
 
 struct CodedObject {
   std::vector<uint8_t> stream;
   MeshDistance distance;     ///< to the mesh
-  double texture_error = 0;  ///< RMS over the surface, in levels of the image; 0: there is none
+  double picture_error = 0;  ///< mean square (ObjectPictures); 0: there is no texture
   /// Of tks_object_report, where they are of the stream.
   tks_object_kind kind = TKS_OBJECT_RESAMPLED;
   uint32_t patches = 0, depth = 0, texture_depth = 0, coded_triangles = 0;
@@ -106,8 +109,5 @@ Result<CodedObject> encodeTriangles(GivenObject& given);
 
 /// The texels of a stream, interleaved. Those of 8 bits become numbers up to 255.
 Result<std::vector<uint16_t>> decodedTexels(const std::vector<uint8_t>& stream);
-
-/// The root of the mean squared difference between two lists of equal length.
-double rootMeanSquare(const std::vector<uint16_t>& a, const std::vector<uint16_t>& b);
 
 }  // namespace tetrakis::inline api

@@ -2,9 +2,11 @@
 // encodeResampled() codes an object as heights over a base mesh. A coarse base takes few bytes and
 // leaves more of them to the heights, but loses thin parts: so bases of several sizes are tried.
 #include "api/object_inputs.hpp"
+#include "api/object_pictures.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -24,16 +26,21 @@ constexpr double kBytesForTriangle = 5;
 /// Most of a squared error comes from the coding, not from the resampling.
 constexpr double kResamplingPart = 1.0 / 3;
 
-/// Of a mesh with a texture, what its heights get while a base is sought, and no fewer bytes than
-/// the least.
-constexpr double kHeightsPart = 0.25;
+/// Of a mesh with a texture, the part that its heights get while a first base is sought, and no
+/// fewer bytes than the least.
+constexpr double kHeightsPart = 0.4;
 constexpr uint64_t kLeastHeightBytes = 1000;
+
+/// Another base is sought where its heights got so many times as many bytes as that, or as few.
+/// A smaller number finds better bases, and takes time.
+constexpr double kOtherShare = 1.6;
+constexpr int kMostShares = 2;
 
 /// Texels for each byte of a budget: more cannot be told from fewer.
 constexpr double kTexelsForByte = 64;
 
 /// A texture on the patches of an object.
-struct PatchTexture {
+struct TexelsOnPatches {
   Forest forest;
   std::vector<SurfacePoint> places;  ///< of its texels
   std::vector<uint16_t> texels;      ///< interleaved
@@ -42,7 +49,7 @@ struct PatchTexture {
 
 /// A base that was tried, and the stream over it.
 struct Trial {
-  ResampledObject object;
+  std::shared_ptr<const ResampledObject> object;
   CodedObject coded;
 };
 
@@ -56,11 +63,6 @@ int positionBits(uint32_t triangles) {
   return triangles <= 1000 ? 8 : triangles <= 4000 ? 9 : 10;
 }
 
-/// The mean of the colours of two texels of `values`.
-uint16_t between(const std::vector<uint16_t>& values, size_t a, size_t b) {
-  return static_cast<uint16_t>((uint32_t{values[a]} + values[b] + 1) / 2);
-}
-
 class ResampledSearch {
  public:
   explicit ResampledSearch(GivenObject& given) : given_(given) {}
@@ -71,11 +73,12 @@ class ResampledSearch {
                            std::to_string(given_.source.fewestTriangles()) +
                            " triangles; a stream takes at most " +
                            std::to_string(2 * Forest::kMostPatches) + ". Leave small parts out.");
-    Result<SharedTrial> taken = given_.options.bytes > 0 ? withinBytes() : withinError();
-    if (taken.ok() && given_.image != nullptr) taken = withTexture(**taken);
+    const Result<SharedTrial> taken = given_.image != nullptr    ? beside()
+                                      : given_.options.bytes > 0 ? withinBytes()
+                                                                 : withinError();
     if (!taken.ok()) return taken.status();
     CodedObject measured = (*taken)->coded;
-    const ResampledObject& object = (*taken)->object;
+    const ResampledObject& object = *(*taken)->object;
     measured.resampling_error = distanceOf(object, object.surface.heights, kDistanceSamples).error;
     const Result<std::vector<float>> heights = decode(measured.stream, object);
     if (!heights.ok()) return heights.status();
@@ -86,10 +89,44 @@ class ResampledSearch {
   }
 
  private:
+  /// The base for the bytes that heights get beside the texture. They share the budget by what they
+  /// take off the errors of pictures, which depends on the base.
+  Result<SharedTrial> beside() {
+    Result<SharedTrial> best = misusedObject("The budget is too small.");
+    std::vector<uint32_t> tried;
+    for (int share = 0; share < kMostShares; ++share) {
+      const Result<SharedTrial> base = withinBytes();
+      if (!base.ok()) return best.ok() ? best : base;
+      const uint32_t triangles = (*base)->object->base_triangles;
+      if (std::find(tried.begin(), tried.end(), triangles) != tried.end()) break;
+      tried.push_back(triangles);
+      Result<SharedTrial> made = withTexture(**base);
+      if (!made.ok()) return best.ok() ? best : made;
+      const auto got = static_cast<double>(heightBytesOf((*made)->coded.stream));
+      const auto sought = static_cast<double>(height_bytes_);
+      if (best.ok() && (*best)->coded.picture_error <= (*made)->coded.picture_error) break;
+      best = std::move(made);
+      if (got < kOtherShare * sought && sought < kOtherShare * got) break;
+      height_bytes_ = static_cast<uint64_t>(got);
+    }
+    return best;
+  }
+
+  /// All but those of the texture.
+  static uint64_t heightBytesOf(const std::vector<uint8_t>& stream) {
+    tks_decoder* decoder = nullptr;
+    tks_info info{};
+    info.size = sizeof info;
+    if (tks_open(stream.data(), stream.size(), nullptr, &decoder, nullptr, 0) == TKS_OK)
+      tks_get_info(decoder, &info);
+    tks_close(decoder);
+    return stream.size() - info.texture_bytes;
+  }
+
   /// The base with the least error within the budget: from the one tried first to finer or coarser
   /// ones, as long as they are better.
   Result<SharedTrial> withinBytes() {
-    const double wished = static_cast<double>(heightBytes()) / kBytesForTriangle;
+    const double wished = static_cast<double>(height_bytes_) / kBytesForTriangle;
     uint32_t triangles = kCoarsestBase;
     while (triangles < mostTriangles() && triangles * std::sqrt(2.0) < wished) triangles *= 2;
     Result<SharedTrial> best = inBudget(triangles);
@@ -122,23 +159,24 @@ class ResampledSearch {
     return most;
   }
 
-  /// Of a budget, while a base is sought.
-  uint64_t heightBytes() const {
-    if (given_.image == nullptr) return given_.options.bytes;
-    const double part = kHeightsPart * static_cast<double>(given_.options.bytes);
-    return std::min(given_.options.bytes, std::max(kLeastHeightBytes, static_cast<uint64_t>(part)));
+  /// Of a budget, while a first base is sought.
+  static uint64_t firstHeightBytes(const GivenObject& given) {
+    if (given.image == nullptr) return given.options.bytes;
+    const double part = kHeightsPart * static_cast<double>(given.options.bytes);
+    return std::min(given.options.bytes, std::max(kLeastHeightBytes, static_cast<uint64_t>(part)));
   }
 
   Result<SharedTrial> inBudget(uint32_t triangles) {
     tks_encode_options options = given_.options;
     options.psnr = options.max_error = 0;
-    options.bytes = heightBytes();
+    options.bytes = height_bytes_;
+    options.camera_count = 0;
     return coded({resampled(triangles), {}}, options, nullptr);
   }
 
   /// The heights of a trial beside the texture, which the target is of as well.
   Result<SharedTrial> withTexture(const Trial& trial) {
-    const PatchTexture texture = textureOn(trial.object);
+    const TexelsOnPatches texture = textureOn(*trial.object);
     const bool is_byte = given_.image->sample == TKS_U8;
     const std::vector<uint8_t> bytes(texture.texels.begin(),
                                      is_byte ? texture.texels.end() : texture.texels.begin());
@@ -153,36 +191,16 @@ class ResampledSearch {
                     texture.forest.sides().data()};
     Result<SharedTrial> made = coded(trial, given_.options, &image);
     if (!made.ok()) return made;
-    const Result<std::vector<uint16_t>> decoded = decodedTexels((*made)->coded.stream);
-    if (!decoded.ok()) return decoded.status();
+    const Result<double> error = given_.pictures->errorOf((*made)->coded.stream);
+    if (!error.ok()) return error.status();
     Trial both = **made;
     both.coded.texture_depth = image.forest.depth;
-    both.coded.texture_error = textureError(texture, *decoded);
+    both.coded.picture_error = *error;
     return std::make_shared<const Trial>(std::move(both));
   }
 
-  /// The error half-way between diagonal neighbours, where receivers show the mean of both texels:
-  /// it includes the detail that the texels cannot hold. Pairs whose ends lie in different
-  /// triangles are left out. If no pair is left, it is the error of the texels.
-  double textureError(const PatchTexture& texture, const std::vector<uint16_t>& decoded) const {
-    std::vector<SurfacePoint> middles;
-    std::vector<uint16_t> shown;
-    const size_t side = texture.forest.side(), channels = texture.channels;
-    for (size_t texel = 0; texel + side + 1 < texture.places.size(); ++texel) {
-      const SurfacePoint& a = texture.places[texel];
-      const SurfacePoint& b = texture.places[texel + side + 1];
-      if (a.triangle != b.triangle || texel % side + 1 == side) continue;
-      SurfacePoint& middle = middles.emplace_back(a);
-      for (size_t k = 0; k < 3; ++k) middle.weights[k] = (a.weights[k] + b.weights[k]) / 2;
-      for (size_t c = 0; c < channels; ++c)
-        shown.push_back(between(decoded, texel * channels + c, (texel + side + 1) * channels + c));
-    }
-    if (middles.empty()) return rootMeanSquare(texture.texels, decoded);
-    return rootMeanSquare(given_.colours().at(middles), shown);
-  }
-
   /// As many texels as the mesh shows of the image, unless the budget is too small for them.
-  PatchTexture textureOn(const ResampledObject& object) const {
+  TexelsOnPatches textureOn(const ResampledObject& object) const {
     const MeshColours colours = given_.colours();
     const double wanted =
         std::min(colours.shown(), kTexelsForByte * static_cast<double>(given_.options.bytes));
@@ -191,10 +209,10 @@ class ResampledSearch {
     while (depth < TKS_MOST_OBJECT_DEPTH && patches * std::ldexp(1.0, 2 * depth) < wanted &&
            object.base.forest->patches() < Forest::mostPatches(depth + 1))
       ++depth;
-    PatchTexture out{Forest(depth, object.base.forest->sides()),
-                     given_.source.placesOn(object, depth),
-                     {},
-                     given_.image->channels};
+    TexelsOnPatches out{Forest(depth, object.base.forest->sides()),
+                        given_.source.placesOn(object, depth),
+                        {},
+                        given_.image->channels};
     out.texels = colours.at(out.places);
     return out;
   }
@@ -208,7 +226,7 @@ class ResampledSearch {
     for (uint32_t triangles = kCoarsestBase; triangles <= mostTriangles(); triangles *= 2) {
       Trial trial{resampled(triangles), {}};
       trial.coded.resampling_error =
-          distanceOf(trial.object, trial.object.surface.heights, kTrialPlaces).error;
+          distanceOf(*trial.object, trial.object->surface.heights, kTrialPlaces).error;
       if (trial.coded.resampling_error > kResamplingPart * error) continue;
       Result<SharedTrial> made = given_.options.max_error > 0
                                      ? coded(std::move(trial), given_.options, nullptr)
@@ -224,8 +242,8 @@ class ResampledSearch {
   Result<SharedTrial> toPsnr(Trial trial, double error) {
     constexpr int kTries = 6;
     constexpr double kLess = 0.97;
-    const auto [low, high] = std::minmax_element(trial.object.surface.heights.begin(),
-                                                 trial.object.surface.heights.end());
+    const std::vector<float>& heights = trial.object->surface.heights;
+    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
     const double range = double{*high} - double{*low};
     double of_heights =
         std::sqrt(error * error - trial.coded.resampling_error * trial.coded.resampling_error);
@@ -240,8 +258,12 @@ class ResampledSearch {
     return misusedObject("The error that is asked for cannot be met.");
   }
 
-  ResampledObject resampled(uint32_t triangles) const {
-    return given_.source.resampled({triangles, kDepth, positionBits(triangles)});
+  std::shared_ptr<const ResampledObject> resampled(uint32_t triangles) {
+    std::shared_ptr<const ResampledObject>& object = resampled_[triangles];
+    if (object == nullptr)
+      object = std::make_shared<const ResampledObject>(
+          given_.source.resampled({triangles, kDepth, positionBits(triangles)}));
+    return object;
   }
 
   MeshDistance distanceOf(const ResampledObject& object, const std::vector<float>& heights,
@@ -252,13 +274,13 @@ class ResampledSearch {
 
   Result<SharedTrial> coded(Trial trial, const tks_encode_options& options,
                             const tks_image* image) {
-    const tks_heights heights = heightsOf(trial.object);
+    const tks_heights heights = heightsOf(*trial.object);
     Result<std::vector<uint8_t>> stream = encodedTrial(given_, options, &heights, image);
     if (!stream.ok()) return stream.status();
     trial.coded.stream = std::move(*stream);
-    const Result<std::vector<float>> decoded = decode(trial.coded.stream, trial.object);
+    const Result<std::vector<float>> decoded = decode(trial.coded.stream, *trial.object);
     if (!decoded.ok()) return decoded.status();
-    trial.coded.distance = distanceOf(trial.object, *decoded, kTrialPlaces);
+    trial.coded.distance = distanceOf(*trial.object, *decoded, kTrialPlaces);
     return std::make_shared<const Trial>(std::move(trial));
   }
 
@@ -295,6 +317,8 @@ class ResampledSearch {
   }
 
   GivenObject& given_;
+  uint64_t height_bytes_ = firstHeightBytes(given_);  ///< of a budget, for which a base is sought
+  std::map<uint32_t, std::shared_ptr<const ResampledObject>> resampled_;  ///< by triangles
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 // bytes as few triangles on a fine grid: so it tries several numbers of triangles, and for each of
 // them several grids.
 #include "api/object_inputs.hpp"
+#include "api/object_pictures.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -35,9 +36,10 @@ constexpr double kLeastTriangleBits = 2;
 /// Each number of triangles that is tried is the one before it divided by this.
 constexpr double kFewer = 1.41421356;
 
-/// Beside a texture triangles get at most this part of the budget, and this grid if it fits.
-constexpr double kTrianglesPart = 0.5;
-constexpr int kBesideTexture = 12 * kSteps;
+/// Beside a texture triangles get at most this part of the budget, and grids from this one on,
+/// which are tried so many steps apart.
+constexpr double kMostTrianglesPart = 0.75;
+constexpr int kFinestBesideTexture = 13 * kSteps, kTexturedSteps = kSteps / 2;
 
 /// Texture coordinates are rounded to halves of texels.
 uint8_t texcoordFraction(const tks_image* image) {
@@ -246,19 +248,31 @@ class TrianglesSearch {
     return misusedObject("No grid for triangles is as fine as asked for: ask for a larger error.");
   }
 
-  /// All triangles, and the image for the rest of the budget.
+  /// All triangles, and the image for the rest of the budget: ever coarser grids, from the finest
+  /// that leaves enough bytes, until the pictures of a trial are worse than those of the best one.
   Result<CodedObject> withTexture() {
     const TriangleTrial trial(given_, decimation_, all_);
-    int grid = kBesideTexture;
-    const double most = kTrianglesPart * static_cast<double>(given_.options.bytes);
-    std::optional<std::vector<uint8_t>> alone = trial.streamOf(grid);
-    while (grid > kCoarsest && alone && static_cast<double>(alone->size()) > most)
-      alone = trial.streamOf(--grid);
-    if (!alone) return tooMany();
-    if (static_cast<double>(alone->size()) > most)
-      return misusedObject("The triangles of the mesh leave too few bytes to its texture.");
+    const double most = kMostTrianglesPart * static_cast<double>(given_.options.bytes);
+    Result<CodedObject> best =
+        misusedObject("The triangles of the mesh leave too few bytes to its texture.");
+    for (int grid = kFinestBesideTexture; grid >= kCoarsest; grid -= kTexturedSteps) {
+      const std::optional<std::vector<uint8_t>> alone = trial.streamOf(grid);
+      if (!alone) return tooMany();
+      if (static_cast<double>(alone->size()) > most) continue;
+      Result<CodedObject> made = withTexture(trial, grid, alone->size());
+      if (!made.ok()) return made;
+      if (best.ok() && made->picture_error >= best->picture_error) break;
+      best = std::move(made);
+    }
+    if (best.ok()) best->distance = trial.distanceOf(best->stream, kDistanceSamples);
+    return best;
+  }
+
+  /// bytes: of the triangles.
+  Result<CodedObject> withTexture(const TriangleTrial& trial, int grid, uint64_t bytes) {
     tks_encode_options options = given_.options;
-    options.bytes -= alone->size();
+    options.bytes -= bytes;
+    options.camera_count = 0;  // they see all of the image alike
     tks_image image = *given_.image;
     image.has_geotransform = 0;
     const Result<std::vector<uint8_t>> texture = encodedTrial(given_, options, nullptr, &image);
@@ -272,19 +286,14 @@ class TrianglesSearch {
                   texture->end());
     if (stream.size() > given_.options.bytes)
       return Status(TKS_MISMATCH, "The stream of the object is longer than its budget.");
-    Result<CodedObject> coded = codedAs(trial, std::move(stream));
-    if (coded.ok()) addTextureError(*coded);
+    const Result<double> error = given_.pictures->errorOf(stream);
+    if (!error.ok()) return error.status();
+    CodedObject coded;
+    coded.stream = std::move(stream);
+    coded.picture_error = *error;
+    coded.kind = TKS_OBJECT_TRIANGLES;
+    coded.coded_triangles = trial.triangles();
     return coded;
-  }
-
-  /// Compares the colours of as many places of the mesh as distances are measured at.
-  void addTextureError(CodedObject& coded) const {
-    const Result<std::vector<uint16_t>> texels = decodedTexels(coded.stream);
-    if (!texels.ok()) return;
-    const MeshColours given = given_.colours();
-    const std::vector<SurfacePoint> places =
-        evenPlaces(given_.source.cleaned().mesh, kDistanceSamples);
-    coded.texture_error = rootMeanSquare(given.at(places), given.withTexels(*texels).at(places));
   }
 
   static Status tooMany() {

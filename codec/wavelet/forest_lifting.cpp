@@ -160,6 +160,8 @@ void ForestLifting::run(std::span<int32_t> values, const HeldCellsOfLevel& held)
         hold(patch, step, held.after);
   }
   for (size_t i = 0; i < rounds; ++i) lift(analyses ? i : rounds - 1 - i, held);
+  if (analyses)  // no coefficient counts twice in the encoder's account
+    for (const Copy& copy : shared_) patches_[copy.to] = 0;
   forEachSample(values, analyses, [](int32_t& to, int32_t from) { to = from; });
 }
 

@@ -74,7 +74,7 @@ std::vector<Camera> camerasOf(const tks_encode_options& options, const BaseMesh&
 std::vector<double> objectErrors(const EncodeInputs& inputs, DecodedNodes& decoded,
                                  const Nodes& nodes) {
   const tks_heights& whole = *inputs.heights;
-  if (whole.base_mesh.corners == nullptr) return {};  // a globe lies at no place
+  if (whole.base_mesh.position_bits == 0) return {};  // a globe lies at no place
   const BaseMesh base = baseMeshOf(whole);
   const int texture_depth = static_cast<int>(inputs.image->forest.depth);
   const std::vector<float> original = heightsOf(whole, whole.data);

@@ -46,7 +46,7 @@ Status checkCameras(const EncodeInputs& inputs) {
     if (Status status = checkCamera(camera); !status.ok()) return status;
   if (std::all_of(cameras.begin(), cameras.end(), [](const Camera& c) { return c.weight == 0; }))
     return {TKS_USAGE, "No camera has a weight above 0."};
-  if (inputs.heights == nullptr) return {};
+  if (inputs.heights == nullptr || inputs.heights->domain == TKS_DOMAIN_FOREST) return {};
   if (inputs.heights->width < 2 || inputs.heights->height < 2)
     return {TKS_USAGE, "Heights of one column or row have no area that a camera could see."};
   const Result<std::vector<uint8_t>> valid = findVoids(*inputs.heights);

@@ -100,7 +100,7 @@ class TileWorths {
 Priorities viewPriorities(const EncodeInputs& inputs) {
   assert(inputs.heights != nullptr && inputs.image != nullptr);
   const tks_encode_options& options = inputs.options;
-  if (options.camera_count == 0) return {};
+  if (options.camera_count == 0 || inputs.heights->domain == TKS_DOMAIN_FOREST) return {};
   const Result<std::vector<uint8_t>> valid = findVoids(*inputs.heights);
   if (!valid.ok()) return {};
   const tks_heights& heights = *inputs.heights;

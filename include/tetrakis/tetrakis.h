@@ -445,6 +445,14 @@ typedef struct tks_triangle_mesh {
   tks_object_kind kind;
 } tks_triangle_mesh;
 
+/* A stream of one of the kinds of object, for the target that was asked for. */
+typedef struct tks_object_trial {
+  uint64_t bytes;     /* 0: the kind was not asked for, or cannot meet the target */
+  double psnr;        /* of the surface, as of tks_object_report */
+  double screen_psnr; /* dB of R, G and B in the cameras' pictures, over pixels in which the mesh or
+                         the object is seen; 0: there is no image */
+} tks_object_trial;
+
 /* What became of a mesh. Distances are between its surface and that of the decoded stream, in its
  * unit, of 20 000 places of either. */
 typedef struct tks_object_report {
@@ -462,6 +470,7 @@ typedef struct tks_object_report {
   tks_object_kind kind;         /* in which way the object was coded. With TKS_OBJECT_TRIANGLES
                                    patches, depths and resampling_error are 0 */
   uint32_t coded_triangles;     /* with TKS_OBJECT_TRIANGLES, else 0 */
+  tks_object_trial as_resampled, as_triangles; /* of which `kind` is the better one */
 } tks_object_report;
 
 /* Encodes a mesh as an object, which tks_decode_object makes meshes of, in one of two ways.
@@ -471,14 +480,16 @@ typedef struct tks_object_report {
  * Of `options` these count: bytes (the least error is sought), or psnr (of the surface: 20
  * log10(diagonal / error), as tks_object_report has it; the fewest bytes are sought), or max_error
  * (every sample of the base keeps its height within that distance, and the resampling error is at
- * most a third of it; or every corner stays within that distance); index, progress, threads.
- * `report` may be NULL.
+ * most a third of it; or every corner stays within that distance); index, progress, threads; and
+ * cameras, in the axes and the unit of the mesh, which need an image. `report` may be NULL.
  *
  * image: the texture of the mesh, which has texcoords, or NULL. With TKS_OBJECT_RESAMPLED its
  * texels are resampled on the same patches, so that receivers need no coordinates, and it has no
  * seams: about as many of them as the mesh uses of the image, or fewer where `bytes` are few. With
  * TKS_OBJECT_TRIANGLES it is coded as it is, all triangles are kept, and texcoords are rounded to
- * halves of a texel. `bytes` is the only target beside an image. Of its place nothing counts.
+ * halves of a texel. `bytes` is the only target beside an image; the mesh and its image share them
+ * by what they take off the errors of pictures, which cameras see or, without any, cameras all
+ * around the mesh. Of the image's place nothing counts.
  *
  * TKS_USAGE, with a sentence in message: a mesh, or options, that break the rules; no triangle is
  * left after cleaning; the base mesh would take more than 4096 patches, since there are too many

@@ -6,14 +6,17 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "apps/tools/commands/encode_notes.hpp"
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/files/memory_limit.hpp"
 #include "apps/tools/files/text.hpp"
+#include "apps/tools/output/json.hpp"
 #include "apps/tools/output/output.hpp"
 #include "apps/tools/output/output_names.hpp"
 #include "apps/tools/output/progress.hpp"
+#include "apps/tools/report/surface_pictures.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -106,10 +109,25 @@ std::string squares(uint32_t patches, uint32_t depth) {
   return counted(patches, "patch of ", "patches of ") + side + " x " + side;
 }
 
+/// Those that the user has named, of a mesh with a texture.
+Result<std::vector<Camera>> wantedCameras(const EncodeArguments& arguments,
+                                          const SurfaceFile& mesh) {
+  if (arguments.cameras.isDefault()) return std::vector<Camera>();
+  if (!mesh.texture)
+    return Status(TKS_USAGE, "cameras weigh a texture against the surface: " +
+                                 quoted(arguments.height) + " has none that is encoded");
+  return chooseCameras(arguments.cameras, boundsOf(mesh));
+}
+
 Result<Buffer> encodeMesh(const EncodeArguments& arguments, const SurfaceInputs& inputs, bool quiet,
                           tks_object_report& report) {
   Result<tks_encode_options> options = surfaceOptions(arguments, inputs.unit);
   if (!options.ok()) return options.status();
+  const Result<std::vector<Camera>> cameras = wantedCameras(arguments, inputs.mesh);
+  if (!cameras.ok()) return cameras.status();
+  const std::vector<tks_camera> told = toldCameras(*cameras, GroundAxes());
+  options->cameras = told.data();
+  options->camera_count = static_cast<uint32_t>(told.size());
   Progress progress("encoding", quiet);
   options->progress = &Progress::report;
   options->user = &progress;
@@ -150,8 +168,6 @@ Status checkSurfaceArguments(const EncodeArguments& arguments) {
     return {TKS_USAGE, "a mesh with --texture takes --bytes as its target"};
   const std::pair<const char*, bool> options[] = {
       {"--triangles", arguments.triangles > 0},
-      {"--cameras", !arguments.cameras.file.empty()},
-      {"--view", !arguments.cameras.view.empty()},
       {"--engine", arguments.engine != "modelled"},
       {"--regions", arguments.regions != "auto" && arguments.regions != "off"},
       {"--windows", arguments.windows},
@@ -164,7 +180,6 @@ Status checkSurfaceArguments(const EncodeArguments& arguments) {
       {"--spacing", !arguments.spacing.empty()},
       {"--vertical-datum", arguments.vertical_datum.has_value()},
       {"--crs", arguments.crs.has_value()},
-      {"--explain", arguments.explain},
       {"--report", !arguments.report.empty()}};
   for (const auto& [name, given] : options)
     if (given)
@@ -200,6 +215,23 @@ std::string objectNote(const tks_object_report& report, const std::string& unit)
          " dB of its diagonal), largest " + inUnit(report.largest, unit);
 }
 
+Json trialJson(const tks_object_trial& trial, bool taken) {
+  if (trial.bytes == 0) return {};
+  return {{"taken", taken},
+          {"bytes", trial.bytes},
+          {"surface_psnr", finiteOrNull(trial.psnr)},
+          {"screen_psnr", trial.screen_psnr > 0 ? Json(trial.screen_psnr) : Json()}};
+}
+
+/// Both kinds of object, if somebody asked.
+Status printTrials(const EncodeArguments& arguments, const tks_object_report& report) {
+  if (!arguments.explain) return Status();
+  const Json json = {
+      {"resampled", trialJson(report.as_resampled, report.kind == TKS_OBJECT_RESAMPLED)},
+      {"triangles", trialJson(report.as_triangles, report.kind == TKS_OBJECT_TRIANGLES)}};
+  return print(arguments.json ? dump(json) : table(legible(json)));
+}
+
 Status encodeSurface(const EncodeArguments& arguments, bool quiet) {
   Status status = checkInputsStay({arguments.height, arguments.texture}, arguments.output);
   if (!status.ok()) return status;
@@ -215,6 +247,7 @@ Status encodeSurface(const EncodeArguments& arguments, bool quiet) {
   const std::span<const uint8_t> bytes = stream->bytes();
   status = output->stage(std::as_bytes(bytes));
   if (status.ok()) status = output->commit();
+  if (status.ok()) status = printTrials(arguments, report);
   if (!status.ok() || quiet) return status;
   tellNote(cleaningNote(report), quiet);
   tellNote(objectNote(report, inputs->unit), quiet);

@@ -12,17 +12,6 @@
 namespace tetrakis::tools {
 namespace {
 
-Bounds boundsOf(const SurfaceFile& surface) {
-  Bounds bounds{surface.points.front(), surface.points.front()};
-  for (const auto& point : surface.points) {
-    for (size_t axis = 0; axis < 3; ++axis) {
-      bounds.low[axis] = std::min(bounds.low[axis], point[axis]);
-      bounds.high[axis] = std::max(bounds.high[axis], point[axis]);
-    }
-  }
-  return bounds;
-}
-
 /// With its texture every corner of a triangle is a vertex of its own: charts of the image touch.
 MeshFile meshOf(const SurfaceFile& surface, bool textured) {
   MeshFile mesh;
@@ -58,6 +47,17 @@ Result<std::optional<ImageFile>> pictureOf(Decoder& decoder) {
 }
 
 }  // namespace
+
+Bounds boundsOf(const SurfaceFile& surface) {
+  Bounds bounds{surface.points.front(), surface.points.front()};
+  for (const auto& point : surface.points) {
+    for (size_t axis = 0; axis < 3; ++axis) {
+      bounds.low[axis] = std::min(bounds.low[axis], point[axis]);
+      bounds.high[axis] = std::max(bounds.high[axis], point[axis]);
+    }
+  }
+  return bounds;
+}
 
 Result<SurfacePictures> drawSurfaces(const SurfaceFile& original, Decoder& decoder,
                                      uint32_t max_triangles, CameraChoice choice) {

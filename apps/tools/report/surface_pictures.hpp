@@ -13,6 +13,9 @@
 
 namespace tetrakis::tools {
 
+/// Of all points.
+Bounds boundsOf(const SurfaceFile& surface);
+
 struct SurfacePictures {
   std::vector<Camera> cameras;
   std::vector<Picture> originals, pictures;  ///< one a camera

@@ -30,6 +30,16 @@ _PLAIN_IMAGE = dict(
 )
 
 
+class ObjectTrial(NamedTuple):
+    """A stream of one kind, for the target."""
+
+    bytes: int
+    psnr: float
+    """Of the surface, as of :class:`ObjectReport`."""
+    screen_psnr: Optional[float]
+    """Of pictures from all around the mesh, in dB; None: there is no texture."""
+
+
 class ObjectReport(NamedTuple):
     """What became of a mesh. Distances are between its surface and that of the decoded stream, in
     its unit, of 20 000 places of either."""
@@ -63,6 +73,9 @@ class ObjectReport(NamedTuple):
     """How it was coded: "resampled" or "triangles", which have no patches."""
     coded_triangles: Optional[int]
     """Of "triangles": how many there are."""
+    as_resampled: Optional[ObjectTrial]
+    as_triangles: Optional[ObjectTrial]
+    """Of which `kind` is the better one. None: it was not asked for, or cannot meet the target."""
 
 
 class EncodedObject(builtins.bytes):
@@ -183,11 +196,17 @@ def _mesh_struct(given: _Given, texts: dict) -> Tuple[c.TriangleMesh, Tuple[Any,
     return struct, (points, triangles, texcoords)
 
 
+def _trial(raw: c.ObjectTrial) -> Optional[ObjectTrial]:
+    return ObjectTrial(raw.bytes, raw.psnr, raw.screen_psnr or None) if raw.bytes else None
+
+
 def _report(raw: c.ObjectReport) -> ObjectReport:
     told = {name: getattr(raw, name) for name in ObjectReport._fields}
     told["kind"] = c.OBJECT_KINDS[raw.kind]
     for name in ("texture_depth", "coded_triangles"):
         told[name] = told[name] or None
+    for name in ("as_resampled", "as_triangles"):
+        told[name] = _trial(told[name])
     return ObjectReport(**told)
 
 

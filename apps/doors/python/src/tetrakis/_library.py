@@ -224,6 +224,16 @@ class TriangleMesh(ctypes.Structure):
     ]
 
 
+class ObjectTrial(ctypes.Structure):
+    """tks_object_trial."""
+
+    _fields_ = [
+        ("bytes", c_uint64),
+        ("psnr", c_double),
+        ("screen_psnr", c_double),
+    ]
+
+
 class ObjectReport(ctypes.Structure):
     """tks_object_report."""
 
@@ -244,6 +254,8 @@ class ObjectReport(ctypes.Structure):
         ("texture_depth", c_uint32),
         ("kind", c_int),
         ("coded_triangles", c_uint32),
+        ("as_resampled", ObjectTrial),
+        ("as_triangles", ObjectTrial),
     ]
 
 
@@ -477,6 +489,7 @@ STRUCTS = {
     "tks_buffer": Buffer,
     "tks_ground": Ground,
     "tks_triangle_mesh": TriangleMesh,
+    "tks_object_trial": ObjectTrial,
     "tks_object_report": ObjectReport,
     "tks_outliers": Outliers,
     "tks_limits": Limits,
