@@ -54,9 +54,9 @@ std::span<const std::array<float, 2>> pairs(const tks_triangle_mesh& mesh) {
 /// One number of triangles, which is tried on several grids.
 class TriangleTrial {
  public:
-  TriangleTrial(const GivenObject& given, const MappedDecimation& decimation, uint32_t triangles)
+  TriangleTrial(const GivenObject& given, TriangleMesh mesh)
       : given_(given),
-        mesh_(decimation.base(triangles).mesh),
+        mesh_(std::move(mesh)),
         texcoords_(texcoordsOf(given)),
         encoder_({mesh_.points, mesh_.triangles, gluedSides(mesh_.triangles).opposite, texcoords_},
                  texcoordFraction(given.image)) {}
@@ -142,10 +142,7 @@ struct Found {
 class TrianglesSearch {
  public:
   explicit TrianglesSearch(GivenObject& given)
-      : given_(given),
-        all_(static_cast<uint32_t>(given.source.cleaned().mesh.triangles.size())),
-        decimation_(given.source.cleaned().mesh, keepsAll() ? all_ : kFewestTriangles,
-                    DecimationAim::kNear) {}
+      : given_(given), all_(static_cast<uint32_t>(given.source.cleaned().mesh.triangles.size())) {}
 
   Result<CodedObject> run() {
     if (all_ > TriangleMeshHeader::kMostTriangles && keepsAll())
@@ -170,11 +167,13 @@ class TrianglesSearch {
     double most = std::min<double>(all_, TriangleMeshHeader::kMostTriangles);
     if (by_bytes)
       most = std::min(most, 8 * static_cast<double>(given_.options.bytes) / kLeastTriangleBits);
+    MappedDecimation decimation(given_.source.cleaned().mesh, all_, DecimationAim::kNear);
     std::optional<Found> found;
     uint32_t found_triangles = 0;
     for (double count = most;; count /= kFewer) {
       given_.progress.tell();
-      const TriangleTrial trial(given_, decimation_, static_cast<uint32_t>(count));
+      decimation.goOn(std::max(static_cast<uint32_t>(count), kFewestTriangles));
+      const TriangleTrial trial(given_, decimation.base(static_cast<uint32_t>(count)).mesh);
       if (trial.triangles() > count) break;  // the mesh cannot have fewer
       std::optional<Found> made = (this->*on_its_grid)(trial);
       if (!made && (found || !by_bytes)) break;
@@ -189,7 +188,8 @@ class TrianglesSearch {
       return misusedObject(by_bytes ? "No mesh of triangles fits in so few bytes."
                                     : "No mesh of triangles comes as near to the mesh as asked "
                                       "for: ask for a larger error.");
-    return codedAs(TriangleTrial(given_, decimation_, found_triangles), std::move(found->stream));
+    return codedAs(TriangleTrial(given_, decimation.base(found_triangles).mesh),
+                   std::move(found->stream));
   }
 
   /// The finest grid of a budget.
@@ -234,7 +234,7 @@ class TrianglesSearch {
 
   /// All triangles, each of whose corners is rounded by no more than the bound.
   Result<CodedObject> withinBound() {
-    const TriangleTrial trial(given_, decimation_, all_);
+    const TriangleTrial trial(given_, given_.source.cleaned().mesh);
     for (int grid = kCoarsest; grid <= kFinest; ++grid) {
       std::optional<std::vector<uint8_t>> stream = trial.streamOf(grid);
       if (!stream) return tooMany();
@@ -248,7 +248,7 @@ class TrianglesSearch {
 
   /// All triangles, and the image for the rest of the budget.
   Result<CodedObject> withTexture() {
-    const TriangleTrial trial(given_, decimation_, all_);
+    const TriangleTrial trial(given_, given_.source.cleaned().mesh);
     int grid = kBesideTexture;
     const double most = kTrianglesPart * static_cast<double>(given_.options.bytes);
     std::optional<std::vector<uint8_t>> alone = trial.streamOf(grid);
@@ -303,7 +303,6 @@ class TrianglesSearch {
 
   GivenObject& given_;
   uint32_t all_;
-  MappedDecimation decimation_;
 };
 
 }  // namespace

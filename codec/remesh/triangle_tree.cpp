@@ -8,7 +8,7 @@
 namespace tetrakis::inline remesh {
 namespace {
 
-constexpr uint32_t kLeaf = 8;  ///< most triangles of a leaf
+constexpr uint32_t kLeaf = 8;  ///< most triangles of a leaf, unless a run has more
 constexpr size_t kBins = 8;    ///< equal parts of the longest axis, between which nodes are cut
 /// Nodes that lie deeper are cut into halves of equal numbers. 2^32 triangles are halved at most 32
 /// times, so that the stack of a search needs no more than kStack entries.
@@ -31,33 +31,48 @@ double squaredDistance(const Box& box, const Point& point) {
   return sum;
 }
 
-/// Whether the line meets the box. Where rounding leaves a doubt the answer is true.
-bool meets(const Box& box, const Line& line) {
-  constexpr double kRounding = 1e-15;
-  double first = line.first, last = line.last;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const double low = box.low[axis] - line.origin[axis];
-    const double high = box.high[axis] - line.origin[axis];
-    if (line.direction[axis] == 0) {
-      if (low > 0 || high < 0) return false;
-      continue;
-    }
-    const auto [in, out] = std::minmax({low / line.direction[axis], high / line.direction[axis]});
-    first = std::max(first, in - kRounding * std::abs(in));
-    last = std::min(last, out + kRounding * std::abs(out));
+/// Tells whether a line meets boxes. Where rounding leaves a doubt the answer is true.
+class BoxSight {
+ public:
+  explicit BoxSight(const Line& line) : line_(line) {
+    for (size_t axis = 0; axis < 3; ++axis) inverse_[axis] = 1 / line.direction[axis];
   }
-  return first <= last;
-}
+
+  bool meets(const Box& box) const {
+    constexpr double kRounding = 1e-15;
+    double first = line_.first, last = line_.last;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const double low = box.low[axis] - line_.origin[axis];
+      const double high = box.high[axis] - line_.origin[axis];
+      if (!std::isfinite(inverse_[axis])) {  // the line hardly moves along this axis
+        if (line_.direction[axis] == 0 && (low > 0 || high < 0)) return false;
+        continue;
+      }
+      const double a = low * inverse_[axis], b = high * inverse_[axis];
+      const double in = std::min(a, b), out = std::max(a, b);
+      first = std::max(first, in - kRounding * std::abs(in));
+      last = std::min(last, out + kRounding * std::abs(out));
+    }
+    return first <= last;
+  }
+
+ private:
+  const Line& line_;
+  Point inverse_;
+};
 
 }  // namespace
 
 class TriangleTree::Builder {
  public:
-  explicit Builder(TriangleTree& tree) : tree_(tree), boxes_(tree.mesh_->triangles.size()) {
-    for (size_t t = 0; t < boxes_.size(); ++t) {
+  explicit Builder(TriangleTree& tree)
+      : tree_(tree),
+        boxes_((tree.mesh_->triangles.size() + tree.together_ - 1) / tree.together_),
+        leaf_(std::max(1u, kLeaf / tree.together_)) {
+    for (size_t t = 0; t < tree.mesh_->triangles.size(); ++t) {
       for (const uint32_t corner : tree.mesh_->triangles[t]) {
         const Point& point = tree.mesh_->points[corner];
-        boxes_[t].add({point, point});
+        boxes_[t / tree.together_].add({point, point});
       }
     }
   }
@@ -82,10 +97,8 @@ class TriangleTree::Builder {
   }
 
  private:
-  /// The centre of a triangle's box.
-  Point middle(uint32_t triangle) const {
-    return 0.5 * boxes_[triangle].low + 0.5 * boxes_[triangle].high;
-  }
+  /// The centre of a run's box.
+  Point middle(uint32_t run) const { return 0.5 * boxes_[run].low + 0.5 * boxes_[run].high; }
 
   /// Sets the box of a node and cuts it, unless it has few triangles: then it stays a leaf, and
   /// the result is false.
@@ -98,7 +111,7 @@ class TriangleTree::Builder {
       middles.add({center, center});
     }
     tree_.nodes_[number].box = all;
-    if (count <= kLeaf) return false;
+    if (count <= leaf_) return false;
     const uint32_t half = depth < kFreeDepth ? part(begin, count, middles) : count / 2;
     const auto child = static_cast<uint32_t>(tree_.nodes_.size());
     tree_.nodes_[number].first = child;
@@ -108,15 +121,15 @@ class TriangleTree::Builder {
     return true;
   }
 
-  /// Sorts the triangles of a node into two parts. Returns the size of the first part, which is
+  /// Sorts the runs of a node into two parts. Returns the size of the first part, which is
   /// above 0 and below `count`.
   uint32_t part(uint32_t begin, uint32_t count, const Box& middles) {
     const Point sides = middles.high - middles.low;
     const auto axis =
         static_cast<size_t>(std::max_element(sides.begin(), sides.end()) - sides.begin());
     const double low = middles.low[axis], scale = kBins / sides[axis];
-    const auto binOf = [&](uint32_t triangle) {
-      const double bin = (middle(triangle)[axis] - low) * scale;
+    const auto binOf = [&](uint32_t run) {
+      const double bin = (middle(run)[axis] - low) * scale;
       return bin < kBins ? static_cast<size_t>(bin) : kBins - 1;  // also where it is not a number
     };
     const size_t cut = bestCut(begin, count, binOf);
@@ -150,7 +163,7 @@ class TriangleTree::Builder {
     return best;
   }
 
-  /// For each bin the cost of all bins up to it as one node: the number of their triangles times
+  /// For each bin the cost of all bins up to it as one node: the number of their runs times
   /// the surface area of their box.
   static std::array<double, kBins> costs(const std::array<Box, kBins>& boxes,
                                          const std::array<uint32_t, kBins>& counts) {
@@ -166,11 +179,22 @@ class TriangleTree::Builder {
   }
 
   TriangleTree& tree_;
-  std::vector<Box> boxes_;  ///< one for each triangle
+  std::vector<Box> boxes_;  ///< one for each run
+  uint32_t leaf_;           ///< most runs of a leaf
 };
 
-TriangleTree::TriangleTree(const TriangleMesh& mesh) : mesh_(&mesh) {
+TriangleTree::TriangleTree(const TriangleMesh& mesh, uint32_t together)
+    : mesh_(&mesh), together_(together) {
   Builder(*this).build();
+}
+
+template <class Visit>
+void TriangleTree::forEachOf(const Node& leaf, const Visit& visit) const {
+  const auto all = static_cast<uint32_t>(mesh_->triangles.size());
+  for (uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+    const uint32_t first = order_[i] * together_;
+    for (uint32_t t = first; t < std::min(first + together_, all); ++t) visit(t);
+  }
 }
 
 std::optional<NearPlace> TriangleTree::closest(const Point& point, double bound) const {
@@ -186,14 +210,14 @@ std::optional<NearPlace> TriangleTree::closest(const Point& point, double bound)
     const Task task = stack[--open];
     if (!(task.square <= bound * bound)) continue;
     const Node& node = nodes_[task.node];
-    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const NearPlace found = nearestInTriangle(*mesh_, order_[i], point);
-      if (!(found.distance <= bound)) continue;
+    forEachOf(node, [&](uint32_t triangle) {
+      const NearPlace found = nearestInTriangle(*mesh_, triangle, point);
+      if (!(found.distance <= bound)) return;
       const bool same = best && found.distance == best->distance;
-      if (same && found.place.triangle > best->place.triangle) continue;
+      if (same && found.place.triangle > best->place.triangle) return;
       best = found;
       bound = found.distance;
-    }
+    });
     if (node.count > 0) continue;
     Task near{node.first, squaredDistance(nodes_[node.first].box, point)};
     Task far{node.first + 1, squaredDistance(nodes_[node.first + 1].box, point)};
@@ -207,15 +231,16 @@ std::optional<NearPlace> TriangleTree::closest(const Point& point, double bound)
 void TriangleTree::crossings(const Line& line,
                              const std::function<void(const Crossing&)>& visit) const {
   const LineSight sight(line);
+  const BoxSight boxes(line);
   std::array<uint32_t, kStack> stack;
   size_t open = 0;
   if (!nodes_.empty()) stack[open++] = 0;
   while (open > 0) {
     const Node& node = nodes_[stack[--open]];
-    if (!meets(node.box, line)) continue;
-    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (const auto crossing = sight.crossing(*mesh_, order_[i])) visit(*crossing);
-    }
+    if (!boxes.meets(node.box)) continue;
+    forEachOf(node, [&](uint32_t triangle) {
+      if (const auto crossing = sight.crossing(*mesh_, triangle)) visit(*crossing);
+    });
     if (node.count > 0) continue;
     stack[open++] = node.first + 1;
     stack[open++] = node.first;
