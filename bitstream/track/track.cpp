@@ -158,12 +158,16 @@ int delayOf(PassKind kind, size_t density) {
 
 /// Greater keys first; of equal ones the higher plane, then the lower band, then the higher tier,
 /// then the lower kind.
+/// By key, plane, band, tier, kind, as one number: queues of forests have many passes.
+uint64_t rankOf(const Pass& pass) {
+  constexpr int kLeastKey = -(1 << 20);
+  const auto key = static_cast<uint64_t>(pass.key - kLeastKey);
+  const uint64_t band = UINT16_MAX - pass.band, kind = UINT8_MAX - static_cast<uint8_t>(pass.kind);
+  return key << 40 | uint64_t{pass.plane} << 32 | band << 16 | uint64_t{pass.tier} << 8 | kind;
+}
+
 bool isLater(const Pass& a, const Pass& b) {
-  if (a.key != b.key) return a.key < b.key;
-  if (a.plane != b.plane) return a.plane < b.plane;
-  if (a.band != b.band) return a.band > b.band;
-  if (a.tier != b.tier) return a.tier < b.tier;
-  return a.kind > b.kind;
+  return rankOf(a) < rankOf(b);
 }
 
 }  // namespace
