@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 
 namespace tetrakis::inline remesh {
 namespace {
 
-constexpr uint32_t kLeaf = 8;  ///< most triangles of a leaf, unless a run has more
-constexpr size_t kBins = 8;    ///< equal parts of the longest axis, between which nodes are cut
+constexpr uint32_t kLeaf = 8;           ///< most triangles of a leaf, unless a run has more
+constexpr double kThin = 0.25;          ///< turned boxes are thinner, in parts of the diagonal
+constexpr double kTurnRounding = 1e-9;  ///< they are enlarged by so many of these
+constexpr size_t kBins = 8;  ///< equal parts of the longest axis, between which nodes are cut
 /// Nodes that lie deeper are cut into halves of equal numbers. 2^32 triangles are halved at most 32
 /// times, so that the stack of a search needs no more than kStack entries.
 constexpr uint32_t kFreeDepth = 60;
@@ -21,49 +24,14 @@ double surface(const Box& box) {
   return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
 }
 
-double squaredDistance(const Box& box, const Point& point) {
-  double sum = 0;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const double outside =
-        std::max({box.low[axis] - point[axis], point[axis] - box.high[axis], 0.0});
-    sum += outside * outside;
-  }
-  return sum;
-}
-
-/// Tells whether a line meets boxes. Where rounding leaves a doubt the answer is true.
-class BoxSight {
- public:
-  explicit BoxSight(const Line& line) : line_(line) {
-    for (size_t axis = 0; axis < 3; ++axis) inverse_[axis] = 1 / line.direction[axis];
-  }
-
-  bool meets(const Box& box) const {
-    constexpr double kRounding = 1e-15;
-    double first = line_.first, last = line_.last;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const double low = box.low[axis] - line_.origin[axis];
-      const double high = box.high[axis] - line_.origin[axis];
-      if (!std::isfinite(inverse_[axis])) {  // the line hardly moves along this axis
-        if (line_.direction[axis] == 0 && (low > 0 || high < 0)) return false;
-        continue;
-      }
-      const double a = low * inverse_[axis], b = high * inverse_[axis];
-      const double in = std::min(a, b), out = std::max(a, b);
-      first = std::max(first, in - kRounding * std::abs(in));
-      last = std::min(last, out + kRounding * std::abs(out));
-    }
-    return first <= last;
-  }
-
- private:
-  const Line& line_;
-  Point inverse_;
-};
-
 }  // namespace
 
 class TriangleTree::Builder {
+  struct Needle {
+    double square = 0;  // of its length; 0: there is none
+    uint32_t triangle = 0;
+  };
+
  public:
   explicit Builder(TriangleTree& tree)
       : tree_(tree),
@@ -75,6 +43,7 @@ class TriangleTree::Builder {
         boxes_[t / tree.together_].add({point, point});
       }
     }
+    findNeedles();
   }
 
   void build() {
@@ -83,7 +52,7 @@ class TriangleTree::Builder {
     tree_.order_.resize(count);
     std::iota(tree_.order_.begin(), tree_.order_.end(), 0U);
     tree_.nodes_.reserve(count);
-    tree_.nodes_.push_back({{}, 0, count});
+    tree_.nodes_.push_back({{}, kNone, 0, count});
     std::vector<std::pair<uint32_t, uint32_t>> open{{0, 0}};  // nodes to cut, and their depths
     while (!open.empty()) {
       const auto [node, depth] = open.back();
@@ -97,6 +66,43 @@ class TriangleTree::Builder {
   }
 
  private:
+  void findNeedles() {
+    const TriangleMesh& mesh = *tree_.mesh_;
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const double square = needleSquare(mesh, mesh.triangles[t]);
+      if (square == 0) continue;
+      if (needles_.empty()) needles_.resize(boxes_.size());
+      Needle& longest = needles_[t / tree_.together_];
+      if (square > longest.square) longest = {square, t};
+    }
+  }
+
+  /// Gives a node a box along its longest needle, if that helps.
+  void addTurnedBox(Node& node) {
+    if (needles_.empty()) return;
+    Needle longest;
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const Needle& needle = needles_[tree_.order_[i]];
+      if (needle.square > longest.square) longest = needle;
+    }
+    if (longest.square == 0) return;
+    const TriangleMesh& mesh = *tree_.mesh_;
+    std::optional<TurnedBox> turned = boxAlong(mesh, mesh.triangles[longest.triangle]);
+    if (!turned) return;
+    tree_.forEachOf(node, [&](uint32_t triangle) {
+      for (const uint32_t corner : mesh.triangles[triangle]) turned->add(mesh.points[corner]);
+    });
+    const double diagonal = length(node.box.high - node.box.low);
+    Box& box = turned->box;
+    if (!(box.high[1] - box.low[1] < kThin * diagonal)) return;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] -= kTurnRounding * diagonal;
+      box.high[axis] += kTurnRounding * diagonal;
+    }
+    node.turned = static_cast<uint32_t>(tree_.turned_.size());
+    tree_.turned_.push_back(*turned);
+  }
+
   /// The centre of a run's box.
   Point middle(uint32_t run) const { return 0.5 * boxes_[run].low + 0.5 * boxes_[run].high; }
 
@@ -111,13 +117,14 @@ class TriangleTree::Builder {
       middles.add({center, center});
     }
     tree_.nodes_[number].box = all;
+    addTurnedBox(tree_.nodes_[number]);
     if (count <= leaf_) return false;
     const uint32_t half = depth < kFreeDepth ? part(begin, count, middles) : count / 2;
     const auto child = static_cast<uint32_t>(tree_.nodes_.size());
     tree_.nodes_[number].first = child;
     tree_.nodes_[number].count = 0;
-    tree_.nodes_.push_back({{}, begin, half});
-    tree_.nodes_.push_back({{}, begin + half, count - half});
+    tree_.nodes_.push_back({{}, kNone, begin, half});
+    tree_.nodes_.push_back({{}, kNone, begin + half, count - half});
     return true;
   }
 
@@ -179,8 +186,9 @@ class TriangleTree::Builder {
   }
 
   TriangleTree& tree_;
-  std::vector<Box> boxes_;  ///< one for each run
-  uint32_t leaf_;           ///< most runs of a leaf
+  std::vector<Box> boxes_;       ///< one for each run
+  uint32_t leaf_;                ///< most runs of a leaf
+  std::vector<Needle> needles_;  ///< of each run the longest; empty: there is none
 };
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh, uint32_t together)
@@ -205,7 +213,13 @@ std::optional<NearPlace> TriangleTree::closest(const Point& point, double bound)
   std::optional<NearPlace> best;
   std::array<Task, kStack> stack;
   size_t open = 0;
-  if (!nodes_.empty()) stack[open++] = {0, squaredDistance(nodes_[0].box, point)};
+  const auto squareOf = [&](uint32_t node) {
+    const double square = squaredDistance(nodes_[node].box, point);
+    const TurnedBox* const turned = turnedOf(nodes_[node]);
+    return turned == nullptr ? square
+                             : std::max(square, squaredDistance(turned->box, turned->place(point)));
+  };
+  if (!nodes_.empty()) stack[open++] = {0, squareOf(0)};
   while (open > 0) {
     const Task task = stack[--open];
     if (!(task.square <= bound * bound)) continue;
@@ -219,8 +233,8 @@ std::optional<NearPlace> TriangleTree::closest(const Point& point, double bound)
       bound = found.distance;
     });
     if (node.count > 0) continue;
-    Task near{node.first, squaredDistance(nodes_[node.first].box, point)};
-    Task far{node.first + 1, squaredDistance(nodes_[node.first + 1].box, point)};
+    Task near{node.first, squareOf(node.first)};
+    Task far{node.first + 1, squareOf(node.first + 1)};
     if (far.square < near.square) std::swap(near, far);
     stack[open++] = far;
     stack[open++] = near;
@@ -237,7 +251,8 @@ void TriangleTree::crossings(const Line& line,
   if (!nodes_.empty()) stack[open++] = 0;
   while (open > 0) {
     const Node& node = nodes_[stack[--open]];
-    if (!boxes.meets(node.box)) continue;
+    const TurnedBox* const turned = turnedOf(node);
+    if (!boxes.meets(node.box) || (turned != nullptr && !boxes.meets(*turned))) continue;
     forEachOf(node, [&](uint32_t triangle) {
       if (const auto crossing = sight.crossing(*mesh_, triangle)) visit(*crossing);
     });

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "codec/remesh/node_bounds.hpp"
 #include "codec/remesh/triangle_mesh.hpp"
 #include "codec/remesh/triangle_queries.hpp"
 
@@ -36,10 +37,15 @@ class TriangleTree {
  private:
   struct Node {
     Box box;
+    uint32_t turned = kNone;  ///< number of its turned box, if it has one
     uint32_t first = 0;  ///< of a leaf: its first place in order_; else the first of two children
     uint32_t count = 0;  ///< number of runs of a leaf; 0: the node is not a leaf
   };
   class Builder;
+
+  const TurnedBox* turnedOf(const Node& node) const {
+    return node.turned == kNone ? nullptr : &turned_[node.turned];
+  }
 
   /// Calls visit(triangle) with the triangles of a leaf.
   template <class Visit>
@@ -49,6 +55,7 @@ class TriangleTree {
   uint32_t together_;            ///< triangles of a run
   std::vector<uint32_t> order_;  ///< all runs; those of a leaf are next to each other
   std::vector<Node> nodes_;      ///< node 0 is the root
+  std::vector<TurnedBox> turned_;
 };
 
 }  // namespace tetrakis::inline remesh
