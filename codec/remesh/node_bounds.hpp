@@ -30,13 +30,13 @@ struct TurnedBox {
 
 /// The square of the length of a triangle's longest side, if the triangle is a needle, and else 0.
 inline double needleSquare(const TriangleMesh& mesh, const Triangle& t) {
-  constexpr double kThin = 16;  // the length of a needle, in parts of its width
+  constexpr double kNeedle = 16;  // the length of a needle, in parts of its width
   double longest = 0;
   for (size_t k = 0; k < 3; ++k) {
     const Point side = mesh.points[t[(k + 1) % 3]] - mesh.points[t[k]];
     longest = std::max(longest, dot(side, side));
   }
-  return kThin * length(areaNormal(mesh, t)) < longest ? longest : 0;
+  return kNeedle * length(areaNormal(mesh, t)) < longest ? longest : 0;
 }
 
 /// An empty box along the longest side of a triangle, across it, and along its normal; none if the

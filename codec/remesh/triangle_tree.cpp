@@ -9,8 +9,9 @@
 namespace tetrakis::inline remesh {
 namespace {
 
-constexpr uint32_t kLeaf = 8;           ///< most triangles of a leaf, unless a run has more
-constexpr double kThin = 0.25;          ///< turned boxes are thinner, in parts of the diagonal
+constexpr uint32_t kLeaf = 8;        ///< most triangles of a leaf, unless a run has more
+constexpr double kLongNeedle = 0.5;  ///< in parts of the diagonal of a node that is turned along it
+constexpr double kThin = 0.25;       ///< turned boxes are thinner, in parts of the diagonal
 constexpr double kTurnRounding = 1e-9;  ///< they are enlarged by so many of these
 constexpr size_t kBins = 8;  ///< equal parts of the longest axis, between which nodes are cut
 /// Nodes that lie deeper are cut into halves of equal numbers. 2^32 triangles are halved at most 32
@@ -74,25 +75,27 @@ class TriangleTree::Builder {
       if (needles_.empty()) needles_.resize(boxes_.size());
       Needle& longest = needles_[t / tree_.together_];
       if (square > longest.square) longest = {square, t};
+      longest_ = std::max(longest_, square);
     }
   }
 
   /// Gives a node a box along its longest needle, if that helps.
   void addTurnedBox(Node& node) {
-    if (needles_.empty()) return;
+    const double diagonal = length(node.box.high - node.box.low);
+    const double least = kLongNeedle * kLongNeedle * diagonal * diagonal;
+    if (!(longest_ > least)) return;
     Needle longest;
     for (uint32_t i = node.first; i < node.first + node.count; ++i) {
       const Needle& needle = needles_[tree_.order_[i]];
       if (needle.square > longest.square) longest = needle;
     }
-    if (longest.square == 0) return;
+    if (!(longest.square > least)) return;
     const TriangleMesh& mesh = *tree_.mesh_;
     std::optional<TurnedBox> turned = boxAlong(mesh, mesh.triangles[longest.triangle]);
     if (!turned) return;
     tree_.forEachOf(node, [&](uint32_t triangle) {
       for (const uint32_t corner : mesh.triangles[triangle]) turned->add(mesh.points[corner]);
     });
-    const double diagonal = length(node.box.high - node.box.low);
     Box& box = turned->box;
     if (!(box.high[1] - box.low[1] < kThin * diagonal)) return;
     for (size_t axis = 0; axis < 3; ++axis) {
@@ -189,6 +192,7 @@ class TriangleTree::Builder {
   std::vector<Box> boxes_;       ///< one for each run
   uint32_t leaf_;                ///< most runs of a leaf
   std::vector<Needle> needles_;  ///< of each run the longest; empty: there is none
+  double longest_ = 0;           ///< the square of the longest one of all
 };
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh, uint32_t together)
