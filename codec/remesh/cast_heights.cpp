@@ -73,7 +73,9 @@ class Caster {
     for (int step = 0; step < kSteps; ++step) {
       const auto near = mesh_.closest(origin + cast.height * normal, reach_);
       if (!near) break;
+      const double before = cast.height;
       cast = {dot(at(mesh_.mesh(), near->place) - origin, normal), near->place, 0};
+      if (cast.height == before) break;  // further steps would find the same
     }
     const Point place = at(mesh_.mesh(), cast.place);
     cast.off = length(place - target) + kOffLine * length(origin + cast.height * normal - place);

@@ -28,9 +28,10 @@ struct TurnedBox {
   void add(const Point& point) { box.add({place(point), place(point)}); }
 };
 
+inline constexpr double kNeedle = 16;  ///< the length of a needle, in parts of its width
+
 /// The square of the length of a triangle's longest side, if the triangle is a needle, and else 0.
 inline double needleSquare(const TriangleMesh& mesh, const Triangle& t) {
-  constexpr double kNeedle = 16;  // the length of a needle, in parts of its width
   double longest = 0;
   for (size_t k = 0; k < 3; ++k) {
     const Point side = mesh.points[t[(k + 1) % 3]] - mesh.points[t[k]];
