@@ -268,12 +268,14 @@ class TrianglesSearch {
     const TriangleTrial trial(given_, given_.source.cleaned().mesh);
     int grid = kBesideTexture;
     const double most = kTrianglesPart * static_cast<double>(given_.options.bytes);
+    const std::optional<std::vector<uint8_t>> coarsest = trial.streamOf(kCoarsest);
+    if (!coarsest) return tooMany();
+    if (static_cast<double>(coarsest->size()) > most)
+      return misusedObject("The triangles of the mesh leave too few bytes to its texture.");
     std::optional<std::vector<uint8_t>> alone = trial.streamOf(grid);
     while (grid > kCoarsest && alone && static_cast<double>(alone->size()) > most)
       alone = trial.streamOf(--grid);
     if (!alone) return tooMany();
-    if (static_cast<double>(alone->size()) > most)
-      return misusedObject("The triangles of the mesh leave too few bytes to its texture.");
     tks_encode_options options = given_.options;
     options.bytes -= alone->size();
     tks_image image = *given_.image;
