@@ -51,6 +51,7 @@ struct TexelsOnPatches {
 struct Trial {
   std::shared_ptr<const ResampledObject> object;
   CodedObject coded;
+  std::vector<float> heights;  ///< as decoders have them
 };
 
 using SharedTrial = std::shared_ptr<const Trial>;
@@ -80,9 +81,7 @@ class ResampledSearch {
     CodedObject measured = (*taken)->coded;
     const ResampledObject& object = *(*taken)->object;
     measured.resampling_error = distanceOf(object, object.surface.heights, kDistanceSamples).error;
-    const Result<std::vector<float>> heights = decode(measured.stream, object);
-    if (!heights.ok()) return heights.status();
-    measured.distance = distanceOf(object, *heights, kDistanceSamples);
+    measured.distance = distanceOf(object, (*taken)->heights, kDistanceSamples);
     measured.patches = object.base.forest->patches();
     measured.depth = static_cast<uint32_t>(object.base.forest->depth());
     return measured;
@@ -171,7 +170,7 @@ class ResampledSearch {
     options.psnr = options.max_error = 0;
     options.bytes = height_bytes_;
     options.camera_count = 0;
-    return coded({resampled(triangles), {}}, options, nullptr);
+    return coded({resampled(triangles), {}, {}}, options, nullptr);
   }
 
   /// The heights of a trial beside the texture, which the target is of as well.
@@ -224,7 +223,7 @@ class ResampledSearch {
         misusedObject("No base mesh of up to " + std::to_string(kFinestBase) +
                       " triangles comes as near to the mesh as asked for: ask for a larger error.");
     for (uint32_t triangles = kCoarsestBase; triangles <= mostTriangles(); triangles *= 2) {
-      Trial trial{resampled(triangles), {}};
+      Trial trial{resampled(triangles), {}, {}};
       trial.coded.resampling_error =
           distanceOf(*trial.object, trial.object->surface.heights, kTrialPlaces).error;
       if (trial.coded.resampling_error > kResamplingPart * error) continue;
@@ -269,7 +268,7 @@ class ResampledSearch {
   MeshDistance distanceOf(const ResampledObject& object, const std::vector<float>& heights,
                           size_t places) const {
     const TriangleMesh mesh = meshOfSamples(object.base, heights);
-    return meshDistance(given_.source.tree(), TriangleTree(mesh), places);
+    return meshDistance(given_.source.tree(), TriangleTree(mesh, kSampleTriangles), places);
   }
 
   Result<SharedTrial> coded(Trial trial, const tks_encode_options& options,
@@ -278,9 +277,10 @@ class ResampledSearch {
     Result<std::vector<uint8_t>> stream = encodedTrial(given_, options, &heights, image);
     if (!stream.ok()) return stream.status();
     trial.coded.stream = std::move(*stream);
-    const Result<std::vector<float>> decoded = decode(trial.coded.stream, *trial.object);
+    Result<std::vector<float>> decoded = decode(trial.coded.stream, *trial.object);
     if (!decoded.ok()) return decoded.status();
-    trial.coded.distance = distanceOf(*trial.object, *decoded, kTrialPlaces);
+    trial.heights = std::move(*decoded);
+    trial.coded.distance = distanceOf(*trial.object, trial.heights, kTrialPlaces);
     return std::make_shared<const Trial>(std::move(trial));
   }
 

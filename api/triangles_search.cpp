@@ -56,9 +56,9 @@ std::span<const std::array<float, 2>> pairs(const tks_triangle_mesh& mesh) {
 /// One number of triangles, which is tried on several grids.
 class TriangleTrial {
  public:
-  TriangleTrial(const GivenObject& given, const MappedDecimation& decimation, uint32_t triangles)
+  TriangleTrial(const GivenObject& given, TriangleMesh mesh)
       : given_(given),
-        mesh_(decimation.base(triangles).mesh),
+        mesh_(std::move(mesh)),
         texcoords_(texcoordsOf(given)),
         encoder_({mesh_.points, mesh_.triangles, gluedSides(mesh_.triangles).opposite, texcoords_},
                  texcoordFraction(given.image)) {}
@@ -82,6 +82,11 @@ class TriangleTrial {
   MeshDistance distanceOf(const std::vector<uint8_t>& stream, size_t places) const {
     const TriangleMesh mesh = decoded(stream);
     return meshDistance(given_.source.tree(), TriangleTree(mesh), places);
+  }
+
+  /// That of its triangles before they are put on a grid.
+  double distance() const {
+    return meshDistance(given_.source.tree(), TriangleTree(mesh_), kTrialPlaces).error;
   }
 
   /// The largest distance between a corner of the stream and its place in the mesh, for a stream
@@ -139,15 +144,13 @@ class TriangleTrial {
 struct Found {
   std::vector<uint8_t> stream;
   double error = 0;
+  uint32_t triangles = 0;
 };
 
 class TrianglesSearch {
  public:
   explicit TrianglesSearch(GivenObject& given)
-      : given_(given),
-        all_(static_cast<uint32_t>(given.source.cleaned().mesh.triangles.size())),
-        decimation_(given.source.cleaned().mesh, keepsAll() ? all_ : kFewestTriangles,
-                    DecimationAim::kNear) {}
+      : given_(given), all_(static_cast<uint32_t>(given.source.cleaned().mesh.triangles.size())) {}
 
   Result<CodedObject> run() {
     if (all_ > TriangleMeshHeader::kMostTriangles && keepsAll())
@@ -155,43 +158,57 @@ class TrianglesSearch {
                            std::to_string(TriangleMeshHeader::kMostTriangles) + " are coded.");
     if (given_.image != nullptr) return withTexture();
     if (isBound()) return withinBound();
-    return given_.options.bytes > 0 ? best(&TrianglesSearch::finestWithinBytes)
-                                    : best(&TrianglesSearch::coarsestWithinError);
+    return given_.options.bytes > 0 ? nearest() : shortest();
   }
 
  private:
-  using Tried = std::optional<Found> (TrianglesSearch::*)(const TriangleTrial&);
-
   bool isBound() const { return given_.options.max_error > 0; }
   bool keepsAll() const { return given_.image != nullptr || isBound(); }
 
-  /// Tries ever fewer triangles, from the most that the target allows on, until a trial is worse
-  /// than the best one so far.
-  Result<CodedObject> best(Tried on_its_grid) {
-    const bool by_bytes = given_.options.bytes > 0;
-    double most = std::min<double>(all_, TriangleMeshHeader::kMostTriangles);
-    if (by_bytes)
-      most = std::min(most, 8 * static_cast<double>(given_.options.bytes) / kLeastTriangleBits);
+  /// Of a budget: tries ever fewer triangles, from the most that it may hold on, until a trial is
+  /// worse than the best one so far.
+  Result<CodedObject> nearest() {
+    const double bits = 8 * static_cast<double>(given_.options.bytes);
+    MappedDecimation decimation(given_.source.cleaned().mesh, all_, DecimationAim::kNear);
     std::optional<Found> found;
-    uint32_t found_triangles = 0;
-    for (double count = most;; count /= kFewer) {
+    for (double count = std::min(mostTriangles(), bits / kLeastTriangleBits);; count /= kFewer) {
       given_.progress.tell();
-      const TriangleTrial trial(given_, decimation_, static_cast<uint32_t>(count));
+      decimation.goOn(std::max(static_cast<uint32_t>(count), kFewestTriangles));
+      const TriangleTrial trial(given_, decimation.base(static_cast<uint32_t>(count)).mesh);
       if (trial.triangles() > count) break;  // the mesh cannot have fewer
-      std::optional<Found> made = (this->*on_its_grid)(trial);
-      if (!made && (found || !by_bytes)) break;
-      if (!made) continue;
-      const bool is_better = !found || (by_bytes ? made->error < found->error
-                                                 : made->stream.size() < found->stream.size());
-      if (!is_better) break;
-      found = std::move(made);
-      found_triangles = trial.triangles();
+      std::optional<Found> made = finestWithinBytes(trial);
+      if (found && (!made || made->error >= found->error)) break;
+      if (made) found = std::move(made);
+    }
+    if (!found) return misusedObject("No mesh of triangles fits in so few bytes.");
+    return codedAs(decimation, std::move(*found));
+  }
+
+  /// Of an error: tries ever more triangles, from the fewest that are near enough on, until a trial
+  /// takes more bytes than the best one so far. Fewer triangles take less time.
+  Result<CodedObject> shortest() {
+    const MappedDecimation decimation(given_.source.cleaned().mesh, kFewestTriangles,
+                                      DecimationAim::kNear);
+    std::vector<double> counts{mostTriangles()};
+    while (counts.back() / kFewer >= std::max(1u, decimation.fewest()))
+      counts.push_back(counts.back() / kFewer);
+    std::optional<Found> found;
+    for (; !counts.empty(); counts.pop_back()) {
+      given_.progress.tell();
+      const TriangleTrial trial(given_, decimation.base(static_cast<uint32_t>(counts.back())).mesh);
+      if (trial.distance() > given_.wantedError()) continue;
+      std::optional<Found> made = coarsestWithinError(trial);
+      if (found && (!made || made->stream.size() >= found->stream.size())) break;
+      if (made) found = std::move(made);
     }
     if (!found)
-      return misusedObject(by_bytes ? "No mesh of triangles fits in so few bytes."
-                                    : "No mesh of triangles comes as near to the mesh as asked "
-                                      "for: ask for a larger error.");
-    return codedAs(TriangleTrial(given_, decimation_, found_triangles), std::move(found->stream));
+      return misusedObject(
+          "No mesh of triangles comes as near to the mesh as asked for: ask for a larger error.");
+    return codedAs(decimation, std::move(*found));
+  }
+
+  double mostTriangles() const {
+    return std::min<double>(all_, TriangleMeshHeader::kMostTriangles);
   }
 
   /// The finest grid of a budget.
@@ -211,7 +228,7 @@ class TrianglesSearch {
     }
     if (fitting.empty()) return {};
     const double error = trial.distanceOf(fitting, kTrialPlaces).error;
-    return Found{std::move(fitting), error};
+    return Found{std::move(fitting), error, trial.triangles()};
   }
 
   /// The coarsest grid that an error allows.
@@ -227,7 +244,7 @@ class TrianglesSearch {
       if (reached > error) {
         low = grid + 1;
       } else {
-        met = Found{std::move(*stream), reached};
+        met = Found{std::move(*stream), reached, trial.triangles()};
         high = grid - 1;
       }
     }
@@ -236,7 +253,7 @@ class TrianglesSearch {
 
   /// All triangles, each of whose corners is rounded by no more than the bound.
   Result<CodedObject> withinBound() {
-    const TriangleTrial trial(given_, decimation_, all_);
+    const TriangleTrial trial(given_, given_.source.cleaned().mesh);
     for (int grid = kCoarsest; grid <= kFinest; ++grid) {
       std::optional<std::vector<uint8_t>> stream = trial.streamOf(grid);
       if (!stream) return tooMany();
@@ -251,10 +268,13 @@ class TrianglesSearch {
   /// All triangles, and the image for the rest of the budget: ever coarser grids, from the finest
   /// that leaves enough bytes, until the pictures of a trial are worse than those of the best one.
   Result<CodedObject> withTexture() {
-    const TriangleTrial trial(given_, decimation_, all_);
+    const TriangleTrial trial(given_, given_.source.cleaned().mesh);
     const double most = kMostTrianglesPart * static_cast<double>(given_.options.bytes);
     Result<CodedObject> best =
         misusedObject("The triangles of the mesh leave too few bytes to its texture.");
+    const std::optional<std::vector<uint8_t>> coarsest = trial.streamOf(kCoarsest);
+    if (!coarsest) return tooMany();
+    if (static_cast<double>(coarsest->size()) > most) return best;
     for (int grid = kFinestBesideTexture; grid >= kCoarsest; grid -= kTexturedSteps) {
       const std::optional<std::vector<uint8_t>> alone = trial.streamOf(grid);
       if (!alone) return tooMany();
@@ -300,6 +320,11 @@ class TrianglesSearch {
     return misusedObject("The triangles of the mesh take more than a megabyte.");
   }
 
+  Result<CodedObject> codedAs(const MappedDecimation& decimation, Found found) const {
+    return codedAs(TriangleTrial(given_, decimation.base(found.triangles).mesh),
+                   std::move(found.stream));
+  }
+
   Result<CodedObject> codedAs(const TriangleTrial& trial, std::vector<uint8_t> stream) const {
     if (!readHeader(stream).ok()) return tooMany();
     CodedObject coded;
@@ -312,7 +337,6 @@ class TrianglesSearch {
 
   GivenObject& given_;
   uint32_t all_;
-  MappedDecimation decimation_;
 };
 
 }  // namespace

@@ -32,6 +32,7 @@ uint32_t endOf(uint32_t side, bool second) {
 
 /// x within 0 … n, mirrored about both.
 int64_t folded(int64_t x, int64_t n) {
+  if (x >= 0 && x <= n) return x;
   const int64_t period = 2 * n;
   x = ((x % period) + period) % period;
   return std::min(x, period - x);

@@ -157,26 +157,31 @@ int delayOf(PassKind kind, size_t density) {
 }
 
 /// Greater keys first; of equal ones the higher plane, then the lower band, then the higher tier,
-/// then the lower kind.
+/// then the lower kind. All of it is one number, since queues of forests have many passes: 28 bits
+/// of the key, 6 of the plane, 22 of the band, 4 of the tier, 4 of the kind.
+uint64_t rankOf(const Pass& pass) {
+  constexpr int kLeastKey = -(1 << 20), kMostKind = 15;
+  const auto key = static_cast<uint64_t>(pass.key - kLeastKey);
+  const uint64_t band = kMostBands - 1 - pass.band;
+  const auto kind = static_cast<uint64_t>(kMostKind - static_cast<int>(pass.kind));
+  return key << 36 | uint64_t{pass.plane} << 30 | band << 8 | uint64_t{pass.tier} << 4 | kind;
+}
+
 bool isLater(const Pass& a, const Pass& b) {
-  if (a.key != b.key) return a.key < b.key;
-  if (a.plane != b.plane) return a.plane < b.plane;
-  if (a.band != b.band) return a.band > b.band;
-  if (a.tier != b.tier) return a.tier < b.tier;
-  return a.kind > b.kind;
+  return rankOf(a) < rankOf(b);
 }
 
 }  // namespace
 
 PassQueue::PassQueue(const std::vector<BandPlan>& plan, int planes)
     : progress_(kPriorities * plan.size()) {
-  assert(planes >= 0 && plan.size() <= UINT16_MAX);
+  assert(planes >= 0 && plan.size() <= kMostBands);
   if (planes == 0) return;
   for (size_t band = 0; band < plan.size(); ++band) {
     for (uint8_t tier = 0; tier < kPriorities; ++tier) {
       const uint32_t members = plan[band].members(tier);
       if (members == 0) continue;
-      const Pass first = {static_cast<uint16_t>(band), tier, static_cast<uint8_t>(planes - 1),
+      const Pass first = {static_cast<uint32_t>(band), tier, static_cast<uint8_t>(planes - 1),
                           PassKind::kLikely};
       progressOf(first) = {plan[band].log_norm + 16 * tier, plan[band].key_floor + 16 * tier,
                            plan[band].needed, members, 0};

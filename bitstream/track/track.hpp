@@ -84,7 +84,7 @@ struct BandPlan {
 
 /// A pass over a tier of a band.
 struct Pass {
-  uint16_t band;
+  uint32_t band;
   uint8_t tier;
   uint8_t plane;
   PassKind kind;
@@ -92,6 +92,9 @@ struct Pass {
   /// priority of the tier.
   int key = 0;
 };
+
+/// Bands of a track, fewer than: a forest has some for each patch, of each colour plane.
+inline constexpr size_t kMostBands = size_t{1} << 22;
 
 /// Bit-planes a coefficient may have: magnitudes stay below 2^30.
 inline constexpr int kMaxPlanes = 30;

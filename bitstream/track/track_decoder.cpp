@@ -86,14 +86,14 @@ void GrowingTrack::goOn(std::span<const uint8_t> codeword) {
   }
   read_ = decoder_->read(codeword);
   if (!band_) return;
-  const uint16_t band = passes_.front().band;
+  const uint32_t band = passes_.front().band;
   state_.bands[band] = std::move(*band_);
   state_.models[plan_[band].models] = *models_;
   band_.reset();
 }
 
 void GrowingTrack::keep() {
-  const uint16_t band = passes_.front().band;
+  const uint32_t band = passes_.front().band;
   band_ = state_.bands[band];
   models_ = state_.models[plan_[band].models];
 }

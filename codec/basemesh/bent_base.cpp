@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <cstdlib>
 
 namespace tetrakis::inline basemesh {
@@ -34,12 +35,12 @@ Vector shifted(const Vector& a, int bits) {
   return {shifted(a[0], bits), shifted(a[1], bits), shifted(a[2], bits)};
 }
 
-/// The largest integer whose square is no more than x.
+/// The largest integer whose square is no more than x, which is below 2^63. The root of a double is
+/// off by less than 1.
 uint64_t rootOf(uint64_t x) {
-  uint64_t root = 0;
-  for (uint64_t bit = uint64_t{1} << 31; bit > 0; bit >>= 1) {
-    if ((root + bit) * (root + bit) <= x) root += bit;
-  }
+  auto root = static_cast<uint64_t>(std::sqrt(static_cast<double>(x)));
+  while (root * root > x) --root;
+  while ((root + 1) * (root + 1) <= x) ++root;
   return root;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <tuple>
 
 namespace tetrakis::inline remesh {
@@ -44,11 +45,11 @@ class Caster {
   /// The places near the mapped one where the line leaves the inside of the mesh. If none of them
   /// is very near, also the place where line and mesh come nearest to each other. They are sorted
   /// by height, and there is at least one.
-  std::vector<Cast> casts(const Point& origin, const Point& normal,
-                          const SurfacePoint& mapped) const {
+  void find(const Point& origin, const Point& normal, const SurfacePoint& mapped,
+            std::vector<Cast>& found) const {
+    found.clear();
+    if (dot(normal, normal) == 0) return found.assign(1, {0, mapped, 0});
     const Point target = at(mesh_.mesh(), mapped);
-    std::vector<Cast> found;
-    if (dot(normal, normal) == 0) return {{0, mapped, 0}};
     const double middle = dot(target - origin, normal);
     mesh_.crossings({origin, normal, middle - reach_, middle + reach_}, [&](const Crossing& met) {
       const double off = length(at(mesh_.mesh(), met.place) - target);
@@ -60,7 +61,6 @@ class Caster {
     std::sort(found.begin(), found.end(), [](const Cast& a, const Cast& b) {
       return std::tuple(a.height, a.place.triangle) < std::tuple(b.height, b.place.triangle);
     });
-    return found;
   }
 
  private:
@@ -73,7 +73,9 @@ class Caster {
     for (int step = 0; step < kSteps; ++step) {
       const auto near = mesh_.closest(origin + cast.height * normal, reach_);
       if (!near) break;
+      const double before = cast.height;
       cast = {dot(at(mesh_.mesh(), near->place) - origin, normal), near->place, 0};
+      if (cast.height == before) break;  // further steps would find the same
     }
     const Point place = at(mesh_.mesh(), cast.place);
     cast.off = length(place - target) + kOffLine * length(origin + cast.height * normal - place);
@@ -117,26 +119,31 @@ std::vector<Cast> castPatch(const BaseMesh& base, const std::vector<BasePoint>& 
                             const std::function<SurfacePoint(double x, double y)>& place_of) {
   const auto side = static_cast<int>(base.forest->side());
   const double n = side - 1;
-  std::vector<std::vector<Cast>> choices;
-  std::vector<Cast> taken;
-  const auto take = [](const std::vector<Cast>& from, const auto& cost) {
+  std::vector<Cast> taken, found, all;
+  std::vector<size_t> first{0};  // of the choices of each sample in `all`, and the end
+  const auto take = [](std::span<const Cast> from, const auto& cost) {
     return *std::min_element(from.begin(), from.end(),
                              [&](const Cast& a, const Cast& b) { return cost(a) < cost(b); });
   };
+  const auto choices = [&](size_t i) {
+    return std::span<const Cast>(all).subspan(first[i], first[i + 1] - first[i]);
+  };
   for (const BasePoint& at : points) {
-    const auto x = static_cast<double>(choices.size() % static_cast<size_t>(side));
-    const auto y = static_cast<double>(choices.size() / static_cast<size_t>(side));
-    choices.push_back(caster.casts(pointOf(base, at), normalOf(at), place_of(x / n, y / n)));
-    taken.push_back(take(choices.back(), [](const Cast& cast) { return cast.off; }));
+    const auto x = static_cast<double>(taken.size() % static_cast<size_t>(side));
+    const auto y = static_cast<double>(taken.size() / static_cast<size_t>(side));
+    caster.find(pointOf(base, at), normalOf(at), place_of(x / n, y / n), found);
+    all.insert(all.end(), found.begin(), found.end());
+    first.push_back(all.size());
+    taken.push_back(take(found, [](const Cast& cast) { return cast.off; }));
   }
   for (int round = 0; round < kRounds; ++round) {
     std::vector<double> heights;
     for (const Cast& cast : taken) heights.push_back(cast.height);
     for (size_t i = 0; i < taken.size(); ++i) {
-      if (choices[i].size() == 1) continue;
+      if (choices(i).size() == 1) continue;
       const int x = static_cast<int>(i) % side, y = static_cast<int>(i) / side;
       const double usual = medianAround(heights, side, x, y);
-      taken[i] = take(choices[i], [&](const Cast& cast) {
+      taken[i] = take(choices(i), [&](const Cast& cast) {
         return std::abs(cast.height - usual) + kMapWeight * cast.off;
       });
     }

@@ -27,6 +27,8 @@ CastSurface castHeights(
     const std::function<SurfacePoint(uint32_t patch, double x, double y)>& place_of);
 
 /// The surface over a base as a mesh: each square between four samples becomes two triangles.
+/// kSampleTriangles triangles that follow on each other lie side by side.
+inline constexpr uint32_t kSampleTriangles = 8;
 TriangleMesh meshOfSamples(const BaseMesh& base, const std::vector<float>& heights);
 
 }  // namespace tetrakis::inline remesh

@@ -17,7 +17,7 @@ namespace tetrakis::inline remesh {
 /// What triangles are wanted for.
 enum class DecimationAim {
   kEven,  ///< a base mesh, over whose triangles a surface lies
-  kNear   ///< a surface of its own, of as few triangles as an error allows
+  kNear   ///< a surface of its own, of as few triangles as an error allows, without a map
 };
 
 class CollapseCost {

@@ -46,7 +46,7 @@ void CollapseMap::add(const Ring& ring, uint32_t target, const std::vector<FlatP
   const uint32_t number = collapses();
   collapses_.push_back({static_cast<uint32_t>(spokes_.size()), ring.points[target], target});
   for (size_t i = 0; i < ring.points.size(); ++i) {
-    Spoke spoke{kNone, kNone, flat[i]};
+    Spoke spoke{kNone, kNone, flat.empty() ? FlatPoint{} : flat[i]};
     if (i < ring.sides.size()) {
       spoke.side = ring.sides[i];
       spoke.before = last_[spoke.side / 3];

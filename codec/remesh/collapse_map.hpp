@@ -21,7 +21,7 @@ class CollapseMap {
   explicit CollapseMap(size_t triangles) : last_(triangles, kNone) {}
 
   /// Adds a collapse: the centre of the ring moves to its point `target`. `flat` is the result of
-  /// flatten() for this ring.
+  /// flatten() for this ring, or empty if the collapse will only be done again, not undone.
   void add(const Ring& ring, uint32_t target, const std::vector<FlatPoint>& flat);
 
   uint32_t collapses() const { return static_cast<uint32_t>(collapses_.size()); }

@@ -26,20 +26,24 @@ TriangleMesh ofUnitSize(const TriangleMesh& mesh) {
   return scaled;
 }
 
+}  // namespace
+
 /// Collapses points, the cheapest one first.
-class Decimator {
+class MappedDecimation::Decimator {
  public:
   Decimator(const TriangleMesh& mesh, DecimationAim aim, CollapseMap& map)
-      : mesh_(mesh), shrinking_(mesh), cost_(mesh, aim), map_(map), stamps_(mesh.points.size()) {}
+      : mesh_(ofUnitSize(mesh)),
+        shrinking_(mesh_),
+        cost_(mesh_, aim),
+        mapped_(aim == DecimationAim::kEven),
+        map_(map),
+        stamps_(mesh.points.size()) {}
 
+  /// Returns the number of triangles that are left.
   uint32_t run(uint32_t fewest) {
-    // A point that could not go may be able to after collapses elsewhere: so all points are offered
-    // again, in rounds.
-    for (uint32_t before = kNone; shrinking_.triangleCount() > fewest;) {
-      if (before - shrinking_.triangleCount() <= before / kRoundsEnd) break;
-      before = shrinking_.triangleCount();
-      for (uint32_t point = 0; point < stamps_.size(); ++point) offer(point);
-      while (!heap_.empty() && shrinking_.triangleCount() > fewest) takeCheapest();
+    while (shrinking_.triangleCount() > fewest) {
+      if (heap_.empty() && !beginsRound()) break;
+      if (!heap_.empty()) takeCheapest();
     }
     return shrinking_.triangleCount();
   }
@@ -60,6 +64,15 @@ class Decimator {
     double cost = std::numeric_limits<double>::infinity();
     uint32_t target = kNone;
   };
+
+  /// A point that could not go may be able to after collapses elsewhere: so all points are offered
+  /// again, in rounds, as long as these remove triangles.
+  bool beginsRound() {
+    if (before_ - shrinking_.triangleCount() <= before_ / kRoundsEnd) return false;
+    before_ = shrinking_.triangleCount();
+    for (uint32_t point = 0; point < stamps_.size(); ++point) offer(point);
+    return true;
+  }
 
   /// The cheapest neighbour that the centre of ring_ may collapse into. `flat`: the collapse must
   /// also be possible in the flattened ring, which goes to flat_.
@@ -100,7 +113,7 @@ class Decimator {
     heap_.pop_back();
     if (offered.stamp != stamps_[offered.point]) return;
     if (!shrinking_.findRing(offered.point, ring_)) return;
-    const Choice choice = choose(true);
+    const Choice choice = choose(mapped_);
     if (choice.target == kNone) return;
     if (choice.cost > offered.cost) return push(offered.point, choice.cost);
     map_.add(ring_, choice.target, flat_);
@@ -111,10 +124,12 @@ class Decimator {
     for (const uint32_t point : changed_) offer(point);
   }
 
-  const TriangleMesh& mesh_;
+  const TriangleMesh mesh_;
   ShrinkingMesh shrinking_;
   CollapseCost cost_;
+  bool mapped_;  // else nothing is flattened
   CollapseMap& map_;
+  uint32_t before_ = kNone;       // number of triangles when the round began
   std::vector<uint32_t> stamps_;  // for each point the stamp of its offer that is valid
   std::vector<Offer> heap_;
   // Of the point in work:
@@ -124,12 +139,16 @@ class Decimator {
   std::vector<uint32_t> changed_;
 };
 
-}  // namespace
-
 MappedDecimation::MappedDecimation(const TriangleMesh& mesh, uint32_t fewest, DecimationAim aim)
-    : mesh_(mesh), map_(mesh.triangles.size()) {
-  const TriangleMesh scaled = ofUnitSize(mesh);
-  fewest_ = Decimator(scaled, aim, map_).run(fewest);
+    : mesh_(mesh),
+      map_(mesh.triangles.size()),
+      decimator_(std::make_unique<Decimator>(mesh, aim, map_)),
+      fewest_(decimator_->run(fewest)) {}
+
+MappedDecimation::~MappedDecimation() = default;
+
+void MappedDecimation::goOn(uint32_t fewest) {
+  fewest_ = decimator_->run(fewest);
 }
 
 DecimatedMesh MappedDecimation::base(uint32_t most_triangles) const {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "codec/remesh/collapse_cost.hpp"
@@ -28,20 +29,29 @@ class MappedDecimation {
   /// keeps at least four triangles, and one with a boundary at least two.
   MappedDecimation(const TriangleMesh& mesh, uint32_t fewest,
                    DecimationAim aim = DecimationAim::kEven);
+  ~MappedDecimation();
+  MappedDecimation(const MappedDecimation&) = delete;
+  MappedDecimation& operator=(const MappedDecimation&) = delete;
 
-  /// The number of triangles that were left at the end.
+  /// Goes on to fewer triangles, as if the decimation had been made for them.
+  void goOn(uint32_t fewest);
+
+  /// The number of triangles that are left so far.
   uint32_t fewest() const { return fewest_; }
 
   /// The first mesh of the run that had at most so many triangles, or else its last mesh.
   DecimatedMesh base(uint32_t most_triangles) const;
 
-  /// Where a place of `base.mesh` lies on the input. A corner goes to its point. A place on an edge
-  /// goes to the same place from both triangles of the edge.
+  /// Where a place of `base.mesh` lies on the input, of an even decimation. A corner goes to its
+  /// point. A place on an edge goes to the same place from both triangles of the edge.
   SurfacePoint toInput(const DecimatedMesh& base, const SurfacePoint& place) const;
 
  private:
+  class Decimator;
+
   const TriangleMesh& mesh_;
   CollapseMap map_;
+  std::unique_ptr<Decimator> decimator_;
   uint32_t fewest_;
 };
 

@@ -77,8 +77,13 @@ class PatchMap {
 ObjectSource::ObjectSource(const TriangleMesh& mesh, uint32_t fewest)
     : cleaned_(tetrakis::cleaned(mesh)),
       tree_(cleaned_.mesh),
-      decimation_(cleaned_.mesh, fewest),
+      fewest_(fewest),
       diagonal_(tetrakis::diagonal(cleaned_.mesh)) {}
+
+const MappedDecimation& ObjectSource::decimation() const {
+  if (!decimation_) decimation_.emplace(cleaned_.mesh, fewest_);
+  return *decimation_;
+}
 
 /// A decimated mesh, its triangles paired to quads, and the forest of these.
 struct ObjectSource::Quads {
@@ -89,7 +94,7 @@ struct ObjectSource::Quads {
 
 ObjectSource::Quads ObjectSource::quadsOf(uint32_t base_triangles) const {
   Quads quads;
-  quads.decimated = decimation_.base(base_triangles);
+  quads.decimated = decimation().base(base_triangles);
   quads.paired = paired(quads.decimated.mesh);
   quads.forest = quadForest(quads.paired.quads);
   return quads;
@@ -98,7 +103,7 @@ ObjectSource::Quads ObjectSource::quadsOf(uint32_t base_triangles) const {
 CastSurface ObjectSource::castOn(const BaseMesh& base, const Quads& quads) const {
   const PatchMap map(quads.paired, quads.forest);
   return castHeights(base, tree_, [&](uint32_t patch, double x, double y) {
-    return decimation_.toInput(quads.decimated, onBase(quads.paired, map.at(patch, x, y)));
+    return decimation().toInput(quads.decimated, onBase(quads.paired, map.at(patch, x, y)));
   });
 }
 

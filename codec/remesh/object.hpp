@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "codec/basemesh/base_mesh.hpp"
@@ -29,6 +30,7 @@ struct ResampledObject {
   uint32_t base_triangles = 0;  ///< the number that was asked for
 };
 
+/// It is decimated when that is first needed, so only one thread may use it.
 class ObjectSource {
  public:
   /// mesh: its coordinates are finite. Cleaning must leave at least one triangle of it before bases
@@ -42,7 +44,7 @@ class ObjectSource {
   ObjectSource& operator=(const ObjectSource&) = delete;
 
   /// The number of triangles of the smallest base that there is.
-  uint32_t fewestTriangles() const { return decimation_.fewest(); }
+  uint32_t fewestTriangles() const { return decimation().fewest(); }
   double diagonal() const { return diagonal_; }
 
   /// The mesh over a base of that shape. If the decimation could not leave so few triangles, the
@@ -54,12 +56,14 @@ class ObjectSource {
 
  private:
   struct Quads;
+  const MappedDecimation& decimation() const;
   Quads quadsOf(uint32_t base_triangles) const;
   CastSurface castOn(const BaseMesh& base, const Quads& quads) const;
 
   CleanedMesh cleaned_;
   TriangleTree tree_;
-  MappedDecimation decimation_;
+  uint32_t fewest_;
+  mutable std::optional<MappedDecimation> decimation_;
   double diagonal_;
 };
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/portable_math.hpp"
+#include "codec/remesh/quick_angles.hpp"
 
 namespace tetrakis::inline remesh {
 namespace {
@@ -20,10 +21,7 @@ constexpr double kThinnest = 0.02;
 
 /// The angle between two directions, from 0 to pi.
 double spokeAngle(const Point& a, const Point& b) {
-  const double along = dot(a, b), beside = length(cross(a, b));
-  if (along == 0) return pi / 2;
-  const double angle = portable::atan(beside / along);
-  return along < 0 ? angle + pi : angle;
+  return quickAngle(dot(a, b), length(cross(a, b)));
 }
 
 /// Scales angles from their sum `sum` to the sum `total`. If one of them is too wide then, all are
@@ -74,8 +72,8 @@ void flatten(const std::vector<Point>& points, const Ring& ring, std::vector<Fla
     } else if (i == angles.size()) {
       flat[i] = {-radius, 0};  // on a line with the first point of an open ring
     } else {
-      const double t = portable::tan(angle / 2), scale = radius / (1 + t * t);
-      flat[i] = {scale * (1 - t * t), scale * 2 * t};  // radius * cosine, sine
+      const FlatPoint direction = quickDirection(angle);
+      flat[i] = {radius * direction.x, radius * direction.y};
     }
     if (i < angles.size()) angle += angles[i];
   }

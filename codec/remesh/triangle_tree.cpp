@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 
 namespace tetrakis::inline remesh {
 namespace {
 
-constexpr uint32_t kLeaf = 8;  ///< most triangles of a leaf
-constexpr size_t kBins = 8;    ///< equal parts of the longest axis, between which nodes are cut
+constexpr uint32_t kLeaf = 8;        ///< most triangles of a leaf, unless a run has more
+constexpr double kLongNeedle = 0.5;  ///< in parts of the diagonal of a node that is turned along it
+constexpr double kThin = 0.25;       ///< turned boxes are thinner, in parts of the diagonal
+constexpr double kTurnRounding = 1e-9;  ///< they are enlarged by so many of these
+constexpr size_t kBins = 8;  ///< equal parts of the longest axis, between which nodes are cut
 /// Nodes that lie deeper are cut into halves of equal numbers. 2^32 triangles are halved at most 32
 /// times, so that the stack of a search needs no more than kStack entries.
 constexpr uint32_t kFreeDepth = 60;
@@ -21,45 +25,26 @@ double surface(const Box& box) {
   return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
 }
 
-double squaredDistance(const Box& box, const Point& point) {
-  double sum = 0;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const double outside =
-        std::max({box.low[axis] - point[axis], point[axis] - box.high[axis], 0.0});
-    sum += outside * outside;
-  }
-  return sum;
-}
-
-/// Whether the line meets the box. Where rounding leaves a doubt the answer is true.
-bool meets(const Box& box, const Line& line) {
-  constexpr double kRounding = 1e-15;
-  double first = line.first, last = line.last;
-  for (size_t axis = 0; axis < 3; ++axis) {
-    const double low = box.low[axis] - line.origin[axis];
-    const double high = box.high[axis] - line.origin[axis];
-    if (line.direction[axis] == 0) {
-      if (low > 0 || high < 0) return false;
-      continue;
-    }
-    const auto [in, out] = std::minmax({low / line.direction[axis], high / line.direction[axis]});
-    first = std::max(first, in - kRounding * std::abs(in));
-    last = std::min(last, out + kRounding * std::abs(out));
-  }
-  return first <= last;
-}
-
 }  // namespace
 
 class TriangleTree::Builder {
+  struct Needle {
+    double square = 0;  // of its length; 0: there is none
+    uint32_t triangle = 0;
+  };
+
  public:
-  explicit Builder(TriangleTree& tree) : tree_(tree), boxes_(tree.mesh_->triangles.size()) {
-    for (size_t t = 0; t < boxes_.size(); ++t) {
+  explicit Builder(TriangleTree& tree)
+      : tree_(tree),
+        boxes_((tree.mesh_->triangles.size() + tree.together_ - 1) / tree.together_),
+        leaf_(std::max(1u, kLeaf / tree.together_)) {
+    for (size_t t = 0; t < tree.mesh_->triangles.size(); ++t) {
       for (const uint32_t corner : tree.mesh_->triangles[t]) {
         const Point& point = tree.mesh_->points[corner];
-        boxes_[t].add({point, point});
+        boxes_[t / tree.together_].add({point, point});
       }
     }
+    findNeedles();
   }
 
   void build() {
@@ -68,7 +53,7 @@ class TriangleTree::Builder {
     tree_.order_.resize(count);
     std::iota(tree_.order_.begin(), tree_.order_.end(), 0U);
     tree_.nodes_.reserve(count);
-    tree_.nodes_.push_back({{}, 0, count});
+    tree_.nodes_.push_back({{}, kNone, 0, count});
     std::vector<std::pair<uint32_t, uint32_t>> open{{0, 0}};  // nodes to cut, and their depths
     while (!open.empty()) {
       const auto [node, depth] = open.back();
@@ -82,10 +67,47 @@ class TriangleTree::Builder {
   }
 
  private:
-  /// The centre of a triangle's box.
-  Point middle(uint32_t triangle) const {
-    return 0.5 * boxes_[triangle].low + 0.5 * boxes_[triangle].high;
+  void findNeedles() {
+    const TriangleMesh& mesh = *tree_.mesh_;
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const double square = needleSquare(mesh, mesh.triangles[t]);
+      if (square == 0) continue;
+      if (needles_.empty()) needles_.resize(boxes_.size());
+      Needle& longest = needles_[t / tree_.together_];
+      if (square > longest.square) longest = {square, t};
+      longest_ = std::max(longest_, square);
+    }
   }
+
+  /// Gives a node a box along its longest needle, if that helps.
+  void addTurnedBox(Node& node) {
+    const double diagonal = length(node.box.high - node.box.low);
+    const double least = kLongNeedle * kLongNeedle * diagonal * diagonal;
+    if (!(longest_ > least)) return;
+    Needle longest;
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const Needle& needle = needles_[tree_.order_[i]];
+      if (needle.square > longest.square) longest = needle;
+    }
+    if (!(longest.square > least)) return;
+    const TriangleMesh& mesh = *tree_.mesh_;
+    std::optional<TurnedBox> turned = boxAlong(mesh, mesh.triangles[longest.triangle]);
+    if (!turned) return;
+    tree_.forEachOf(node, [&](uint32_t triangle) {
+      for (const uint32_t corner : mesh.triangles[triangle]) turned->add(mesh.points[corner]);
+    });
+    Box& box = turned->box;
+    if (!(box.high[1] - box.low[1] < kThin * diagonal)) return;
+    for (size_t axis = 0; axis < 3; ++axis) {
+      box.low[axis] -= kTurnRounding * diagonal;
+      box.high[axis] += kTurnRounding * diagonal;
+    }
+    node.turned = static_cast<uint32_t>(tree_.turned_.size());
+    tree_.turned_.push_back(*turned);
+  }
+
+  /// The centre of a run's box.
+  Point middle(uint32_t run) const { return 0.5 * boxes_[run].low + 0.5 * boxes_[run].high; }
 
   /// Sets the box of a node and cuts it, unless it has few triangles: then it stays a leaf, and
   /// the result is false.
@@ -98,25 +120,26 @@ class TriangleTree::Builder {
       middles.add({center, center});
     }
     tree_.nodes_[number].box = all;
-    if (count <= kLeaf) return false;
+    addTurnedBox(tree_.nodes_[number]);
+    if (count <= leaf_) return false;
     const uint32_t half = depth < kFreeDepth ? part(begin, count, middles) : count / 2;
     const auto child = static_cast<uint32_t>(tree_.nodes_.size());
     tree_.nodes_[number].first = child;
     tree_.nodes_[number].count = 0;
-    tree_.nodes_.push_back({{}, begin, half});
-    tree_.nodes_.push_back({{}, begin + half, count - half});
+    tree_.nodes_.push_back({{}, kNone, begin, half});
+    tree_.nodes_.push_back({{}, kNone, begin + half, count - half});
     return true;
   }
 
-  /// Sorts the triangles of a node into two parts. Returns the size of the first part, which is
+  /// Sorts the runs of a node into two parts. Returns the size of the first part, which is
   /// above 0 and below `count`.
   uint32_t part(uint32_t begin, uint32_t count, const Box& middles) {
     const Point sides = middles.high - middles.low;
     const auto axis =
         static_cast<size_t>(std::max_element(sides.begin(), sides.end()) - sides.begin());
     const double low = middles.low[axis], scale = kBins / sides[axis];
-    const auto binOf = [&](uint32_t triangle) {
-      const double bin = (middle(triangle)[axis] - low) * scale;
+    const auto binOf = [&](uint32_t run) {
+      const double bin = (middle(run)[axis] - low) * scale;
       return bin < kBins ? static_cast<size_t>(bin) : kBins - 1;  // also where it is not a number
     };
     const size_t cut = bestCut(begin, count, binOf);
@@ -150,7 +173,7 @@ class TriangleTree::Builder {
     return best;
   }
 
-  /// For each bin the cost of all bins up to it as one node: the number of their triangles times
+  /// For each bin the cost of all bins up to it as one node: the number of their runs times
   /// the surface area of their box.
   static std::array<double, kBins> costs(const std::array<Box, kBins>& boxes,
                                          const std::array<uint32_t, kBins>& counts) {
@@ -166,11 +189,24 @@ class TriangleTree::Builder {
   }
 
   TriangleTree& tree_;
-  std::vector<Box> boxes_;  ///< one for each triangle
+  std::vector<Box> boxes_;       ///< one for each run
+  uint32_t leaf_;                ///< most runs of a leaf
+  std::vector<Needle> needles_;  ///< of each run the longest; empty: there is none
+  double longest_ = 0;           ///< the square of the longest one of all
 };
 
-TriangleTree::TriangleTree(const TriangleMesh& mesh) : mesh_(&mesh) {
+TriangleTree::TriangleTree(const TriangleMesh& mesh, uint32_t together)
+    : mesh_(&mesh), together_(together) {
   Builder(*this).build();
+}
+
+template <class Visit>
+void TriangleTree::forEachOf(const Node& leaf, const Visit& visit) const {
+  const auto all = static_cast<uint32_t>(mesh_->triangles.size());
+  for (uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+    const uint32_t first = order_[i] * together_;
+    for (uint32_t t = first; t < std::min(first + together_, all); ++t) visit(t);
+  }
 }
 
 std::optional<NearPlace> TriangleTree::closest(const Point& point, double bound) const {
@@ -181,22 +217,28 @@ std::optional<NearPlace> TriangleTree::closest(const Point& point, double bound)
   std::optional<NearPlace> best;
   std::array<Task, kStack> stack;
   size_t open = 0;
-  if (!nodes_.empty()) stack[open++] = {0, squaredDistance(nodes_[0].box, point)};
+  const auto squareOf = [&](uint32_t node) {
+    const double square = squaredDistance(nodes_[node].box, point);
+    const TurnedBox* const turned = turnedOf(nodes_[node]);
+    return turned == nullptr ? square
+                             : std::max(square, squaredDistance(turned->box, turned->place(point)));
+  };
+  if (!nodes_.empty()) stack[open++] = {0, squareOf(0)};
   while (open > 0) {
     const Task task = stack[--open];
     if (!(task.square <= bound * bound)) continue;
     const Node& node = nodes_[task.node];
-    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const NearPlace found = nearestInTriangle(*mesh_, order_[i], point);
-      if (!(found.distance <= bound)) continue;
+    forEachOf(node, [&](uint32_t triangle) {
+      const NearPlace found = nearestInTriangle(*mesh_, triangle, point);
+      if (!(found.distance <= bound)) return;
       const bool same = best && found.distance == best->distance;
-      if (same && found.place.triangle > best->place.triangle) continue;
+      if (same && found.place.triangle > best->place.triangle) return;
       best = found;
       bound = found.distance;
-    }
+    });
     if (node.count > 0) continue;
-    Task near{node.first, squaredDistance(nodes_[node.first].box, point)};
-    Task far{node.first + 1, squaredDistance(nodes_[node.first + 1].box, point)};
+    Task near{node.first, squareOf(node.first)};
+    Task far{node.first + 1, squareOf(node.first + 1)};
     if (far.square < near.square) std::swap(near, far);
     stack[open++] = far;
     stack[open++] = near;
@@ -207,15 +249,17 @@ std::optional<NearPlace> TriangleTree::closest(const Point& point, double bound)
 void TriangleTree::crossings(const Line& line,
                              const std::function<void(const Crossing&)>& visit) const {
   const LineSight sight(line);
+  const BoxSight boxes(line);
   std::array<uint32_t, kStack> stack;
   size_t open = 0;
   if (!nodes_.empty()) stack[open++] = 0;
   while (open > 0) {
     const Node& node = nodes_[stack[--open]];
-    if (!meets(node.box, line)) continue;
-    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (const auto crossing = sight.crossing(*mesh_, order_[i])) visit(*crossing);
-    }
+    const TurnedBox* const turned = turnedOf(node);
+    if (!boxes.meets(node.box) || (turned != nullptr && !boxes.meets(*turned))) continue;
+    forEachOf(node, [&](uint32_t triangle) {
+      if (const auto crossing = sight.crossing(*mesh_, triangle)) visit(*crossing);
+    });
     if (node.count > 0) continue;
     stack[open++] = node.first + 1;
     stack[open++] = node.first;

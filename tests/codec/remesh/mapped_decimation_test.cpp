@@ -97,6 +97,24 @@ TEST(MappedDecimations, StopAtTheWantedCount) {
   EXPECT_GE(MappedDecimation(made::openGrid(20, 20), 99).fewest(), 98u);
 }
 
+TEST(MappedDecimations, GoOnAsIfMadeForFewer) {
+  for (const DecimationAim aim : {DecimationAim::kEven, DecimationAim::kNear}) {
+    const TriangleMesh mesh = made::sphere(4);
+    const MappedDecimation at_once(mesh, 100, aim);
+    MappedDecimation in_steps(mesh, 4000, aim);
+    for (const uint32_t fewest : {1500u, 700u, 100u}) {
+      in_steps.goOn(fewest);
+      EXPECT_LE(in_steps.fewest(), fewest);
+    }
+    for (const uint32_t count : {3000u, 900u, 100u}) {
+      const DecimatedMesh a = at_once.base(count), b = in_steps.base(count);
+      EXPECT_EQ(a.mesh.points, b.mesh.points);
+      EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+      EXPECT_EQ(a.triangles, b.triangles);
+    }
+  }
+}
+
 TEST(MappedDecimations, CornersLieInTheirPoints) {
   for (const auto& [name, mesh] : manifolds()) {
     const MappedDecimation decimation(mesh, 0);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "tests/codec/remesh/small_meshes.hpp"
@@ -21,26 +22,35 @@ std::optional<NearPlace> closestOfAll(const TriangleMesh& mesh, const Point& poi
   return best;
 }
 
+/// Needles from the tip of a cone, and across the axes.
+TriangleMesh needles(uint32_t around) {
+  TriangleMesh mesh{{{0.1, 0.2, 0.5}}, {}};
+  for (uint32_t k = 0; k < around; ++k) {
+    const double angle = 6.283185307179586 * k / around;
+    mesh.points.push_back({std::cos(angle), std::sin(angle), 0.1 * std::sin(5 * angle)});
+    mesh.triangles.push_back({0, 1 + k, 1 + (k + 1) % around});
+  }
+  return mesh;
+}
+
 std::vector<TriangleMesh> searchedMeshes() {
-  return {{},
-          soup(1, 1),
-          soup(2, 2),
-          soup(200, 3),
-          sphere(2, 0.7),
-          randomGrid(9, 7, 4),
-          randomTorus(12, 9, 5)};
+  return {{},           needles(900),   soup(1, 1),          soup(2, 2),
+          soup(200, 3), sphere(2, 0.7), randomGrid(9, 7, 4), randomTorus(12, 9, 5)};
 }
 
 TEST(TriangleTrees, FindTheClosestPlace) {
   std::mt19937 random(7);
   for (const TriangleMesh& mesh : searchedMeshes()) {
-    const TriangleTree tree(mesh);
+    const TriangleTree tree(mesh), of_runs(mesh, 3);
     for (int i = 0; i < 200; ++i) {
       const Point point = (i % 3 + 0.1) * randomPoint(random);
       const double bound = i % 2 == 0 ? uniform(random) : Box::kFar;
       const auto found = tree.closest(point, bound), expected = closestOfAll(mesh, point, bound);
+      const auto of_run = of_runs.closest(point, bound);
       ASSERT_EQ(found.has_value(), expected.has_value());
+      ASSERT_EQ(of_run.has_value(), expected.has_value());
       if (!found) continue;
+      EXPECT_EQ(of_run->place.triangle, expected->place.triangle);
       EXPECT_EQ(found->place.triangle, expected->place.triangle);
       EXPECT_EQ(found->distance, expected->distance);
       EXPECT_EQ(found->distance, length(at(mesh, found->place) - point));
@@ -68,7 +78,7 @@ TEST(TriangleTrees, NoPlaceOfATriangleIsNearerThanTheNearest) {
 TEST(TriangleTrees, FindAllCrossings) {
   std::mt19937 random(10);
   for (const TriangleMesh& mesh : searchedMeshes()) {
-    const TriangleTree tree(mesh);
+    const TriangleTree tree(mesh), of_runs(mesh, 3);
     for (int i = 0; i < 200; ++i) {
       Line line{randomPoint(random), randomPoint(random), -1, 2};
       if (i % 4 == 0) line.direction = {0, 0, i % 8 == 0 ? 3.0 : -0.5};
@@ -84,6 +94,11 @@ TEST(TriangleTrees, FindAllCrossings) {
         EXPECT_LE(length(at(mesh, crossing.place) - point), 1e-9);
         const Point normal = areaNormal(mesh, mesh.triangles[crossing.place.triangle]);
         EXPECT_EQ(crossing.outward, dot(normal, line.direction) > 0);
+      });
+      EXPECT_EQ(found, expected);
+      found.clear();
+      of_runs.crossings(line, [&](const Crossing& crossing) {
+        found.emplace(crossing.place.triangle, crossing.t);
       });
       EXPECT_EQ(found, expected);
     }
