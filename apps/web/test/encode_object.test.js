@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes through the encoder of objects: its promises, its words, what it refuses.
 import assert from 'node:assert/strict';
+import {stat} from 'node:fs/promises';
 import {test} from 'node:test';
+import {build} from 'esbuild';
 
 import {TksError, encodeObject} from '../src/encode.js';
 import {open} from '../src/index.js';
@@ -119,4 +121,16 @@ test('what makes no sense is refused by code and sentence', async () => {
   await refused({...ball, texture, psnr: 40}, /takes a number of bytes as its target/);
   await refused({...ball, bytes, texture: {...texture, crs: 'x'}}, /texture .* cannot have crs/);
   await refused({...ball, bytes, texture: {...texture, width: 63}}, /63 x 32 samples/);
+});
+
+test('a page in one script carries the module alone that it calls', async () => {
+  const web = new URL('..', import.meta.url).pathname, packed = {
+    encode: 'packed_encode', encodeObject: 'packed_encode_object'};
+  for (const [name, module] of Object.entries(packed)) {
+    const contents = `import {${name}} from './src/encode.js'; window.call = ${name};`;
+    const {outputFiles: [{contents: script}]} = await build({stdin: {contents, resolveDir: web},
+      bundle: true, minify: true, write: false, format: 'iife', logLevel: 'silent'});
+    const {size} = await stat(`${web}dist/${module}.js`);
+    assert.ok(script.length > size && script.length < size + 40000, `${name}: ${script.length}`);
+  }
 });

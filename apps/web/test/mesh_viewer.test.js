@@ -99,6 +99,38 @@ test('an OBJ takes the image that is dropped with it', TIMEOUT, async () => {
   });
 });
 
+test('the texture is the picture times the base colour, and no larger than a page encodes', TIMEOUT,
+  async () => {
+    await site.withPage('tks=bare.tks', async (page) => {
+      /** Of a ball whose picture is of one colour: the size of its texture, and a texel. */
+      const textureOf = async (colour, size, baseColorFactor) => {
+        const picture = await page.evaluate(async ([fillStyle, [width, height]]) => {
+          const canvas = new OffscreenCanvas(width, height), context = canvas.getContext('2d');
+          Object.assign(context, {fillStyle}).fillRect(0, 0, width, height);
+          const blob = await canvas.convertToBlob({type: 'image/png'});
+          return [...new Uint8Array(await blob.arrayBuffer())];
+        }, [colour, size]);
+        const {document, bytes} = gltfOf(ball, picture);
+        Object.assign(document.materials[0].pbrMetallicRoughness, {baseColorFactor});
+        return page.evaluate(async (file) => {
+          const {readMesh} = await import(new URL('read_mesh.js', document.baseURI));
+          const {mesh} = await readMesh(new File([Uint8Array.from(file)], 'ball.glb'));
+          const {width, height, channels, data} = mesh.texture;
+          return {size: [width, height, channels], texel: [...data.subarray(0, 3)]};
+        }, [...glbFile(document, bytes)]);
+      };
+      assert.deepEqual(await textureOf('rgb(200 100 0)', [16, 8], [1, 1, 1, 1]),
+        {size: [16, 8, 3], texel: [200, 100, 0]});
+      // A fifth of the light of 200, by sRGB, is that of 95.
+      assert.deepEqual((await textureOf('rgb(200 100 0)', [16, 8], [0.2, 1, 1, 1])).texel,
+        [95, 100, 0]);
+      assert.deepEqual((await textureOf('rgb(200 100 0)', [16, 8], [0, 0, 0, 1])).texel,
+        [200, 100, 0]);
+      assert.deepEqual(await textureOf('rgb(8 16 32)', [8192, 4096], [1, 1, 1, 1]),
+        {size: [4096, 2048, 3], texel: [8, 16, 32]});
+    });
+  });
+
 test('coding can be cancelled, and what was shown stays', TIMEOUT, async () => {
   await site.withPage('tks=bare.tks', async (page) => {
     const shown = await text(page, '#size');
