@@ -141,6 +141,6 @@ export interface EncodeOptions extends Pick<OpenOptions, 'signal' | 'wasm'> {
 /** The bytes of a stream. Rejects with a TksError, also where an option is none of these. */
 export function encode(input: EncodeInput, options?: EncodeOptions): Promise<Uint8Array>;
 
-/** Likewise of a mesh. Each number of patches that is tried begins a progress of its own. */
+/** Likewise of a mesh of triangles, with what became of it. */
 export function encodeObject(
   mesh: ObjectInput, options?: EncodeOptions): Promise<{stream: Uint8Array; report: ObjectReport}>;

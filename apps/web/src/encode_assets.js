@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the encoder lies: apart from the decoder, so that pages that only show terrain do not carry
-// it.
+// Where the encoders lie: apart from the decoder, so that pages that only show terrain do not carry
+// them, and from each other.
 import {compileAt} from './compile.js';
 import {nodeWorker} from './node.js';
 
-/** Of all encoders. */
-export const startWorker = () =>
+const worker = () =>
   (typeof Worker === 'undefined'
     ? nodeWorker('./encode_worker.js', import.meta.url)
     : new Worker(new URL('./encode_worker.js', import.meta.url), {type: 'module'}));
@@ -13,6 +12,13 @@ export const startWorker = () =>
 export const assets = {
   full: () => compileAt(new URL('../dist/tetrakis-encode.wasm', import.meta.url)),
   plain: () => compileAt(new URL('../dist/tetrakis-encode-plain.wasm', import.meta.url)),
-  worker: startWorker,
+  worker,
   packed: () => import('../dist/packed_encode.js'),
+};
+
+export const objectAssets = {
+  full: () => compileAt(new URL('../dist/tetrakis-encode-object.wasm', import.meta.url)),
+  plain: () => compileAt(new URL('../dist/tetrakis-encode-object-plain.wasm', import.meta.url)),
+  worker,
+  packed: () => import('../dist/packed_encode_object.js'),
 };

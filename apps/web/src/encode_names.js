@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names of what encode() and encodeObject() are given. One that is misspelt is refused: ignored,
-// it would make another stream than was asked for.
+// The names of what encode() and encodeObject() are given. One that is misspelt is refused:
+// ignored, it would make another stream than was asked for.
 import {TksError} from './error.js';
 
 const RASTER = ['data', 'width', 'height', 'crs', 'geotransform', 'registration', 'geoKeys',

@@ -70,13 +70,14 @@ async function coloured(page, name) {
 test('a dropped GLB is coded with its texture, shown, and can be saved', TIMEOUT, async () => {
   await site.withPage('tks=bare.tks', async (page) => {
     const {document, bytes} = gltfOf(ball, await stripes(page));
+    document.scenes[0].nodes.push(document.nodes.push({mesh: 0, translation: [0, 2, 0]}) - 1);
     await drop(page, [['ball.glb', glbFile(document, bytes)]]);
     await page.waitForFunction(() => !document.getElementById('coding').hidden);
     await page.locator('#name').filter({hasText: 'ball.tks'}).waitFor();
     await drawn(page);
     assert.match(await text(page, '#size'), /patches|triangles/);
     assert.equal(await page.locator('#coding').isVisible(), false);
-    assert.equal(await text(page, '#message'), '');
+    assert.equal(await text(page, '#message'), 'ball.glb: 2 parts are joined.');
     const {red, green} = await coloured(page, 'dropped_glb');
     assert.ok(red > 0.05 && green > 0.05, `${red} ${green}`);
     await page.locator('#bytes').fill('0');

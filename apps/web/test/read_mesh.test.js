@@ -111,7 +111,8 @@ test('formats agree on a mesh', async () => {
     assert.equal(mesh.triangles.length, ball.triangles.length, name);
     isClose(volumeOf(mesh), volume);
     assert.deepEqual([mesh.unit, mesh.description], [undefined, 'a']);
-    assert.equal(remark, name === 'a.obj' ? 'a picture for it can be dropped together with it' : '');
+    const isBare = name === 'a.obj';
+    assert.equal(remark, isBare ? 'a picture for it can be dropped together with it' : '');
   }
 });
 

@@ -22,8 +22,8 @@ const bundle = (names, options) => build({
   external: ['../dist/packed*', ...(options?.external ?? [])],
 });
 // What the first script shares with what draws is a file of its own (chunk.js). What reads GeoTIFFs
-// is as large as all the rest, and loaded when such a file is opened; so is what reads meshes, which
-// has a copy of the parts of three.js that it needs.
+// is as large as all the rest, and loaded when such a file is opened; so is what reads meshes, with
+// its own copy of the parts of three.js that it needs.
 const readers = ['read_files', 'read_mesh'];
 await bundle(['viewer/start', 'viewer/viewer'],
   {splitting: true, chunkNames: '[name]', external: readers.map((name) => `./${name}.js`)});

@@ -15,8 +15,8 @@ const valueOf = (light) =>
 const multiplied = (factor) => Uint8ClampedArray.from({length: WHITE + 1},
   (_, value) => WHITE * valueOf(factor * lightOf(value / WHITE)));
 
-/** Of a picture's file, as encodeObject() takes it, halved where it is too large. Black counts as white: programs write it beside
- * textures, which would leave nothing of them. */
+/** Of a picture's file, as encodeObject() takes it, halved where it is too large. Black counts as
+ * white: programs write it beside textures, which would leave nothing of them. */
 export async function textureOf(file, colour) {
   const {width, height, data} = await fewerPixelsOf(file);
   const texels = new Uint8Array(chosenBands(data, 4, [0, 1, 2]).buffer);
