@@ -62,6 +62,19 @@ test('nodes move, turn and mirror their meshes, whose front stays outside', asyn
   assert.deepEqual([x, y, z].map((value) => Math.round(1e4 * value) / 1e4 + 0), [8, 0, 0]);
 });
 
+test('a mesh that a node draws several times is there as often', async () => {
+  const name = 'EXT_mesh_gpu_instancing';
+  const {mesh, remark} = await changed((document) => {
+    document.extensionsUsed = [name];
+    document.accessors.push({...document.accessors[0], count: 3});  // places, of some vertices
+    document.nodes = [{mesh: 0, scale: [1, 2, 1], extensions: {[name]: {attributes: {
+      TRANSLATION: 3}}}}];
+  });
+  assert.equal(remark, '3 parts are joined');
+  isClose(volumeOf(mesh), 3 * 2 * volume);
+  assert.equal(mesh.positions[1], 2 * (1 + 1));  // the north pole, moved by itself
+});
+
 test('the texture of most triangles counts, where its material places it', async () => {
   const scaled = {index: 0, extensions: {KHR_texture_transform: {scale: [0.5, 1],
     offset: [0.25, 0]}}};
@@ -69,7 +82,7 @@ test('the texture of most triangles counts, where its material places it', async
     document.images = [{uri: 'beside.png'}, {uri: 'other.png'}];
     document.textures = [{source: 0}, {source: 1}];
     document.materials = [{pbrMetallicRoughness: {baseColorTexture: scaled}},
-      {pbrMetallicRoughness: {baseColorTexture: {index: 1}}}];
+      {extensions: {KHR_materials_pbrSpecularGlossiness: {diffuseTexture: {index: 1}}}}];
     document.accessors.push({...document.accessors[2], count: 30});
     const {primitives} = document.meshes[0];
     primitives.unshift({...primitives[0], material: 1, indices: 3});

@@ -8,7 +8,9 @@ import {MeshoptDecoder} from 'three/addons/libs/meshopt_decoder.module.js';
 import {partsOf} from './mesh_parts.js';
 
 const DRACO = 'KHR_draco_mesh_compression', TRANSFORM = 'KHR_texture_transform';
-/** Pictures of these browsers decode. */
+/** What older files have in place of a base colour. */
+const GLOSSY = 'KHR_materials_pbrSpecularGlossiness';
+/** Extensions whose pictures browsers decode. */
 const PICTURES = ['EXT_texture_webp', 'EXT_texture_avif'];
 
 const isData = (uri) => uri.startsWith('data:');
@@ -29,12 +31,14 @@ function imageOf({source, extensions = {}} = {}) {
 }
 
 /** The base colour: a factor of light, and where its picture lies. */
-function baseColourOf({pbrMetallicRoughness = {}}, {textures = []}) {
-  const {baseColorFactor: colour = [1, 1, 1], baseColorTexture} = pbrMetallicRoughness;
-  if (!baseColorTexture) return {colour};
-  const {index, texCoord = 0, extensions} = baseColorTexture;
+function baseColourOf({pbrMetallicRoughness: own = {}, extensions}, {textures = []}) {
+  const older = extensions?.[GLOSSY];
+  const colour = (older ? older.diffuseFactor : own.baseColorFactor) ?? [1, 1, 1];
+  const texture = older ? older.diffuseTexture : own.baseColorTexture;
+  if (!texture) return {colour};
+  const {index, texCoord = 0} = texture;
   const {offset = [0, 0], scale = [1, 1], rotation = 0, texCoord: channel = texCoord} =
-    extensions?.[TRANSFORM] ?? {};
+    texture.extensions?.[TRANSFORM] ?? {};
   return {
     colour, image: imageOf(textures[index]), texcoords: channel > 0 ? `uv${channel}` : 'uv',
     offset, scale, isTurned: rotation !== 0,
