@@ -12,6 +12,7 @@ const TIMEOUT = {timeout: 240000};
 const PICTURES = process.env.TETRAKIS_PICTURES;
 const vectors = new URL('../../../conformance/vectors/', import.meta.url).pathname;
 const ball = ballOf(24);
+ball.triangles.push(0, 0, 1);  // degenerate
 let site;
 
 before(async () => {
@@ -77,7 +78,8 @@ test('a dropped GLB is coded with its texture, shown, and can be saved', TIMEOUT
     await drawn(page);
     assert.match(await text(page, '#size'), /patches|triangles/);
     assert.equal(await page.locator('#coding').isVisible(), false);
-    assert.equal(await text(page, '#message'), 'ball.glb: 2 parts are joined.');
+    assert.equal(await text(page, '#message'), 'ball.glb: 2 parts are joined; 2 triangles have ' +
+      'equal corners or are there twice and are left out.');
     const {red, green} = await coloured(page, 'dropped_glb');
     assert.ok(red > 0.05 && green > 0.05, `${red} ${green}`);
     await page.locator('#bytes').fill('0');
@@ -155,6 +157,8 @@ test('a mesh that cannot be read is refused with a sentence', TIMEOUT, async () 
       [[['ball.gltf', Buffer.from(JSON.stringify(apart))]], /another file, ball\.bin/],
       [[['none.obj', Buffer.from('v 0 0 0\n')]], /it has no triangles\.$/],
       [[['short.stl', Buffer.from('solid')]], /it is damaged/],
+      [[['ball.obj', objOf(ball)], ['ball.mtl', Buffer.from('newmtl a')]],
+        /ball\.mtl, which was given with it, is no image/],
       [[['a.glb', whole], ['b.glb', whole]], /^Drop one mesh, and at most one image/],
     ];
     for (const [files, sentence] of cases) {

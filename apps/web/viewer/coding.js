@@ -46,19 +46,33 @@ const budgetFor = (bits) => Math.max(LEAST_BYTES, Math.round(bits / 8));
 
 async function encodeTerrain({heights, texture}, options) {
   const bytes = budgetFor(BITS * (samplesOf(heights) + samplesOf(texture)));
-  return encode({heights, texture, bytes, index: true}, {...encoder, ...options});
+  const terrain = {heights, texture, bytes, index: true};
+  return {stream: await encode(terrain, {...encoder, ...options})};
 }
 
-async function encodeMesh(mesh, options) {
+/** "1 edge is", "3 edges are"; nothing of none. */
+const counted = (count, one, many) =>
+  (count === 0 ? null : count === 1 ? `1 ${one}` : `${count} ${many}`);
+
+/** What was cleaned, as the command line says it. */
+const cleaningOf = ({droppedTriangles, cutEdges}) => [
+  counted(droppedTriangles, 'triangle has equal corners or is there twice and is left out',
+    'triangles have equal corners or are there twice and are left out'),
+  counted(cutEdges, 'edge joins more triangles than two, or two that face apart, and is cut open',
+    'edges join more triangles than two, or two that face apart, and are cut open'),
+].filter(Boolean).join('; ');
+
+async function encodeMesh({mesh, remark: read}, options) {
   const bytes = budgetFor(BITS * samplesOf(mesh.texture) +
     TRIANGLE_BITS * (mesh.triangles.length / 3));
-  const {stream} = await encodeObject({...mesh, bytes}, {...objectEncoder, ...options});
-  return stream;
+  const {stream, report} =
+    await encodeObject({...mesh, bytes}, {...objectEncoder, ...options});
+  return {stream, remark: [read, cleaningOf(report)].filter(Boolean).join('; ')};
 }
 
-/** A stream of what inputOf() gives, as a file beside the one of that name. */
+/** {file, remark}: a stream of what inputOf() gives, as a file beside the one of that name, and
+ * what there is to say. */
 export async function encodedFile(input, name, options) {
-  const stream = await (input.mesh ? encodeMesh(input.mesh, options)
-    : encodeTerrain(input, options));
-  return new File([stream], `${name.replace(/\.[^.]*$/, '')}.tks`);
+  const {stream, remark} = await (input.mesh ? encodeMesh : encodeTerrain)(input, options);
+  return {file: new File([stream], `${name.replace(/\.[^.]*$/, '')}.tks`), remark};
 }

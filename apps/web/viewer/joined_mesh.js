@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One list of triangles of all parts of a file, as encodeObject() takes it, and what was left out.
 
-/** Encoding takes some minutes, and a page's memory, for as many. */
+/** For as many encoding takes minutes, and a gigabyte. */
 const MOST_TRIANGLES = 2 ** 20;
 /** Of what has no picture. */
 const PLAIN = {colour: [1, 1, 1]};

@@ -33,12 +33,16 @@ async function ownTexture({image, colour}, fileOf) {
   }
 }
 
+const textureFrom = (picture) => textureOf(picture, WHITE).catch(() => {
+  throw new Error(`${picture.name}, which was given with it, is no image`);
+});
+
 /** `picture`: a file that lies on the mesh, or nothing. */
 async function textureFor({material, hasTexcoords}, fileOf, picture) {
   if (picture && !hasTexcoords) {
     throw new Error(`it has no texture coordinates, so that ${picture.name} cannot lie on it`);
   }
-  if (picture) return {texture: await textureOf(picture, WHITE)};
+  if (picture) return {texture: await textureFrom(picture)};
   if (material.image !== undefined && hasTexcoords) return ownTexture(material, fileOf);
   const isBare = hasTexcoords && !fileOf;
   return isBare ? {remark: 'a picture for it can be dropped together with it'} : {};

@@ -211,11 +211,11 @@ async function openSources(files) {
       $('size').textContent = `encoding … ${Math.round(100 * done)} %`;
     };
     progress(0);
-    const file = await encodedFile(input, files[0].name, {signal, progress});
+    const {file, remark} = await encodedFile(input, files[0].name, {signal, progress});
     if (signal.aborted) return;
     await openInput(file, file.name, null, input);
     offer(file);
-    if (input.remark) tell(`${name}: ${input.remark}.`, true);
+    if (remark) tell(`${name}: ${remark}.`, true);
   } catch (error) {
     if (!signal.aborted) failToOpen(error);
   }
