@@ -25,3 +25,4 @@ async function pack(worker, module, out) {
 
 await pack('worker', 'tetrakis', 'packed');
 await pack('encode_worker', 'tetrakis-encode', 'packed_encode');
+await pack('encode_worker', 'tetrakis-encode-object', 'packed_encode_object');

@@ -26,7 +26,7 @@ struct ViewerFile {
   const char* name;
   const char* type;
 };
-constexpr std::array<ViewerFile, 10> kViewerFiles = {
+constexpr std::array<ViewerFile, 12> kViewerFiles = {
     {{"index.html", "text/html; charset=utf-8"},
      {"style.css", "text/css; charset=utf-8"},
      {"start.js", "text/javascript; charset=utf-8"},
@@ -35,8 +35,10 @@ constexpr std::array<ViewerFile, 10> kViewerFiles = {
      {"worker.js", "text/javascript; charset=utf-8"},
      {"encode_worker.js", "text/javascript; charset=utf-8"},
      {"read_files.js", "text/javascript; charset=utf-8"},
+     {"read_mesh.js", "text/javascript; charset=utf-8"},
      {"tetrakis.wasm", "application/wasm"},
-     {"tetrakis-encode.wasm", "application/wasm"}}};
+     {"tetrakis-encode.wasm", "application/wasm"},
+     {"tetrakis-encode-object.wasm", "application/wasm"}}};
 
 struct ViewArguments {
   StreamSource source;

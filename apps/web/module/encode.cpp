@@ -1,39 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// What JavaScript calls to encode: tks_encode, whose structs come as one list of numbers and one of
-// texts, so that the loader (apps/web/src/encoder.js) knows neither their layout nor numbers of 64
-// bits.
+// What JavaScript calls to encode terrain: tks_encode (apps/web/src/encoder.js).
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 
 #include "apps/web/module/domains.hpp"
+#include "apps/web/module/encode_inputs.hpp"
 #include "tetrakis/tetrakis.h"
-
-/// The page's: told how much is done, from 0 to 1.
-extern "C" void web_progress(double done);
 
 namespace {
 
-/// Takes numbers in the order of web_encode_names().
-class Numbers {
- public:
-  explicit Numbers(const double* numbers) : next_(numbers) {}
-  template <class T>
-  void take(T& value) {
-    value = static_cast<T>(*next_++);
-  }
-  void take(double (&values)[6]) {
-    for (double& value : values) value = *next_++;
-  }
-
- private:
-  const double* next_;
-};
-
-int tellProgress(void*, double done) {
-  web_progress(done);
-  return 0;
-}
+using tetrakis::web::Numbers;
 
 /// Of heights or texels whose domain JavaScript calls a cube; tks_encode checks their size.
 template <class Raster>
@@ -139,7 +116,7 @@ tks_status web_encode(const double* numbers, const char* const* texts, const voi
   left.take(o.regions);
   left.take(o.index);
   left.take(o.weights);
-  o.progress = tellProgress;
+  o.progress = tetrakis::web::tellProgress;
   findNodata(heights);
   return tks_encode(data[0] != nullptr ? &heights : nullptr, data[1] != nullptr ? &image : nullptr,
                     &o, out, message, message_size);

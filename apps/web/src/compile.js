@@ -25,8 +25,9 @@ export async function compileAt(url) {
 
 function unloadable(error) {
   return new TksError('io', `The WebAssembly module cannot be loaded (${error.message}). Copy ` +
-    'tetrakis/tetrakis.wasm (of encode() tetrakis/tetrakis-encode.wasm) to the page and give ' +
-    'its address: {wasm: URL}.', {cause: error});
+    'tetrakis/tetrakis.wasm (of encode() tetrakis/tetrakis-encode.wasm, of encodeObject() ' +
+    'tetrakis/tetrakis-encode-object.wasm) to the page and give its address: {wasm: URL}.',
+  {cause: error});
 }
 
 /** The bytes of a text in base64, compressed by gzip. */

@@ -73,6 +73,63 @@ export interface EncodeInput {
   weights?: 'psnr' | 'visual';
 }
 
+export type ObjectKind = 'auto' | 'resampled' | 'triangles';
+
+/** A mesh of triangles, such as a scan or a designed part. Points at equal places are joined,
+ * degenerate and double triangles dropped, edges of more than two triangles cut. */
+export interface ObjectInput {
+  /** x, y, z of each vertex, finite, in `unit`. At most 2^26 vertices. */
+  positions: ArrayLike<number>;
+  /** Three vertices each, counter-clockwise seen from outside. At most 2^26 triangles. */
+  triangles: ArrayLike<number>;
+  /** With `texture`: a place on it for each vertex. (0, 0) is its upper left corner, and (1, 1) its
+   * lower right one; it repeats beyond these. */
+  texcoords?: ArrayLike<number>;
+  texture?: Pick<TextureInput, 'data' | 'width' | 'height' | 'channels' | 'opaque' | 'whiteLevel'>;
+  unit?: string;
+  description?: string;
+  /** 'resampled': only the surface comes back, in as many triangles as one likes; for scans and
+   * sculptures. 'triangles': they are coded as they are, or fewer ones where the target takes no
+   * more; for designed parts. Default 'auto': in whichever way comes nearer to the mesh. */
+  kind?: ObjectKind;
+  /** The targets, above 0, of which one is given; beside a texture it is `bytes`. The stream takes
+   * at most so many bytes; the surface reaches 20 log10(diagonal / error) dB; all samples, or
+   * corners, stay within so much of their places, in `unit`. */
+  bytes?: number;
+  psnr?: number;
+  maxError?: number;
+  /** Write the index of packets. Default false. */
+  index?: boolean;
+}
+
+/** What became of a mesh. Distances are between its surface and that of the whole stream, in its
+ * unit, of 20000 places of either. */
+export interface ObjectReport {
+  /** Those that are left after cleaning. */
+  triangles: number;
+  droppedTriangles: number;
+  cutEdges: number;
+  /** Connected parts, and closed rings of open edges. */
+  components: number;
+  borders: number;
+  kind: Exclude<ObjectKind, 'auto'>;
+  /** Of a resampled one, else 0: patches of (2^depth + 1)^2 samples, those of its texture, and the
+   * distance that resampling alone makes. */
+  patches: number;
+  depth: number;
+  textureDepth: number;
+  resamplingError: number;
+  /** Of one of triangles, else 0. */
+  codedTriangles: number;
+  /** Of the box around the mesh. */
+  diagonal: number;
+  /** The larger of the two RMS distances, and the largest distance. */
+  error: number;
+  largest: number;
+  /** 20 log10(diagonal / error), dB. */
+  psnr: number;
+}
+
 export interface EncodeOptions extends Pick<OpenOptions, 'signal' | 'wasm'> {
   /** false: on this thread, which then hears no signal. A URL: where bundlers do not find
    * `tetrakis/encode_worker`. In Node true or false. */
@@ -83,3 +140,7 @@ export interface EncodeOptions extends Pick<OpenOptions, 'signal' | 'wasm'> {
 
 /** The bytes of a stream. Rejects with a TksError, also where an option is none of these. */
 export function encode(input: EncodeInput, options?: EncodeOptions): Promise<Uint8Array>;
+
+/** Likewise of a mesh of triangles, with what became of it. */
+export function encodeObject(
+  mesh: ObjectInput, options?: EncodeOptions): Promise<{stream: Uint8Array; report: ObjectReport}>;

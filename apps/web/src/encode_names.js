@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names of what encode() is given. One that is misspelt is refused: ignored, it would make
-// another stream than was asked for.
+// The names of what encode() and encodeObject() are given. One that is misspelt is refused:
+// ignored, it would make another stream than was asked for.
 import {TksError} from './error.js';
 
 const RASTER = ['data', 'width', 'height', 'crs', 'geotransform', 'registration', 'geoKeys',
@@ -10,6 +10,9 @@ const HEIGHTS = [...RASTER, 'nodata', 'unit', 'spacing', 'scale', 'offset', 'ste
 const TEXTURE = [...RASTER, 'channels', 'opaque', 'whiteLevel'];
 const INPUT = ['heights', 'texture', 'bytes', 'psnr', 'maxError', 'lossless', 'triangles',
   'regions', 'index', 'weights'];
+const OBJECT = ['positions', 'triangles', 'texcoords', 'texture', 'unit', 'description', 'kind',
+  'bytes', 'psnr', 'maxError', 'index'];
+const TEXELS = ['data', 'width', 'height', 'channels', 'opaque', 'whiteLevel'];
 const OPTIONS = ['signal', 'worker', 'wasm', 'progress'];
 
 function check(given, known, what) {
@@ -24,4 +27,10 @@ export function checkNames(input, options) {
   check(input.heights, HEIGHTS, '`heights`');
   check(input.texture, TEXTURE, '`texture`');
   check(options, OPTIONS, 'The second argument of encode()');
+}
+
+export function checkObjectNames(mesh, options) {
+  check(mesh, OBJECT, 'A mesh');
+  check(mesh.texture, TEXELS, 'The texture of a mesh');
+  check(options, OPTIONS, 'The second argument of encodeObject()');
 }

@@ -73,7 +73,7 @@ async function install() {
     await cp(`${web}dist/${name}`, `${packed}dist/${name}`);
   }
   // Those for browsers without SIMD, which scripts/web makes for a release only.
-  for (const name of ['tetrakis', 'tetrakis-encode']) {
+  for (const name of ['tetrakis', 'tetrakis-encode', 'tetrakis-encode-object']) {
     await cp(`${web}dist/${name}.wasm`, `${packed}dist/${name}-plain.wasm`, {force: false});
   }
   await symlink(web + 'node_modules/three', project + 'node_modules/three');

@@ -33,6 +33,7 @@ const GIVEN = {
   'Any renderer': 'declare const signal: AbortSignal;',
   'Encoding': `declare const data: Int16Array, width: number, height: number, nodata: number;
     declare const geotransform: number[], imageData: ImageData, bar: HTMLProgressElement;
+    declare const positions: Float32Array, triangles: number[], texcoords: Float32Array;
     declare const signal: AbortSignal;`,
 };
 
@@ -56,7 +57,7 @@ test('the examples of README are accepted', async () => {
         await writeFile(web + files.at(-1), `${GIVEN[heading]}\n${besides}\n${example}`);
       }
     }
-    assert.equal(files.length, 9);
+    assert.equal(files.length, 10);
     assert.deepEqual(complaints(files, RESOLUTIONS[0]), []);
   } finally {
     await rm(folder, {recursive: true});

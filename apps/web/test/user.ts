@@ -8,7 +8,7 @@ import {
 } from 'tetrakis';
 import {TksTerrainProvider} from 'tetrakis/cesium';
 import {TksLoader as DeckLoader, imageOf, meshOf} from 'tetrakis/deck';
-import {encode} from 'tetrakis/encode';
+import {encode, encodeObject} from 'tetrakis/encode';
 import {TksProtocol} from 'tetrakis/maplibre';
 import {TksLoader, textureOf, type TksObject, type TksTerrain} from 'tetrakis/three';
 import {PerspectiveCamera, Scene, Vector3} from 'three';
@@ -94,4 +94,12 @@ export async function scoped(): Promise<number> {
 export function coded(image: ImageData): Promise<Uint8Array> {
   const heights = {data: new Int16Array(4), width: 2, height: 2, unit: 'm', spacing: 30};
   return encode({heights, texture: image, bytes: 2e5, index: true}, {progress: console.log});
+}
+
+export async function codedScan(texture: ImageData): Promise<Uint8Array> {
+  const positions = new Float32Array(9), texcoords = new Float32Array(6);
+  const mesh = {positions, triangles: [0, 1, 2], texcoords};
+  const {stream, report} = await encodeObject({...mesh, texture, unit: 'mm', bytes: 2e4});
+  console.log(report.kind, report.error, report.droppedTriangles);
+  return stream;
 }

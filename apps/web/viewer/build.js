@@ -22,12 +22,14 @@ const bundle = (names, options) => build({
   external: ['../dist/packed*', ...(options?.external ?? [])],
 });
 // What the first script shares with what draws is a file of its own (chunk.js). What reads GeoTIFFs
-// is as large as all the rest, and loaded when such a file is opened.
+// is as large as all the rest, and loaded when such a file is opened; so is what reads meshes, with
+// its own copy of the parts of three.js that it needs.
+const readers = ['read_files', 'read_mesh'];
 await bundle(['viewer/start', 'viewer/viewer'],
-  {splitting: true, chunkNames: '[name]', external: ['./read_files.js']});
+  {splitting: true, chunkNames: '[name]', external: readers.map((name) => `./${name}.js`)});
 await bundle(['src/worker', 'src/encode_worker']);
-await bundle(['viewer/read_files'], {platform: 'browser'});
+for (const name of readers) await bundle([`viewer/${name}`], {platform: 'browser'});
 for (const name of ['index.html', 'style.css']) await copyFile(`${web}viewer/${name}`, out + name);
-for (const name of ['tetrakis.wasm', 'tetrakis-encode.wasm']) {
-  await copyFile(`${web}dist/${name}`, out + name);
+for (const name of ['tetrakis', 'tetrakis-encode', 'tetrakis-encode-object']) {
+  await copyFile(`${web}dist/${name}.wasm`, `${out}${name}.wasm`);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Images of GeoTIFFs as textures: which band is which colour, and what a nodata value leaves out.
+import {chosenBands} from './picture_file.js';
 
 /** Of a directory of the file; undefined: it has no such tag. */
 export const tagOf = (directory, name) =>
@@ -24,16 +25,6 @@ async function ranksOf(image) {
     ranks.push(COLORINTERP ? RANKS[COLORINTERP.toLowerCase()] ?? OTHER : byTags);
   }
   return ranks;
-}
-
-/** Those bands of each pixel, one after the other. */
-export function chosenBands(data, channels, bands) {
-  const result = new data.constructor((data.length / channels) * bands.length);
-  let out = 0;
-  for (let pixel = 0; pixel < data.length; pixel += channels) {
-    for (const band of bands) result[out++] = data[pixel + band];
-  }
-  return result;
 }
 
 /** With an alpha of 0 where all channels have the value, unless none or all pixels do. */

@@ -3,25 +3,18 @@
 // geotiff.js, other images by the browser. Loaded when the first such file is opened.
 import {fromArrayBuffer} from 'geotiff';
 import {isWebMercator, mercatorMetre, metresPerDegree} from '../src/ground.js';
-import {chosenBands, tagOf, textureOf} from './geotiff_texture.js';
+import {tagOf, textureOf} from './geotiff_texture.js';
+import {checkSize, chosenBands, pixelsOf} from './picture_file.js';
 
 /** EPSG codes of units of length, in metres. */
 const UNITS = {9001: ['m', 1], 9002: ['ft', 0.3048], 9003: ['us-ft', 1200 / 3937]};
 const UNIT_NAMES = {metre: 'm', meter: 'm', metres: 'm', foot: 'ft', feet: 'ft'};
-/** A page's memory holds no more while it encodes. */
-const MOST_SAMPLES = 2 ** 24;
 const USER_DEFINED = 32767;
 
 const isTiff = (bytes) => {
   const [a, b, c] = bytes;
   return (a === 0x49 && b === 0x49 && (c === 42 || c === 43)) || (a === 0x4d && b === 0x4d);
 };
-
-function checkSize(name, width, height) {
-  if (width * height <= MOST_SAMPLES) return;
-  throw new Error(`${name} has ${width} × ${height} samples, more than a page can encode (4096 × ` +
-    '4096). The command line can: tetrakis encode.');
-}
 
 /** As GDAL's: of the outer corner of the first sample. */
 function geotransformOf(directory, isPoint) {
@@ -92,14 +85,7 @@ async function readTiff(name, buffer) {
 
 /** RGB where nothing is transparent. */
 async function readImage(name, file) {
-  const bitmap = await createImageBitmap(
-    file, {premultiplyAlpha: 'none', colorSpaceConversion: 'none'});
-  const {width, height} = bitmap;
-  checkSize(name, width, height);
-  const context = new OffscreenCanvas(width, height).getContext('2d', {willReadFrequently: true});
-  context.drawImage(bitmap, 0, 0);
-  bitmap.close();
-  const {data} = context.getImageData(0, 0, width, height);
+  const {width, height, data} = await pixelsOf(name, file);
   let opaque = true;
   for (let i = 3; i < data.length && opaque; i += 4) opaque = data[i] === 255;
   return {texture: opaque

@@ -42,6 +42,8 @@ let terrain = null, object = null;
 let opening = new AbortController();
 /** What the page calls the terrain that it shows: {name, title, size}. */
 let called = null;
+/** What it calls nothing. */
+const NOTHING = {name: 'Tetrakis', title: 'Tetrakis', size: ''};
 /** Opens the terrain that is shown once more. */
 let reopen = () => {};
 /** The text of a point of the terrain. */
@@ -72,7 +74,7 @@ function show(frame) {
 }
 
 function fail(error) {
-  $('progress').hidden = true;
+  $('coding').hidden = true;
   tell(error.message);
   document.body.dataset.state = 'failed';
   if (object?.frame) return;
@@ -144,7 +146,7 @@ function beginOpening(stop, names) {
   opening.abort();
   opening = stop;
   tell('');
-  $('welcome').hidden = $('progress').hidden = true;
+  $('welcome').hidden = $('coding').hidden = true;
   entitle(names);
   document.body.dataset.state = 'busy';
 }
@@ -187,23 +189,33 @@ async function compareWithLink(opened) {
   }
 }
 
-/** Codes heights and an image, which then are what is open. */
+/** Ends what is being coded. */
+function cancel() {
+  beginOpening(new AbortController(), called ?? NOTHING);
+  $('welcome').hidden = called !== null;
+  document.body.dataset.state = 'done';
+  if (terrain && !refiner.isShown) refiner.pump();
+}
+
+/** Codes heights and an image, or a mesh, which then are what is open. */
 async function openSources(files) {
   const stop = new AbortController(), {signal} = stop;
   const name = files.map((file) => file.name).join(' + ');
   beginOpening(stop, {name, title: document.title, size: 'reading …'});
   try {
     const input = await inputOf(files);
-    $('progress').hidden = false;
+    if (signal.aborted) return;
+    $('coding').hidden = false;
     const progress = (done) => {
       $('progress').value = done;
       $('size').textContent = `encoding … ${Math.round(100 * done)} %`;
     };
     progress(0);
-    const file = await encodedFile(input, files[0].name, {signal, progress});
+    const {file, remark} = await encodedFile(input, files[0].name, {signal, progress});
     if (signal.aborted) return;
     await openInput(file, file.name, null, input);
     offer(file);
+    if (remark) tell(`${name}: ${remark}.`, true);
   } catch (error) {
     if (!signal.aborted) failToOpen(error);
   }
@@ -217,7 +229,7 @@ async function openFiles(files) {
   else if (files.length === 1) openInput(files[0], files[0].name);
   else if (files.length > 1) {
     failToOpen(new Error(`${streams[0].name} is a stream, which is opened alone. What can be ` +
-      'dropped together is a GeoTIFF of heights and an image over it.'));
+      'dropped together is a GeoTIFF of heights, or a mesh, and an image over it.'));
   }
 }
 
@@ -248,6 +260,7 @@ function listenToControls() {
     reopen();
   });
   $('home').addEventListener('click', () => object && picture.home());
+  $('cancel').addEventListener('click', cancel);
   $('fold').addEventListener('click', () => {
     const folded = $('panel').classList.toggle('folded');
     $('fold').setAttribute('aria-expanded', String(!folded));

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes of triangles as the WebAssembly module takes them that encodes objects.
+import {streamOf, withEncoder} from './encoder_call.js';
+import {oneOf, targetFields, texelFields} from './encoder_fields.js';
+import {TksError} from './error.js';
+
+/** By the numbers of tks_object_kind. */
+const KINDS = ['auto', 'resampled', 'triangles'];
+const INDEXES = [false, true];
+
+/** How many items of `size` numbers there are. */
+function countOf(values, size, what) {
+  const count = values?.length / size;
+  if (Number.isInteger(count)) return count;
+  throw new TksError('usage', `${what} are a list of ${size} numbers each.`);
+}
+
+/** Places on the image of all corners of triangles. */
+function cornersOf({positions, triangles, texcoords, texture}) {
+  if (!texture && !texcoords) return null;
+  if (!texture || texcoords?.length / 2 !== positions.length / 3) {
+    throw new TksError('usage', 'A texture and texcoords, two numbers for each of the positions, ' +
+      'go together.');
+  }
+  const corners = new Float32Array(2 * triangles.length);
+  for (let i = 0; i < triangles.length; ++i) {
+    corners[2 * i] = texcoords[2 * triangles[i]];
+    corners[2 * i + 1] = texcoords[2 * triangles[i] + 1];
+  }
+  return corners;
+}
+
+/** What web_encode_object() takes, by name. */
+function fieldsOf({positions, triangles, texture, kind, index, ...options}) {
+  return {
+    vertexCount: countOf(positions, 3, 'positions'),
+    triangleCount: countOf(triangles, 3, 'triangles'),
+    kind: oneOf(KINDS, kind, 'kind'), index: oneOf(INDEXES, index, 'index'),
+    ...(texture ? texelFields(texture) : {}), ...targetFields(options),
+  };
+}
+
+/** What became of a mesh, by name. */
+function reportOf(instance) {
+  const {calls} = instance;
+  const names = instance.text(calls.web_encode_object_report_names()).split(' ');
+  const values = instance.view(Float64Array, calls.web_encode_object_report(), names.length);
+  const report = Object.fromEntries(names.map((name, i) => [name, values[i]]));
+  return {...report, kind: KINDS[report.kind]};
+}
+
+/** tks_encode_object: {stream, report}. */
+export function encodeObjectWith(module, input, progress) {
+  const given = {
+    numbers: fieldsOf(input), texts: {unit: input.unit, description: input.description},
+    arrays: [Float64Array.from(input.positions), Uint32Array.from(input.triangles),
+      cornersOf(input), input.texture?.data],
+  };
+  return withEncoder(module, progress, (instance) => {
+    const stream = streamOf(instance, 'web_encode_object', given);
+    return {stream, report: reportOf(instance)};
+  });
+}
