@@ -89,7 +89,8 @@ uint64_t HeightsBytes::decodingTaken() const {
   const uint64_t samples = view_.window ? shown_ : low();
   const uint64_t masks = wholeMasks() + (voids_ ? samples : 0);
   const uint64_t corrections = corrected_ ? samples * (kValueBytes + 1) + rows() + parts() : 0;
-  const uint64_t state = stateBytes(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
+  const TrackNeeds needs = trackNeeds(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
+  const uint64_t state = stateBytes(decoder_, header_, view_, needs, Component::kGeometry);
   const uint64_t surface = planes.coefficients + samples + masks + flatBytes() + joinedBytes() +
                            std::max({state, planes.work, corrections + tableBytes()});
   return kOnceBytes + trackBytes(header_) +
