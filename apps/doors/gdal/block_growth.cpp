@@ -59,10 +59,11 @@ tks_window BlockGrowth::grown(const tks_window& asked, const BlockGrid& grid) {
     wanted = {read_.x, asked.y, std::max(read_.width, asked.x + asked.width - read_.x),
               std::max(asked.height, rows)};
   }
-  tks_window all = withFree(wanted, grid);
+  const auto withMore = [&] { return down || right ? withFree(wanted, grid) : wanted; };
+  tks_window all = withMore();
   while (count(all) > grid.most && wanted.height > asked.height) {
     wanted.height = std::max(wanted.height / 2, asked.height);
-    all = withFree(wanted, grid);
+    all = withMore();
   }
   if (count(all) > grid.most) all = asked;
   if (down) {
