@@ -28,7 +28,7 @@ Status noTexture() {
 template <class Memory>
 Memory* memoryOf(const tks_decoder& decoder, Memory& levels, Memory& windows, const View& view) {
   levels.tracks.all_levels = true;
-  windows.tracks.most_bytes = decoder.most_of_windows;
+  windows.tracks.tracks.most_bytes = decoder.most_of_windows;
   if (view.window) return decoder.most_of_windows > 0 ? &windows : nullptr;
   return decoder.remembers ? &levels : nullptr;
 }
@@ -70,6 +70,7 @@ Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window*
 
 DecodedHeights decodeHeights(tks_decoder& decoder, const View& view) {
   const StreamHeader& header = decoder.parsed.header;
+  decoder.heights_windows.parts.most_bytes = decoder.most_of_windows;
   return decodeHeights(
       headerFor(decoder, *header.geometry, view), header.layers, heightTracksFor(decoder, view),
       view,

@@ -45,7 +45,7 @@ struct tks_decoder {
   tetrakis::TextureMemory texture_memory;
   tetrakis::HeightsMemory heights_windows;  ///< what windows leave to those that come after them
   tetrakis::TextureMemory texture_windows;
-  uint64_t most_of_windows = 0;  ///< bytes that each of these may take of tracks
+  uint64_t most_of_windows = 0;  ///< bytes that tracks, or parts, of each may take
   uint32_t threads = 1;
   uint64_t max_memory = 0;    ///< of the decoder and any call
   tetrakis::Status refused;   ///< once bytes were: it takes no more

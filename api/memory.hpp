@@ -66,10 +66,15 @@ inline uint64_t stateBytes(const tks_decoder& decoder, const auto& header, const
       texture ? decoder.texture_windows.tracks : decoder.heights_windows.tracks;
   uint64_t state = needs.bytes();
   state -= std::min(state, levels.bytes());
-  needs.kept = true;
-  if (view.window)
-    state += std::min(needs.bytes(),
-                      decoder.most_of_windows - std::min(decoder.most_of_windows, windows.bytes()));
+  if (view.window && decoder.most_of_windows > 0) {
+    needs.kept = true;
+    const uint64_t tracks = regionCount(header.width, header.height, header.regions.side_log2);
+    const uint64_t all = needs.bytes();
+    const uint64_t room =
+        decoder.most_of_windows - std::min(decoder.most_of_windows, windows.bytes());
+    state = std::max(state, all / tracks * std::clamp<uint64_t>(decoder.threads, 1, tracks));
+    state += std::min(all, room);
+  }
   return state + (needs.ordered ? mapBytes(header) : 0);
 }
 

@@ -72,20 +72,23 @@ int RegionDecoder::run(const Codewords& codewords, const TrackBands& bands,
   const int fraction_bits = fractionBitsOf(wavelet, bit_planes, bytes, level);
   const int more_bits = fraction_bits - wavelet.fraction_bits;
   if (nothingKnown(codewords)) return fraction_bits;
-  TrackMemory::Room room(memory, codewords.size());
+  assert(memory == nullptr || !memory->passes_within || codewords.size() == 1);
+  KeptItems<GrowingTrack>::Call call(memory != nullptr ? &memory->tracks : nullptr,
+                                     codewords.size());
   parallelFor(context.threads, codewords.size(), [&](size_t i) {
     if (codewords[i].empty() || bit_planes == 0) return;
     const std::vector<bool> needs = bands.needs(i);
     if (needs.empty()) return;
     const auto plan = [&] { return marked(bands.plan(i), needs); };
     if (memory == nullptr) return take(i, decodeTrack(plan(), bit_planes, codewords[i]), more_bits);
-    if (memory->knows(i)) {
-      memory->need(i, needs);
+    std::optional<GrowingTrack>& track = call.at(i);
+    if (track) {
+      track->need(needs);
     } else {
-      memory->begin(i, plan(), bit_planes);
+      track = memory->begun(plan(), bit_planes);
     }
-    take(i, memory->decode(i, codewords[i]), more_bits);
-    room.keepIfFits(i);
+    take(i, memory->decode(*track, codewords[i]), more_bits);
+    call.keepIfFits(i);
   });
   return fraction_bits;
 }

@@ -417,7 +417,8 @@ TEST(DecodeMemory, FollowsWhatIsAsked) {
   const double whole = peak(textureOf(info, 0));
   EXPECT_LT(peak(textureOf(info, 1)), 0.3 * whole);
   EXPECT_LT(peak(textureOf(info, 2)), 0.1 * whole);
-  EXPECT_LT(peak(textureOf(info, tks_window{400, 300, 64, 64})), 0.1 * whole);
+  // With the tracks that later windows find.
+  EXPECT_LT(peak(textureOf(info, tks_window{400, 300, 64, 64})), 0.15 * whole);
   const Raster map = drawing(1024, 1024, 3, false);
   const Bytes drawn = encode(nullptr, &map, lossless());
   const double drawn_whole = static_cast<double>(measure(drawn, textureOf(info, 0)).peak);
