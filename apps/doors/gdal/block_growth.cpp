@@ -69,6 +69,8 @@ tks_window BlockGrowth::grown(const tks_window& asked, const BlockGrid& grid) {
   if (down) {
     read_.height = all.y + all.height - read_.y;
   } else if (right) {
+    // What is beside the first block of a row is decoded as far down, and shows what lies below it.
+    if (in_row_ == 1 && all.x <= read_.x) read_.height = all.y + all.height - read_.y;
     read_.width = all.x + all.width - read_.x;
     ++in_row_;
   } else {
