@@ -72,8 +72,8 @@ struct CorrectedPart {
 };
 using CorrectedParts = KeptItems<CorrectedPart>;
 
-/// The heights with their corrections. decoded: of the view correctedView(), at level 0. Safe on any
-/// bytes. The memory is that of earlier calls of the same plane.
+/// The heights with their corrections. decoded: of the view correctedView(), at level 0. Safe on
+/// any bytes. The memory is that of earlier calls of the same plane.
 DecodedHeights corrected(DecodedHeights decoded, const TakenLayers& taken, const View& view,
                          const DecodeContext<CorrectedParts>& context = {});
 
