@@ -119,7 +119,7 @@ TEST(WindowMemory, ChangesNoAnswer) {
   for (const auto& [name, bytes] : streams()) {
     for (const tks_limits& limit : limits()) {
       const Stream lasting(bytes, &limit);
-      for (int i = 0; i < 30; ++i) {
+      for (int i = 0; i < 20; ++i) {
         const Question question = anyQuestion(lasting.info(), random);
         const Stream fresh(bytes);
         ASSERT_TRUE(answer(lasting, question) == answer(fresh, question)) << name << ", " << i;
