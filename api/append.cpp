@@ -22,6 +22,12 @@ void forget(tks_decoder& decoder) {
   decoder.texture_memory = {};
 }
 
+void forgetWindows(tks_decoder& decoder) {
+  decoder.most_of_windows = 0;
+  decoder.heights_windows = {};
+  decoder.texture_windows = {};
+}
+
 namespace {
 
 /// Takes the packets apart that are there now. Heights that were decoded stay if nothing changes

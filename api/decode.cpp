@@ -23,12 +23,14 @@ Status noTexture() {
   return {TKS_USAGE, "The stream holds no texture."};
 }
 
-/// What the decoder remembers for calls that ask for this view; null: nothing. Levels share it:
-/// what one decodes of the tracks others do not decode again.
+/// What the decoder remembers for calls that ask for this view; null: nothing. Levels share it, and
+/// so do windows: what one decodes of the tracks others do not decode again.
 template <class Memory>
-Memory* memoryOf(const tks_decoder& decoder, Memory& memory, const View& view) {
-  memory.tracks.all_levels = true;
-  return decoder.remembers && !view.window ? &memory : nullptr;
+Memory* memoryOf(const tks_decoder& decoder, Memory& levels, Memory& windows, const View& view) {
+  levels.tracks.all_levels = true;
+  windows.tracks.tracks.most_bytes = decoder.most_of_windows;
+  if (view.window) return decoder.most_of_windows > 0 ? &windows : nullptr;
+  return decoder.remembers ? &levels : nullptr;
 }
 
 }  // namespace
@@ -68,9 +70,11 @@ Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window*
 
 DecodedHeights decodeHeights(tks_decoder& decoder, const View& view) {
   const StreamHeader& header = decoder.parsed.header;
-  return decodeHeights(headerFor(decoder, *header.geometry, view), header.layers,
-                       heightTracksFor(decoder, view), view,
-                       {decoder.threads, memoryOf(decoder, decoder.heights_memory, view)});
+  decoder.heights_windows.parts.most_bytes = decoder.most_of_windows;
+  return decodeHeights(
+      headerFor(decoder, *header.geometry, view), header.layers, heightTracksFor(decoder, view),
+      view,
+      {decoder.threads, memoryOf(decoder, decoder.heights_memory, decoder.heights_windows, view)});
 }
 
 Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder) {
@@ -184,7 +188,8 @@ Status giveTexels(tks_decoder& decoder, const Call& call) {
   }
   const TextureHeader shown = headerFor(decoder, header, *view);
   const Codewords codewords = decoder.packets.payload.codewordsOf(Component::kTexture);
-  TextureMemory* const memory = memoryOf(decoder, decoder.texture_memory, *view);
+  TextureMemory* const memory =
+      memoryOf(decoder, decoder.texture_memory, decoder.texture_windows, *view);
   auto* out = static_cast<std::byte*>(call.out);
   for (const View& strip : textureStrips(decoder, *view)) {
     writeTexels(decodeTexture(shown, codewords, strip, {decoder.threads, memory}), sample, out);

@@ -43,6 +43,9 @@ struct tks_decoder {
   bool remembers = false;  ///< what was decoded of tracks, so that more bytes cost what they tell
   tetrakis::HeightsMemory heights_memory;  ///< for views of all levels
   tetrakis::TextureMemory texture_memory;
+  tetrakis::HeightsMemory heights_windows;  ///< what windows leave to those that come after them
+  tetrakis::TextureMemory texture_windows;
+  uint64_t most_of_windows = 0;  ///< bytes that tracks, or parts, of each may take
   uint32_t threads = 1;
   uint64_t max_memory = 0;    ///< of the decoder and any call
   tetrakis::Status refused;   ///< once bytes were: it takes no more
@@ -73,6 +76,8 @@ Status takeMorePackets(tks_decoder& decoder, std::span<const ByteRange> ranges);
 
 /// Forgets what was decoded of tracks, and remembers no more of it.
 void forget(tks_decoder& decoder);
+/// The same of windows alone.
+void forgetWindows(tks_decoder& decoder);
 
 /// TKS_CORRUPT or TKS_USAGE, with their sentences.
 Status wrongIndex();
@@ -121,6 +126,8 @@ tks_status keeping(tks_decoder* decoder, F&& f) {
     decoder->sentence = sentence;
     decoder->heights_memory = {};
     decoder->texture_memory = {};
+    decoder->heights_windows = {};
+    decoder->texture_windows = {};
   };
   return guarded(work, exhausted);
 }

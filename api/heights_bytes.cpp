@@ -89,7 +89,8 @@ uint64_t HeightsBytes::decodingTaken() const {
   const uint64_t samples = view_.window ? shown_ : low();
   const uint64_t masks = wholeMasks() + (voids_ ? samples : 0);
   const uint64_t corrections = corrected_ ? samples * (kValueBytes + 1) + rows() + parts() : 0;
-  const uint64_t state = stateBytes(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
+  const TrackNeeds needs = trackNeeds(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
+  const uint64_t state = stateBytes(decoder_, header_, view_, needs, Component::kGeometry);
   const uint64_t surface = planes.coefficients + samples + masks + flatBytes() + joinedBytes() +
                            std::max({state, planes.work, corrections + tableBytes()});
   return kOnceBytes + trackBytes(header_) +
@@ -138,7 +139,12 @@ uint64_t HeightsBytes::parts() const {
       largestRegions(header_.width, header_.height, header_.regions.side_log2).front();
   const uint64_t samples = uint64_t{largest.x1} * largest.y1;
   const uint64_t beside = kindOfCorrections(layers_).of(largest.x1);
-  return at_a_time * (samples * kSample + beside) + count * sizeof(Window);
+  const uint64_t once = at_a_time * (samples * kSample + beside) + count * sizeof(Window);
+  if (!view_.window || decoder_.most_of_windows == 0) return once;
+  // Windows keep parts as they were before and after.
+  const uint64_t kept = std::min(decoder_.most_of_windows, decoder_.heights_windows.parts.bytes());
+  return once + at_a_time * samples * kSample +
+         std::min(decoder_.most_of_windows - kept, 2 * count * samples * kSample);
 }
 
 /// The table, its values as heights, and a correction for each sample.

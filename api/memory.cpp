@@ -58,7 +58,8 @@ std::string describe(const tks_decoder& decoder, const MemoryRequest& request) {
 /// What the decoder holds already.
 uint64_t heldBytes(const tks_decoder& decoder) {
   uint64_t bytes = decoder.packets.bytes + decoder.pieces.bytes() + decoder.heights_memory.bytes() +
-                   decoder.texture_memory.bytes();
+                   decoder.texture_memory.bytes() + decoder.heights_windows.bytes() +
+                   decoder.texture_windows.bytes();
   if (!decoder.heights) return bytes;
   const DecodedGeometry& geometry = decoder.heights->geometry;
   bytes +=
@@ -101,6 +102,10 @@ Status checkMemory(tks_decoder& decoder, const MemoryRequest& request, uint64_t 
     return checkBytes(decoder, request, saturatingSum(callBytes(decoder, request), beside));
   };
   Status status = check();
+  if (!status.ok() && decoder.most_of_windows > 0) {
+    forgetWindows(decoder);
+    status = check();
+  }
   if (!status.ok() && decoder.remembers) {
     forget(decoder);
     status = check();

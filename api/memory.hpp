@@ -38,26 +38,44 @@ inline uint64_t mapBytes(const auto& header) {
   return columns * rows + (columns + 1) * (rows + 1) * sizeof(uint64_t);
 }
 
-/// The state of the tracks that are decoded at a time, beside what is remembered of them.
-inline uint64_t stateBytes(const tks_decoder& decoder, const auto& header, uint32_t planes,
-                           bool masked, Component component) {
+/// The state of the tracks that are decoded at a time, or of all that a decoder keeps.
+inline TrackNeeds trackNeeds(const tks_decoder& decoder, const auto& header, uint32_t planes,
+                             bool masked, Component component) {
   const bool known = header.planes > 0 && header.planes < kDrawnPlanes &&
                      !decoder.packets.payload.nothingOf(component);
   const bool ordered = !header.priorities.none();
   const Forest* const forest = header.wavelet.forest.get();
-  const TrackNeeds needs{header.extent(),
-                         forest,
-                         header.regions.side_log2,
-                         planes,
-                         masked || forest != nullptr,
-                         ordered,
-                         known,
-                         decoder.threads,
-                         decoder.remembers};
-  const TrackMemory& memory = component == Component::kTexture ? decoder.texture_memory.tracks
-                                                               : decoder.heights_memory.tracks;
-  const uint64_t state = needs.bytes();
-  return state - std::min(state, memory.bytes()) + (ordered ? mapBytes(header) : 0);
+  return {header.extent(),
+          forest,
+          header.regions.side_log2,
+          planes,
+          masked || forest != nullptr,
+          ordered,
+          known,
+          decoder.threads,
+          decoder.remembers};
+}
+
+/// What tracks take in a call for a view, beside what is remembered of them.
+inline uint64_t stateBytes(const tks_decoder& decoder, const auto& header, const View& view,
+                           TrackNeeds needs, Component component) {
+  const bool texture = component == Component::kTexture;
+  const TrackMemory& levels =
+      texture ? decoder.texture_memory.tracks : decoder.heights_memory.tracks;
+  const TrackMemory& windows =
+      texture ? decoder.texture_windows.tracks : decoder.heights_windows.tracks;
+  uint64_t state = needs.bytes();
+  state -= std::min(state, levels.bytes());
+  if (view.window && decoder.most_of_windows > 0) {
+    needs.kept = true;
+    const uint64_t tracks = regionCount(header.width, header.height, header.regions.side_log2);
+    const uint64_t all = needs.bytes();
+    const uint64_t room =
+        decoder.most_of_windows - std::min(decoder.most_of_windows, windows.bytes());
+    state = std::max(state, all / tracks * std::clamp<uint64_t>(decoder.threads, 1, tracks));
+    state += std::min(all, room);
+  }
+  return state + (needs.ordered ? mapBytes(header) : 0);
 }
 
 /// What there is for each track all the time, and for the patches of a forest.

@@ -25,11 +25,8 @@ std::vector<bool> neededTracks(const auto& header, const View& view) {
       regionsOf(header.width, header.height, header.regions.side_log2);
   std::vector<bool> needed(regions.size());
   needed.front() = true;  // the component's opening and the coarsest levels
-  for (size_t i = 1; i < regions.size(); ++i) {
-    const std::vector<BandPart> parts = partsOf(pyramid.subbands(), regions[i]);
-    needed[i] = std::any_of(parts.begin(), parts.end(),
-                            [&](const BandPart& part) { return synthesis.needs(part); });
-  }
+  for (size_t i = 1; i < regions.size(); ++i)
+    needed[i] = !neededParts(synthesis, pyramid.subbands(), regions[i]).empty();
   return needed;
 }
 

@@ -18,6 +18,8 @@ namespace {
 constexpr uint64_t kDefaultSamples = uint64_t{1} << 28;
 constexpr uint64_t kDefaultMemory = uint64_t{8} << 30;
 
+constexpr uint64_t kShareOfWindows = 32;  ///< of max_memory, for the tracks of each component
+
 /// What can be addressed, whatever the limits: so many samples of at most 8 bytes, so that no
 /// size_t wraps, and so many bytes of one object. Only programs of 32 bits meet these.
 constexpr uint64_t kMostSamples = std::numeric_limits<size_t>::max() / 8;
@@ -79,6 +81,7 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
     decoder.base_mesh = decodeBaseMesh(header.geometry->base_mesh, header.geometry->wavelet.forest);
   decoder.index = indexOf(header);
   decoder.max_memory = limitOf(known.max_memory, kDefaultMemory, kMostMemory);
+  decoder.most_of_windows = decoder.max_memory / kShareOfWindows;
   Result<TakenPackets> taken = takePackets(decoder);
   if (!taken.ok()) return taken.status();
   decoder.packets = *std::move(taken);
@@ -170,8 +173,8 @@ Status takeScattered(tks_decoder& decoder, std::span<const ByteRange> ranges) {
     decoder.scattered->take(decoder.pieces, range, taken.payload);
   taken.has_gap = hasGap(decoder);
   const auto [heights, texture] = decoder.scattered->settle(taken.has_gap, taken.payload);
-  if (heights) decoder.heights_memory = {};
-  if (texture) decoder.texture_memory = {};
+  if (heights) decoder.heights_memory = decoder.heights_windows = {};
+  if (texture) decoder.texture_memory = decoder.texture_windows = {};
   return passHeads(payloadOf(decoder), decoder.parsed.bytes, taken.payload);
 }
 

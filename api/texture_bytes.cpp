@@ -72,8 +72,9 @@ class TextureBytes {
     const uint64_t masks = shown_ * ((masked_ ? 1 : 0) + (seen_ ? 1 : 0));
     // A window's samples are apart from its coefficients, which are gone then.
     const uint64_t samples = view_.window ? colour_planes * kValueBytes * shown_ : all;
-    const uint64_t state =
-        stateBytes(decoder_, header_, colour_planes, masked_, Component::kTexture);
+    const TrackNeeds needs =
+        trackNeeds(decoder_, header_, colour_planes, masked_, Component::kTexture);
+    const uint64_t state = stateBytes(decoder_, header_, view_, needs, Component::kTexture);
     const uint64_t once = header_.overlay_bytes > 0 ? kDrawnOnceBytes : kOnceBytes;
     return once + opening() + tableBytesOf(header_) + trackBytes(header_) +
            std::max({finding(), all + state, all + masks + planes.work, samples + masks + out});

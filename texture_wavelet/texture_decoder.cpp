@@ -102,14 +102,13 @@ class ColourPlanes {
   int decode(const Codewords& coefficients, const DecodeContext<TrackMemory>& context) {
     const RegionDecoder tracks{header_.wavelet, header_.regions, header_.planes, view_.level,
                                context};
+    const TrackBands bands{[&](size_t track) {
+                             return neededParts(synthesis_.front(), plan_.layout().subbands(),
+                                                plan_.regions()[track]);
+                           },
+                           [&](size_t track) { return plan_.bands(plan_.parts(track)); }};
     return tracks.run(
-        coefficients,
-        [&](size_t track) {
-          const std::vector<BandPart> parts = plan_.parts(track);
-          if (!needsAny(parts)) return std::vector<BandPlan>();
-          return withNeeds(synthesis_.front(), parts, plan_.bands(parts));
-        },
-        [&](size_t track, const TrackState& state, int more_bits) {
+        coefficients, bands, [&](size_t track, const TrackState& state, int more_bits) {
           const std::vector<BandPart> parts = plan_.parts(track);
           for (size_t k = 0; k < state.bands.size(); ++k)
             synthesis_[k / parts.size()].put(state.bands[k], more_bits, parts[k % parts.size()]);
@@ -132,10 +131,6 @@ class ColourPlanes {
 
  private:
   const Pyramid& pyramid() const { return plan_.layout().pyramid(); }
-  bool needsAny(std::span<const BandPart> parts) const {
-    return std::any_of(parts.begin(), parts.end(),
-                       [&](const BandPart& part) { return synthesis_.front().needs(part); });
-  }
 
   const TextureHeader& header_;
   const TextureOpening& opening_;

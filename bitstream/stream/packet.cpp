@@ -109,13 +109,21 @@ PacketHead headOf(uint64_t field, const TrackCounts& counts) {
 size_t overheadOf(const Packet& packet) {
   TrackCounts alone;
   alone.add(packet.component, {1, packet.track.has_value()});
-  return headBytes(headOf(packet, alone), alone).size();
+  return headSize(headOf(packet, alone), alone);
 }
 
 std::vector<uint8_t> headBytes(const PacketHead& head, const TrackCounts& counts) {
   FieldWriter writer;
   putHead(head, counts, writer);
   return std::move(writer.bytes);
+}
+
+size_t headSize(const PacketHead& head, const TrackCounts& counts) {
+  const auto varint = [](uint64_t value) {
+    return (static_cast<size_t>(std::bit_width(value | 1)) + 6) / 7;
+  };
+  const size_t track = counts.of(head).named ? varint(head.track) : 0;
+  return varint(fieldOf(head, counts)) + track + 1;
 }
 
 std::vector<uint8_t> multiplex(std::span<const Packet> packets, const TrackCounts& counts,

@@ -122,6 +122,8 @@ double slopeOf(uint8_t slope);
 
 /// The bytes before a payload.
 std::vector<uint8_t> headBytes(const PacketHead& head, const TrackCounts& counts);
+/// How many they are.
+size_t headSize(const PacketHead& head, const TrackCounts& counts);
 
 /// A place in a payload that may grow: before a head, or in a packet whose end is not there yet.
 struct PayloadPlace {

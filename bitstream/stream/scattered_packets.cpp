@@ -19,7 +19,7 @@ void IndexedPackets::Iterator::place(uint64_t begin) {
   packet_.entry = packets_.header_.index[packet_.number];
   const PacketHead& head = packet_.entry.packet;
   // A packet begins within 2^63 bytes and has fewer than 2^62, so that 64 bits hold its end.
-  packet_.payload = begin + headBytes(head, packets_.counts_).size();
+  packet_.payload = begin + headSize(head, packets_.counts_);
   packet_.end = packet_.payload + head.length;
 }
 
@@ -80,7 +80,7 @@ Status ScatteredPackets::check(const Pieces& pieces, ByteRange range) const {
   for (uint32_t i = packetAt(range.begin); i < places_.size() && places_[i].begin < end; ++i)
     if (Status status = checkHead(pieces, i); !status.ok()) return status;
   const PacketHead& last = head(static_cast<uint32_t>(places_.size() - 1));
-  const uint64_t told = places_.back().begin + headBytes(last, counts_).size() + last.length;
+  const uint64_t told = places_.back().begin + headSize(last, counts_) + last.length;
   if (std::max(range.begin, begin_) >= end || told >= end) return {};
   return {TKS_CORRUPT, "Corrupt stream: its index does not describe the packet at byte " +
                            std::to_string(told) + "."};
@@ -100,7 +100,7 @@ void ScatteredPackets::advance(const Pieces& pieces, Frontier& frontier, Demulti
   while (frontier.packet != kNone) {
     const PacketHead& packet = head(frontier.packet);
     const Place& place = places_[frontier.packet];
-    const uint64_t payload = place.begin + headBytes(packet, counts_).size();
+    const uint64_t payload = place.begin + headSize(packet, counts_);
     const uint64_t from = std::min(payload + frontier.taken, end_);
     std::span<const uint8_t> bytes = pieces.from(from);
     bytes = bytes.first(

@@ -56,6 +56,11 @@ void Reconstruction::row(uint32_t row, int32_t* values) const {
     const uint32_t here = band_.significant[word] & valid, visited = band_.visited[word];
     const uint32_t beside = band_.nearSignificant(word) & valid & ~here;
     int32_t* out = values + 32 * x;
+    const bool known = band_.tiers == nullptr && band_.tier_states[0].plane == 0;
+    if (known && (valid & ~visited) == 0) {
+      exact(first, count, out);
+      continue;
+    }
     std::fill_n(out, count, 0);
     if (band_.tiers != nullptr) {
       for (size_t tier = 0; tier < kPriorities && (here | beside) != 0; ++tier)
@@ -66,6 +71,19 @@ void Reconstruction::row(uint32_t row, int32_t* values) const {
     if ((here & ~visited) != 0) significant<1>(first, here & ~visited, out);
     if (beside != 0) insignificant(first, beside, visited, out);
   }
+}
+
+/// Up to 32 columns that are known to the last bit.
+void Reconstruction::exact(size_t first, uint32_t count, int32_t* out) const {
+  const uint32_t* magnitude = band_.magnitude.data() + first;
+  const int8_t* sign = band_.sign.data() + first;
+  const int shift = fraction_bits_;
+  std::array<uint32_t, 32> values;  // of whole words, for vector units
+  for (size_t i = 0; i < values.size(); ++i) {
+    const uint32_t negative = 0u - (sign[i] < 0);
+    values[i] = ((magnitude[i] << shift) ^ negative) - negative;
+  }
+  std::copy_n(values.begin(), count, out);
 }
 
 /// 32 columns of a tier, whose neighbours may be known down to other planes.

@@ -43,6 +43,7 @@ class Reconstruction {
   using TierTables = std::array<PlaneTables, 2>;
   TierTables tablesOf(int plane) const;
 
+  void exact(size_t first, uint32_t count, int32_t* out) const;
   void tierRow(size_t tier, uint32_t row, uint32_t word, int32_t* out) const;
   int32_t besideTiers(size_t cell, int plane, const PlaneTables& tables) const;
 

@@ -191,6 +191,14 @@ PassQueue::PassQueue(const std::vector<BandPlan>& plan, int planes)
   }
 }
 
+void PassQueue::need(size_t band) {
+  for (size_t tier = 0; tier < kPriorities; ++tier) {
+    Progress& progress = progress_[kPriorities * band + tier];
+    needed_ += !progress.needed && progress.open > 0;
+    progress.needed = true;
+  }
+}
+
 void PassQueue::push(Pass pass, uint32_t significant) {
   assert(pass.plane < 30);
   Progress& progress = progressOf(pass);

@@ -137,6 +137,8 @@ class PassQueue {
   void pop(const Band& band);
   /// Bands that are needed (BandPlan::needed) have passes left.
   bool needed() const { return needed_ > 0; }
+  /// A band is needed that was not before.
+  void need(size_t band);
 
  private:
   struct Progress {

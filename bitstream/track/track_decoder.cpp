@@ -74,6 +74,7 @@ GrowingTrack::GrowingTrack(std::vector<BandPlan> plan, int planes)
 
 /// Takes back what a shorter prefix told of the pass in which it ended.
 void GrowingTrack::goOn(std::span<const uint8_t> codeword) {
+  ended_ = false;
   if (!decoder_ || decoder_->exhausted() || lost_) {
     if (lost_) {
       passes_ = PassQueue(plan_, planes_);
@@ -107,7 +108,8 @@ bool GrowingTrack::mayEnd() const {
 
 const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
   if (codeword.size() < bytes_) *this = GrowingTrack(std::move(plan_), planes_);
-  if (decoder_ && codeword.size() == bytes_) return state_;
+  const bool known = decoder_ && codeword.size() == bytes_;
+  if (known && (ended_ || !passes_.needed())) return state_;
   bytes_ = codeword.size();
   goOn(codeword);
   while (passes_.needed()) {
@@ -117,6 +119,7 @@ const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
     state_.run(plan_, pass, io);
     if (io.stopped()) {
       lost_ = !band_;
+      ended_ = true;
       return state_;
     }
     decoder_ = io.decoder;
@@ -127,6 +130,15 @@ const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
   }
   state_.complete = true;
   return state_;
+}
+
+void GrowingTrack::need(const std::vector<bool>& parts) {
+  for (size_t band = 0; band < plan_.size(); ++band) {
+    if (plan_[band].needed || !parts[band % parts.size()]) continue;
+    plan_[band].needed = true;
+    passes_.need(band);
+  }
+  state_.complete &= !passes_.needed();
 }
 
 const TrackState& GrowingTrack::decodePasses(std::span<const uint8_t> codeword, uint64_t bytes) {

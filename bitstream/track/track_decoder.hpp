@@ -30,6 +30,10 @@ class GrowingTrack {
   /// other bytes the state may be one that no prefix has). The state is valid until the next call.
   const TrackState& decode(std::span<const uint8_t> codeword);
 
+  /// decode() goes on for these bands too. parts: of each whether it is needed; the plan has one or
+  /// more planes of so many bands.
+  void need(const std::vector<bool>& parts);
+
   /// All passes that the first `bytes` bytes decide, to the end of the last one of them, which may
   /// read on: nothing has to be taken back. codeword: all of it, the same at every call. Not mixed
   /// with calls of decode().
@@ -54,7 +58,8 @@ class GrowingTrack {
   size_t read_ = 0;  ///< by the decoder
   std::optional<Band> band_;
   std::optional<BandModels> models_;
-  bool lost_ = false;  ///< it has begun, and they were not kept
+  bool lost_ = false;   ///< it has begun, and they were not kept
+  bool ended_ = false;  ///< the codeword ends in it
 };
 
 }  // namespace tetrakis::inline track

@@ -82,13 +82,6 @@ void holdShown(const HeldSamples& flat, Extent plane, const View& view,
   }
 }
 
-/// The bands of a track, with marks of the parts that the view needs; empty: it needs none.
-std::vector<BandPlan> planOf(const PlaneLayout& layout, std::span<const BandPart> parts,
-                             const ViewSynthesis& synthesis) {
-  std::vector<BandPlan> plan = withNeeds(synthesis, parts, layout.plan(parts));
-  return plan.empty() ? plan : layout.marked(parts, std::move(plan));
-}
-
 /// The layout of the plane. Held samples outlive it. memory: null, or that of earlier calls.
 PlaneLayout layoutOf(const GeometryHeader& header, const SharedBits& lifted, HeldSamples flat,
                      TrackMemory* memory) {
@@ -105,7 +98,6 @@ PlaneLayout layoutOf(const GeometryHeader& header, const SharedBits& lifted, Hel
 DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords& codewords,
                                    KnownSamples known, const View& view,
                                    const DecodeContext<TrackMemory>& context) {
-  assert(context.memory == nullptr || !view.window);
   std::vector<int32_t> area_heights(known.flat.values.begin(), known.flat.values.end());
   const HeldSamples flat{known.flat.numbers, area_heights};
   const PlaneLayout layout =
@@ -117,9 +109,14 @@ DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords
   synthesis.allocate();
   ShownSignificance significance(layout.pyramid(), view, regions.size());
   const RegionDecoder tracks{header.wavelet, header.regions, header.planes, view.level, context};
-  const int fraction_bits = tracks.run(
-      codewords, [&](size_t i) { return planOf(layout, layout.parts(regions[i]), synthesis); },
-      [&](size_t i, const TrackState& state, int more_bits) {
+  const TrackBands bands{
+      [&](size_t i) { return neededParts(synthesis, layout.subbands(), regions[i]); },
+      [&](size_t i) {
+        const std::vector<BandPart> parts = layout.parts(regions[i]);
+        return layout.marked(parts, layout.plan(parts));
+      }};
+  const int fraction_bits =
+      tracks.run(codewords, bands, [&](size_t i, const TrackState& state, int more_bits) {
         const std::vector<BandPart> parts = layout.parts(regions[i]);
         for (size_t k = 0; k < parts.size(); ++k)
           synthesis.put(state.bands[k], more_bits, parts[k]);

@@ -112,9 +112,9 @@ class CorrectionPrefixes {
     const DecodedHeights before =
         decodeUncorrected(header, layers, {track.first(track.size() - codeword.size())});
     decided_ = WatchedCorrections(before.geometry, header, layers, codeword).run();
-    whole_ = corrected(before, taken, {}, 1);
+    whole_ = corrected(before, taken, {});
     taken.corrections.front() = {};
-    blank_ = corrected(before, taken, {}, 1);
+    blank_ = corrected(before, taken, {});
     shown_ = blank_;
   }
 

@@ -166,7 +166,9 @@ DecodedHeights decodeTaken(const TakenLayers& taken, DecodedView& view,
   DecodedGeometry steps = decodeSteps(taken, view, context);
   DecodedHeights decoded = heightsOf(std::move(steps), taken);
   if (!view.corrected) return decoded;
-  return corrected(std::move(decoded), taken, view.view, context.threads);
+  const bool keeps = context.memory != nullptr && context.memory->parts.most_bytes > 0;
+  return corrected(std::move(decoded), taken, view.view,
+                   {context.threads, keeps ? &context.memory->parts : nullptr});
 }
 
 /// A forest is decoded as a whole: lines go on in other patches.
@@ -207,7 +209,7 @@ uint64_t HeightsMemory::bytes() const {
     return marks != nullptr ? BitPlane::bytesOf(marks->extent()) : 0;
   };
   return bytesOf(valid) + bytesOf(lifted) + flat.numbers.size() * sizeof(uint16_t) +
-         flat.heights.size() * sizeof(int32_t) + tracks.bytes();
+         flat.heights.size() * sizeof(int32_t) + tracks.bytes() + parts.bytes();
 }
 
 std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const GeometryLayers& layers,

@@ -19,6 +19,7 @@
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/track/track_decoder.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
+#include "codec/geometry/plane_corrections.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
 #include "codec/lines/shown_lines.hpp"
 #include "codec/wavelet/band_plan.hpp"
@@ -92,6 +93,7 @@ struct HeightsMemory {
   SharedBits lifted;   ///< if voids are bridged, once all before the coefficients is there
   FlatAreas flat;      ///< likewise
   TrackMemory tracks;  ///< likewise: what exists of them follows from those
+  CorrectedParts parts = CorrectedParts(0);
   /// Of encoders, which have all of a drawing: the heights that its first bytes show behind the
   /// opening.
   std::function<DecodedGeometry(uint64_t bytes)> drawing = {};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <utility>
 
 #include "base/parallel.hpp"
@@ -100,6 +101,7 @@ void put(const DecodedHeights& part, const Window& window, DecodedHeights& whole
 
 /// A part that a view shows.
 struct ShownPart {
+  size_t number;
   Window window;  ///< in the view
   std::span<const uint8_t> codeword;
 };
@@ -114,7 +116,8 @@ std::vector<ShownPart> shownParts(const std::vector<Window>& parts, const Codewo
                    y = uint64_t{part.y} - view.firstRow();
     if (codewords[i].empty() || x >= shown.width || y >= shown.height) continue;
     assert(x + part.width <= shown.width && y + part.height <= shown.height);
-    some.push_back({{static_cast<uint32_t>(x), static_cast<uint32_t>(y), part.width, part.height},
+    some.push_back({i,
+                    {static_cast<uint32_t>(x), static_cast<uint32_t>(y), part.width, part.height},
                     codewords[i]});
   }
   return some;
@@ -148,7 +151,7 @@ View correctedView(const GeometryHeader& header, const GeometryLayers& layers, c
 }
 
 DecodedHeights corrected(DecodedHeights decoded, const TakenLayers& taken, const View& view,
-                         uint32_t threads) {
+                         const DecodeContext<CorrectedParts>& context) {
   assert(view.level == 0);
   const GeometryHeader& header = taken.header;
   const GeometryLayers& stated = taken.stated;
@@ -162,11 +165,37 @@ DecodedHeights corrected(DecodedHeights decoded, const TakenLayers& taken, const
   if (parts.empty()) return decoded;
   decoded.geometry.quiet_levels = 0;
   if (stated.restoresSamples()) decoded.corrections.resize(decoded.geometry.heights.size());
-  parallelFor(threads, parts.size(), [&](size_t i) {
-    const auto& [window, codeword] = parts[i];
-    put(correctedPart(windowOf(decoded, window), header, stated, codeword), window, decoded);
+  CorrectedParts::Call call(context.memory, taken.corrections.size());
+  parallelFor(context.threads, parts.size(), [&](size_t i) {
+    const auto& [number, window, codeword] = parts[i];
+    DecodedHeights before = windowOf(decoded, window);
+    if (context.memory == nullptr)
+      return put(correctedPart(std::move(before), header, stated, codeword), window, decoded);
+    std::optional<CorrectedPart>& part = call.at(number);
+    if (!part || !part->isOf(before, codeword)) {
+      DecodedHeights after = correctedPart(before, header, stated, codeword);
+      part = CorrectedPart{std::move(before), codeword.size(), std::move(after)};
+    }
+    put(part->after, window, decoded);
+    call.keepIfFits(number);
   });
   return decoded;
+}
+
+bool CorrectedPart::isOf(const DecodedHeights& heights, std::span<const uint8_t> codeword) const {
+  const DecodedGeometry &a = before.geometry, &b = heights.geometry;
+  return codeword.size() == codeword_bytes && a.fraction_bits == b.fraction_bits &&
+         a.heights == b.heights && a.significant == b.significant && a.valid == b.valid &&
+         before.corrections == heights.corrections;
+}
+
+uint64_t CorrectedPart::bytes() const {
+  const auto bytesOf = [](const DecodedHeights& heights) {
+    const DecodedGeometry& geometry = heights.geometry;
+    return (geometry.heights.size() + heights.corrections.size()) * sizeof(int32_t) +
+           geometry.significant.size() + geometry.valid.size();
+  };
+  return bytesOf(before) + bytesOf(after);
 }
 
 DecodedHeights windowOf(const DecodedHeights& decoded, const Window& window) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "base/kept_items.hpp"
 #include "base/view.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/packet.hpp"
@@ -59,10 +60,22 @@ JoinedCoefficients joinCoefficients(const TakenLayers& taken);
 /// one track, all rows up to the last one.
 View correctedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view);
 
-/// The heights with their corrections. decoded: of the view correctedView(), at level 0. threads:
-/// nothing depends on them. Safe on any bytes.
+/// A part of the plane, of which later calls with the same heights and codeword need no more.
+struct CorrectedPart {
+  DecodedHeights before;
+  size_t codeword_bytes = 0;
+  DecodedHeights after;
+
+  /// codewords begin with the same bytes.
+  bool isOf(const DecodedHeights& heights, std::span<const uint8_t> codeword) const;
+  uint64_t bytes() const;
+};
+using CorrectedParts = KeptItems<CorrectedPart>;
+
+/// The heights with their corrections. decoded: of the view correctedView(), at level 0. Safe on
+/// any bytes. The memory is that of earlier calls of the same plane.
 DecodedHeights corrected(DecodedHeights decoded, const TakenLayers& taken, const View& view,
-                         uint32_t threads);
+                         const DecodeContext<CorrectedParts>& context = {});
 
 /// The heights of a window, cut out of a larger view. They have no marks of vertices if the view
 /// has none.

@@ -14,29 +14,14 @@ namespace {
 constexpr uint64_t kOnce = 64 << 10;  // plans and models
 constexpr uint64_t kBand = 512;       // a band of a plane, and its plan, without coefficients
 
-uint64_t bytesOf(const Codewords& codewords) {
-  uint64_t bytes = 0;
-  for (const auto& codeword : codewords) bytes += codeword.size();
-  return bytes;
+/// The bands of a track, marked by what the view needs of each plane of them.
+std::vector<BandPlan> marked(std::vector<BandPlan> plan, const std::vector<bool>& needs) {
+  assert(plan.size() % needs.size() == 0);
+  for (size_t i = 0; i < plan.size(); ++i) plan[i].needed = needs[i % needs.size()];
+  return plan;
 }
 
 }  // namespace
-
-uint64_t TrackMemory::knownBytes(const Codewords& codewords) const {
-  return passes_within ? std::min(*passes_within, bytesOf(codewords)) : bytesOf(codewords);
-}
-
-const TrackState& TrackMemory::decode(size_t track, std::span<const uint8_t> codeword) {
-  assert(!passes_within || tracks.size() == 1);
-  return passes_within ? tracks[track]->decodePasses(codeword, *passes_within)
-                       : tracks[track]->decode(codeword);
-}
-
-uint64_t TrackMemory::bytes() const {
-  uint64_t sum = 0;
-  for (const auto& one : tracks) sum += one ? one->bytes() : 0;
-  return sum;
-}
 
 uint64_t TrackNeeds::ofBands(const std::vector<BandPart>& parts, uint64_t& largest) const {
   uint64_t sum = 0;
@@ -77,7 +62,8 @@ bool RegionDecoder::nothingKnown(const Codewords& codewords) const {
   return regions.side_log2 == 0 && (bit_planes == 0 || codewords.front().empty());
 }
 
-int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const {
+int RegionDecoder::run(const Codewords& codewords, const TrackBands& bands,
+                       const Take& take) const {
   assert(!codewords.empty());
   // Windows do not decode all tracks, so that only the bytes say how much is known.
   TrackMemory* const memory =
@@ -86,18 +72,23 @@ int RegionDecoder::run(const Codewords& codewords, const PlanOf& plan_of, const 
   const int fraction_bits = fractionBitsOf(wavelet, bit_planes, bytes, level);
   const int more_bits = fraction_bits - wavelet.fraction_bits;
   if (nothingKnown(codewords)) return fraction_bits;
-  if (memory != nullptr) memory->tracks.resize(codewords.size());
+  assert(memory == nullptr || !memory->passes_within || codewords.size() == 1);
+  KeptItems<GrowingTrack>::Call call(memory != nullptr ? &memory->tracks : nullptr,
+                                     codewords.size());
   parallelFor(context.threads, codewords.size(), [&](size_t i) {
     if (codewords[i].empty() || bit_planes == 0) return;
-    if (memory != nullptr && memory->tracks[i])
-      return take(i, memory->decode(i, codewords[i]), more_bits);
-    std::vector<BandPlan> plan = plan_of(i);
-    if (plan.empty()) return;
-    if (memory == nullptr) return take(i, decodeTrack(plan, bit_planes, codewords[i]), more_bits);
-    if (memory->all_levels)
-      for (BandPlan& band : plan) band.needed = true;
-    memory->tracks[i].emplace(std::move(plan), bit_planes);
-    take(i, memory->decode(i, codewords[i]), more_bits);
+    const std::vector<bool> needs = bands.needs(i);
+    if (needs.empty()) return;
+    const auto plan = [&] { return marked(bands.plan(i), needs); };
+    if (memory == nullptr) return take(i, decodeTrack(plan(), bit_planes, codewords[i]), more_bits);
+    std::optional<GrowingTrack>& track = call.at(i);
+    if (track) {
+      track->need(needs);
+    } else {
+      track = memory->begun(plan(), bit_planes);
+    }
+    take(i, memory->decode(*track, codewords[i]), more_bits);
+    call.keepIfFits(i);
   });
   return fraction_bits;
 }

@@ -6,37 +6,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/view.hpp"
 #include "bitstream/stream/coding_headers.hpp"
 #include "bitstream/stream/packet.hpp"
-#include "bitstream/track/track_decoder.hpp"
+#include "bitstream/track/track.hpp"
 #include "codec/wavelet/band_plan.hpp"
+#include "codec/wavelet/track_memory.hpp"
 #include "codec/wavelet/wavelet.hpp"
 
 namespace tetrakis::inline wavelet {
-
-/// What one call of a decoder leaves to the next, whose tracks begin with the same bytes: one for
-/// each track of which something is known. It is empty before the first call.
-struct TrackMemory {
-  std::vector<std::optional<GrowingTrack>> tracks;
-  std::optional<SynthesisNorms> norms;  ///< of all of them
-  bool all_levels = false;              ///< for calls with views of several levels
-  /// No track is left to the next call: states of all tracks together take twice the memory of a
-  /// plane, and those of one track at a time nearly none.
-  bool forgets = false;
-  /// Where there is but one track and calls have its whole codeword, only the passes count that
-  /// begin within so many bytes of it. Encoders look at prefixes in this way.
-  std::optional<uint64_t> passes_within = {};
-
-  /// What calls know of these codewords.
-  uint64_t knownBytes(const Codewords& codewords) const;
-  const TrackState& decode(size_t track, std::span<const uint8_t> codeword);
-  uint64_t bytes() const;
-};
 
 /// What RegionDecoder::run() needs for the tracks of a component.
 struct TrackNeeds {
@@ -60,6 +41,14 @@ struct TrackNeeds {
   uint64_t ofBands(const std::vector<BandPart>& parts, uint64_t& largest) const;
 };
 
+/// What a component says about the bands of its tracks.
+struct TrackBands {
+  /// Of each part of a track's region whether the view needs it; none if it needs none.
+  std::function<std::vector<bool>(size_t track)> needs;
+  /// One or more planes of as many bands.
+  std::function<std::vector<BandPlan>(size_t track)> plan;
+};
+
 /// What the header says about the tracks of a component.
 struct RegionDecoder {
   const WaveletHeader& wavelet;
@@ -68,8 +57,6 @@ struct RegionDecoder {
   int level;  ///< of the view
   DecodeContext<TrackMemory> context;
 
-  /// Returns the plan of a track, or an empty one if the track is not wanted.
-  using PlanOf = std::function<std::vector<BandPlan>(size_t track)>;
   /// Takes what is known of a track, with `more_bits` binary places more than it was coded with.
   /// It is not called for tracks of which nothing is known: all their coefficients are 0. It may be
   /// called for different tracks at the same time.
@@ -79,7 +66,7 @@ struct RegionDecoder {
   bool nothingKnown(const Codewords& codewords) const;
 
   /// Returns the fraction bits of the values taken (docs/FORMAT.md, section 7).
-  int run(const Codewords& codewords, const PlanOf& plan_of, const Take& take) const;
+  int run(const Codewords& codewords, const TrackBands& bands, const Take& take) const;
 };
 
 }  // namespace tetrakis::inline wavelet

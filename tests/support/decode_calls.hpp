@@ -57,6 +57,11 @@ inline MeasuredCall measure(const Bytes& bytes, const DecodeCall& call, uint32_t
   limits.max_memory = measured.limit = measured.bound + 4 * bytes.size() + (1 << 20);
   Stream stream(bytes, &limits);
   set(stream);
+  // Of a lower limit the decoder keeps less of windows.
+  EXPECT_EQ(tks_check_memory(stream.get(), call.part, call.asked(), call.max_triangles, 0,
+                             &measured.bound),
+            TKS_OK)
+      << tks_message(stream.get());
   measured.peak = peakBytes([&] { measured.status = call.run(stream.get()); });
   return measured;
 }

@@ -59,15 +59,18 @@ tks_window BlockGrowth::grown(const tks_window& asked, const BlockGrid& grid) {
     wanted = {read_.x, asked.y, std::max(read_.width, asked.x + asked.width - read_.x),
               std::max(asked.height, rows)};
   }
-  tks_window all = withFree(wanted, grid);
+  const auto withMore = [&] { return down || right ? withFree(wanted, grid) : wanted; };
+  tks_window all = withMore();
   while (count(all) > grid.most && wanted.height > asked.height) {
     wanted.height = std::max(wanted.height / 2, asked.height);
-    all = withFree(wanted, grid);
+    all = withMore();
   }
   if (count(all) > grid.most) all = asked;
   if (down) {
     read_.height = all.y + all.height - read_.y;
   } else if (right) {
+    // What is beside the first block of a row is decoded as far down, and shows what lies below it.
+    if (in_row_ == 1 && all.x <= read_.x) read_.height = all.y + all.height - read_.y;
     read_.width = all.x + all.width - read_.x;
     ++in_row_;
   } else {

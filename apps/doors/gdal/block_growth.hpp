@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which blocks of a raster are decoded together where some are asked for. Regions are decoded
-// whole, and with them their neighbours, whose coefficients reach into the blocks. What these
-// regions show without any further one costs little more: so all of that is decoded, and a window
-// that moves on pays for new ground. Never more: a point takes the regions around it, however
-// many points there were before. Only who reads rows of blocks one after the other gets rows
-// ahead, as many as it has read, so that strips grow as the reads of a file system do.
+// whole, and with them their neighbours, whose coefficients reach into the blocks. Who goes on to
+// the right or below gets what these regions show without any further one, which costs little more:
+// so a window that moves on pays for new ground. A point or a window elsewhere gets itself alone:
+// the decoder keeps its regions, and more samples would need more of their neighbours. Only who
+// reads rows of blocks one after the other gets rows ahead, as many as it has read, so that strips
+// grow as the reads of a file system do.
 #pragma once
 
 #include <cstdint>

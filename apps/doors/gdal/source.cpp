@@ -110,6 +110,7 @@ bool Source::read(std::span<const tks_range> ranges) {
 
 tks_status Source::openPrefix(uint64_t bytes) {
   decoder_.reset();
+  has_whole_ = false;
   const tks_range all{0, bytes, 0};
   if (!read({&all, 1})) return TKS_IO;
   const tks_limits most = limits();
@@ -155,10 +156,13 @@ std::optional<std::vector<tks_range>> Source::neededRanges(uint32_t level,
   return ranges;
 }
 
-bool Source::loadRanges(const std::vector<tks_range>& ranges) {
-  decoder_.reset();  // which may borrow bytes that move
-  if (!read(ranges) || !reopen(info_.header_bytes)) return false;
+bool Source::loadRanges(const std::vector<tks_range>& ranges, bool whole) {
+  // A decoder that has ranges borrows no bytes, and knows their tracks.
+  const bool goes_on = whole && has_whole_;
+  if (!goes_on) decoder_.reset();  // which may borrow bytes that move
+  if (!read(ranges) || (!goes_on && !reopen(info_.header_bytes))) return false;
   opened_ = 0;
+  has_whole_ = whole && !ranges.empty();
   std::vector<const uint8_t*> bytes;
   for (const tks_range& range : ranges) bytes.push_back(bytes_.at(range.offset).data());
   const tks_status status =
@@ -219,9 +223,9 @@ bool Source::load(uint32_t level, const tks_window* window) {
   if (opened_ == first && !shares) return true;
   auto ranges = neededRanges(level, window);
   if (!ranges) return false;
-  if (shares && cutShares(*ranges, enough)) return loadRanges(*ranges);
+  if (shares && cutShares(*ranges, enough)) return loadRanges(*ranges, false);
   const bool most = window == nullptr && FileBytes::costOf(*ranges) >= first - first / 4;
-  return most ? reopen(first) : loadRanges(*ranges);
+  return most ? reopen(first) : loadRanges(*ranges, true);
 }
 
 StatedQuality Source::statedQuality() {
@@ -234,6 +238,7 @@ StatedQuality Source::statedQuality() {
   if (info_.index != TKS_INDEX_NONE && !VSIIsLocal(name_.c_str())) return quality;
   const tks_range all{0, end_, 0};
   decoder_.reset();  // which may borrow bytes that move
+  has_whole_ = false;
   if (bytes_.read({&all, 1})) return quality;
   const tks_limits most = limits();
   tks_decoder* opened = nullptr;

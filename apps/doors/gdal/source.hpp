@@ -102,7 +102,8 @@ class Source {
   bool load(uint32_t level, const tks_window* window);
   /// What a level or a window takes, by the index. Nothing after a reported error.
   std::optional<std::vector<tks_range>> neededRanges(uint32_t level, const tks_window* window);
-  bool loadRanges(const std::vector<tks_range>& ranges);
+  /// whole: no range was cut off. Ranges that are whole join those that the decoder has.
+  bool loadRanges(const std::vector<tks_range>& ranges, bool whole);
   /// Leaves the first range whole and a first part of each other one, that many bytes together.
   /// Whether that took anything off.
   static bool cutShares(std::vector<tks_range>& ranges, uint64_t bytes);
@@ -117,7 +118,8 @@ class Source {
   tks_part part_ = TKS_PART_HEIGHTS;
   uint64_t end_ = 0;  ///< of what may be used
   FileBytes bytes_;
-  uint64_t opened_ = 0;  ///< how many of the first bytes the decoder has; 0: ranges
+  uint64_t opened_ = 0;     ///< how many of the first bytes the decoder has; 0: ranges
+  bool has_whole_ = false;  ///< some ranges, of which none was cut off
   bool verified_ = false;
   std::string message_;  ///< why openPrefix failed
   DecoderPointer decoder_{nullptr, tks_close};

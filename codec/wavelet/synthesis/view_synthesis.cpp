@@ -89,6 +89,19 @@ int32_t* WindowSynthesis::valuesOf(const Subband& subband) {
   return levels_[static_cast<size_t>(subband.level - 1)].values.data();
 }
 
+/// The coarsest of its levels reaches farthest.
+bool WindowSynthesis::mayNeed(const Region& region) const {
+  const int level = std::min(region.last_level, pyramid_->levels());
+  if (region.isBase() || level < region.first_level) return true;
+  const Window low = at(level).low();
+  const LowBand& band = pyramid_->low(level);
+  const auto meets = [](uint32_t begin, uint32_t size, int splits, uint32_t first, uint32_t end) {
+    return uint64_t{begin} << splits < end && first < (uint64_t{begin} + size) << splits;
+  };
+  return meets(low.x, low.width, band.splits_x, region.x0, region.x1) &&
+         meets(low.y, low.height, band.splits_y, region.y0, region.y1);
+}
+
 bool WindowSynthesis::needs(const BandPart& part) const {
   const auto [columns, rows, first, pitch] = targetOf(pyramid_->subbands()[part.subband]);
   return part.column < columns.end && columns.begin < part.column + part.columns &&
@@ -170,16 +183,17 @@ std::vector<int32_t> WindowSynthesis::run(uint32_t) {
   return low;
 }
 
-std::vector<BandPlan> withNeeds(const ViewSynthesis& synthesis, std::span<const BandPart> parts,
-                                std::vector<BandPlan> bands) {
-  assert(parts.empty() ? bands.empty() : bands.size() % parts.size() == 0);
+std::vector<bool> neededParts(const ViewSynthesis& synthesis, std::span<const Subband> subbands,
+                              const Region& region) {
+  std::vector<bool> needed;
+  if (!synthesis.mayNeed(region)) return needed;
   bool any = false;
-  for (size_t i = 0; i < bands.size(); ++i) {
-    bands[i].needed = synthesis.needs(parts[i % parts.size()]);
-    any |= bands[i].needed;
+  for (const BandPart& part : partsOf(subbands, region)) {
+    needed.push_back(synthesis.needs(part));
+    any |= needed.back();
   }
-  if (!any) return {};
-  return bands;
+  if (!any) needed.clear();
+  return needed;
 }
 
 }  // namespace tetrakis::inline synthesis

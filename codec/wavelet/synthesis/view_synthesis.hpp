@@ -35,6 +35,7 @@ class WindowSynthesis {
   uint64_t coefficients() const;
   uint64_t workBytes(uint32_t threads, bool masked) const;
 
+  bool mayNeed(const Region& region) const;
   bool needs(const BandPart& part) const;
   void put(const Band& band, int fraction_bits, const BandPart& part);
   uint32_t rows(const Subband& subband) const;
@@ -117,6 +118,7 @@ class PlaneSynthesis {
   uint64_t coefficients() const { return pyramid_->low(level_).extent.samples(); }
   uint64_t workBytes(uint32_t threads, bool masked) const;
 
+  bool mayNeed(const Region& region) const { return region.isBase() || region.last_level > level_; }
   bool needs(const BandPart& part) const {
     return part.subband < pyramid_->subbandsOf(level_).size();
   }
@@ -184,6 +186,10 @@ class ViewSynthesis {
                       kernel_);
   }
 
+  /// False only if samples of the view depend on no coefficient of the region.
+  bool mayNeed(const Region& region) const {
+    return std::visit([&](const auto& kernel) { return kernel.mayNeed(region); }, kernel_);
+  }
   /// True if samples of the view depend on coefficients of the part.
   bool needs(const BandPart& part) const {
     return std::visit([&](const auto& kernel) { return kernel.needs(part); }, kernel_);
@@ -224,9 +230,8 @@ class ViewSynthesis {
   Kernel kernel_;
 };
 
-/// The bands of a track with whether the view needs each; none if it needs none. bands: one or more
-/// planes of as many parts.
-std::vector<BandPlan> withNeeds(const ViewSynthesis& synthesis, std::span<const BandPart> parts,
-                                std::vector<BandPlan> bands);
+/// Of each part of a region whether the view needs it; none if it needs none.
+std::vector<bool> neededParts(const ViewSynthesis& synthesis, std::span<const Subband> subbands,
+                              const Region& region);
 
 }  // namespace tetrakis::inline synthesis
