@@ -45,6 +45,14 @@ TEST(ForestStream, RestoresEverySampleOfEveryShape) {
   }
 }
 
+/// More bands than 16 bits count: a colour plane has some on each patch.
+TEST(ForestStream, RestoresTexelsOfManyPatches) {
+  const std::vector<uint32_t> lone(size_t{4} * 4096, Forest::kBorder);
+  const ForestRaster picture{Forest(3, lone), {samples::Pattern::kRidges, 0, 0, 3, TKS_U8, 8}};
+  Stream stream(picture.encodedTexels(lossless()));
+  EXPECT_EQ(stream.texels(), picture.raster.data);
+}
+
 TEST(ForestStream, SaysHowItsSidesAreGlued) {
   for (const ForestShape& shape : shapes()) {
     const ForestRaster surface = surfaceOn(shape, 3);

@@ -203,6 +203,130 @@ TEST(ObjectStreams, HaveTheTextureOfTheirMesh) {
   }
 }
 
+/// A thin box whose upper side shows noise and whose other sides are plain, and its image.
+struct PaintedBox {
+  static constexpr uint32_t kSide = 128;
+  TriangleMesh mesh;
+  std::vector<float> texcoords;
+  std::vector<uint8_t> texels;
+
+  PaintedBox() {
+    uint32_t state = 1;
+    for (uint32_t y = 0; y < kSide; ++y) {
+      for (uint32_t x = 0; x < kSide; ++x) {
+        state = state * 1664525 + 1013904223;
+        for (int c = 0; c < 3; ++c)
+          texels.push_back(x < kSide / 2 ? static_cast<uint8_t>(state >> (8 + 8 * c)) : 128);
+      }
+    }
+    const TriangleMesh grid = made::openGrid(12, 12, 0.03);
+    for (const bool lower : {false, true}) {
+      const auto first = static_cast<uint32_t>(mesh.points.size());
+      for (Point point : grid.points) {
+        if (lower) point[2] -= 0.2;
+        mesh.points.push_back(point);
+      }
+      for (Triangle t : grid.triangles) {
+        if (lower) std::swap(t[1], t[2]);
+        for (const uint32_t corner : t) {
+          texcoords.push_back(static_cast<float>(
+              (lower ? 0.5 : 0.02) + 0.46 * std::clamp(grid.points[corner][0], 0.0, 1.0)));
+          texcoords.push_back(static_cast<float>(std::clamp(grid.points[corner][1], 0.0, 1.0)));
+        }
+        mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+      }
+    }
+  }
+  tks_image image() const {
+    tks_image out{};
+    out.size = sizeof out;
+    out.width = out.height = kSide;
+    out.channels = 3;
+    out.sample = TKS_U8;
+    out.data = texels.data();
+    return out;
+  }
+};
+
+tks_camera cameraAt(double z) {
+  tks_camera camera{};
+  camera.name = "above or below";
+  camera.eye[0] = camera.target[0] = camera.eye[1] = camera.target[1] = 0.5;
+  camera.eye[2] = z;
+  camera.up[1] = 1;
+  camera.fov_y = 40;
+  camera.width = camera.height = 256;
+  camera.weight = 1;
+  return camera;
+}
+
+/// Bytes go to the texture where cameras see it.
+TEST(ObjectStreams, AreSharedForTheirCameras) {
+  const PaintedBox box;
+  const GivenMesh given(box.mesh);
+  tks_triangle_mesh mesh = given.given();
+  mesh.texcoords = box.texcoords.data();
+  mesh.kind = TKS_OBJECT_RESAMPLED;
+  const tks_image image = box.image();
+  std::vector<uint64_t> of_texture;
+  for (const double z : {3., -3.}) {
+    const tks_camera camera = cameraAt(z);
+    tks_encode_options options = budget(3000);
+    options.cameras = &camera;
+    options.camera_count = 1;
+    const Encoded made = encodeMesh(mesh, options, &image);
+    EXPECT_EQ(made.report.as_resampled.bytes, made.stream.size());
+    EXPECT_EQ(made.report.as_triangles.bytes, 0u);
+    EXPECT_GT(made.report.as_resampled.screen_psnr, 5);
+    tks_info info{};
+    info.size = sizeof info;
+    ASSERT_EQ(tks_get_info(opened(made.stream, made.stream.size()).get(), &info), TKS_OK);
+    of_texture.push_back(info.texture_bytes);
+  }
+  EXPECT_GT(of_texture[0], of_texture[1]);
+}
+
+TEST(ObjectStreams, TakeTheKindWhosePicturesAreBetter) {
+  const PaintedBox box;
+  const GivenMesh given(box.mesh);
+  tks_triangle_mesh mesh = given.given();
+  mesh.texcoords = box.texcoords.data();
+  const tks_image image = box.image();
+  const Encoded made = encodeMesh(mesh, budget(8000), &image);
+  const tks_object_trial &resampled = made.report.as_resampled,
+                         &triangles = made.report.as_triangles;
+  ASSERT_GT(resampled.bytes, 0u);
+  ASSERT_GT(triangles.bytes, 0u);
+  EXPECT_EQ(made.report.kind == TKS_OBJECT_TRIANGLES,
+            triangles.screen_psnr > resampled.screen_psnr);
+}
+
+TEST(ObjectStreams, RefuseCamerasThatSeeNothing) {
+  const PaintedBox box;
+  const GivenMesh given(box.mesh);
+  tks_triangle_mesh mesh = given.given();
+  mesh.texcoords = box.texcoords.data();
+  const tks_image image = box.image();
+  tks_camera camera = cameraAt(3);
+  camera.target[2] = 6;
+  tks_encode_options options = budget(3000);
+  options.cameras = &camera;
+  options.camera_count = 1;
+  tks_buffer buffer{};
+  std::array<char, 300> message{};
+  const auto encode = [&](const tks_image* texture) {
+    return tks_encode_object(&mesh, texture, &options, nullptr, &buffer, message.data(),
+                             message.size());
+  };
+  EXPECT_EQ(encode(&image), TKS_USAGE);
+  EXPECT_NE(std::string(message.data()).find("sees nothing of the mesh"), std::string::npos);
+  camera = cameraAt(3);
+  EXPECT_EQ(encode(nullptr), TKS_USAGE);
+  camera.weight = 0;
+  EXPECT_EQ(encode(&image), TKS_USAGE);
+  EXPECT_EQ(buffer.data, nullptr);
+}
+
 TEST(ObjectStreams, TellTheirProgressAndStop) {
   struct Told {
     double last = 0;

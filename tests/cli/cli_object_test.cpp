@@ -110,6 +110,34 @@ TEST_F(CliObject, GivenTextureReplacesThatOfTheMesh) {
   EXPECT_LT(compared("--mesh blob.glb")["colour_psnr"], 20);
 }
 
+TEST_F(CliObject, PicturesShowLessErrorWithMoreBytes) {
+  makeObject("blob.glb", "--bytes 6k");
+  const nlohmann::json all = compared("--mesh blob.glb --pictures seen");
+  EXPECT_GT(all["screen_psnr"], 25);
+  EXPECT_FALSE(all["screen_exact"]);
+  ASSERT_EQ(all["cameras"].size(), 14u);
+  for (const char* name : {"seen/picture-14.png", "seen/original-14.png"})
+    EXPECT_FALSE(content(name).empty()) << name;
+  EXPECT_LT(compared("--mesh blob.glb --bytes 2k")["screen_psnr"], all["screen_psnr"]);
+  const nlohmann::json one = compared("--mesh blob.glb --view top");
+  ASSERT_EQ(one["cameras"].size(), 1u);
+  EXPECT_EQ(one["cameras"][0]["name"], "top");
+}
+
+TEST_F(CliObject, BothKindsAreExplained) {
+  ASSERT_EQ(cli("synth --kind blob --triangles 500 -o blob.glb").code, 0);
+  const Outcome run = cli("encode blob.glb --bytes 6k -o b.tks --view around --explain --json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  const nlohmann::json kinds = nlohmann::json::parse(run.out, nullptr, false);
+  for (const char* kind : {"resampled", "triangles"}) {
+    EXPECT_LE(kinds[kind]["bytes"], 6 << 10) << kind;
+    EXPECT_GT(kinds[kind]["screen_psnr"], 20) << kind;
+  }
+  const bool triangles = kinds["triangles"]["screen_psnr"] > kinds["resampled"]["screen_psnr"];
+  EXPECT_EQ(kinds["triangles"]["taken"], triangles);
+  EXPECT_EQ(kinds["resampled"]["taken"], !triangles);
+}
+
 TEST_F(CliObject, InfoTellsOfTheBaseMesh) {
   makeObject("blob.glb", "--bytes 6k");
   const nlohmann::json info = nlohmann::json::parse(cli("info blob.tks --json").out);
@@ -171,7 +199,8 @@ TEST_F(CliObject, OptionsOfTerrainAreRefused) {
                                 "decode blob.tks --height b.tif --level 1",
                                 "decode blob.tks --height b.tif --window 0,0,2,2",
                                 "compare blob.tks --texture blob.png",
-                                "compare blob.tks --mesh blob.obj --view low",
+                                "compare blob.tks --mesh blob.obj --view sideways",
+                                "encode blob.obj -o b.tks --psnr 50 --view around",
                                 "compare a.tks --mesh blob.obj",
                                 "plan blob.tks --channel 1M --renderer 1M",
                                 "reorder blob.tks --view low -o b.tks",
