@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -26,15 +25,10 @@ constexpr double kBytesForTriangle = 5;
 /// Most of a squared error comes from the coding, not from the resampling.
 constexpr double kResamplingPart = 1.0 / 3;
 
-/// Of a mesh with a texture, the part that its heights get while a first base is sought, and no
-/// fewer bytes than the least.
+/// Of a mesh with a texture, the part that its heights get while a base is sought, and no fewer
+/// bytes than the least.
 constexpr double kHeightsPart = 0.4;
 constexpr uint64_t kLeastHeightBytes = 1000;
-
-/// Another base is sought where its heights got so many times as many bytes as that, or as few.
-/// A smaller number finds better bases, and takes time.
-constexpr double kOtherShare = 1.6;
-constexpr int kMostShares = 2;
 
 /// Texels for each byte of a budget: more cannot be told from fewer.
 constexpr double kTexelsForByte = 64;
@@ -74,9 +68,8 @@ class ResampledSearch {
                            std::to_string(given_.source.fewestTriangles()) +
                            " triangles; a stream takes at most " +
                            std::to_string(2 * Forest::kMostPatches) + ". Leave small parts out.");
-    const Result<SharedTrial> taken = given_.image != nullptr    ? beside()
-                                      : given_.options.bytes > 0 ? withinBytes()
-                                                                 : withinError();
+    Result<SharedTrial> taken = given_.options.bytes > 0 ? withinBytes() : withinError();
+    if (taken.ok() && given_.image != nullptr) taken = withTexture(**taken);
     if (!taken.ok()) return taken.status();
     CodedObject measured = (*taken)->coded;
     const ResampledObject& object = *(*taken)->object;
@@ -88,44 +81,10 @@ class ResampledSearch {
   }
 
  private:
-  /// The base for the bytes that heights get beside the texture. They share the budget by what they
-  /// take off the errors of pictures, which depends on the base.
-  Result<SharedTrial> beside() {
-    Result<SharedTrial> best = misusedObject("The budget is too small.");
-    std::vector<uint32_t> tried;
-    for (int share = 0; share < kMostShares; ++share) {
-      const Result<SharedTrial> base = withinBytes();
-      if (!base.ok()) return best.ok() ? best : base;
-      const uint32_t triangles = (*base)->object->base_triangles;
-      if (std::find(tried.begin(), tried.end(), triangles) != tried.end()) break;
-      tried.push_back(triangles);
-      Result<SharedTrial> made = withTexture(**base);
-      if (!made.ok()) return best.ok() ? best : made;
-      const auto got = static_cast<double>(heightBytesOf((*made)->coded.stream));
-      const auto sought = static_cast<double>(height_bytes_);
-      if (best.ok() && (*best)->coded.picture_error <= (*made)->coded.picture_error) break;
-      best = std::move(made);
-      if (got < kOtherShare * sought && sought < kOtherShare * got) break;
-      height_bytes_ = static_cast<uint64_t>(got);
-    }
-    return best;
-  }
-
-  /// All but those of the texture.
-  static uint64_t heightBytesOf(const std::vector<uint8_t>& stream) {
-    tks_decoder* decoder = nullptr;
-    tks_info info{};
-    info.size = sizeof info;
-    if (tks_open(stream.data(), stream.size(), nullptr, &decoder, nullptr, 0) == TKS_OK)
-      tks_get_info(decoder, &info);
-    tks_close(decoder);
-    return stream.size() - info.texture_bytes;
-  }
-
   /// The base with the least error within the budget: from the one tried first to finer or coarser
   /// ones, as long as they are better.
   Result<SharedTrial> withinBytes() {
-    const double wished = static_cast<double>(height_bytes_) / kBytesForTriangle;
+    const double wished = static_cast<double>(heightBytes()) / kBytesForTriangle;
     uint32_t triangles = kCoarsestBase;
     while (triangles < mostTriangles() && triangles * std::sqrt(2.0) < wished) triangles *= 2;
     Result<SharedTrial> best = inBudget(triangles);
@@ -158,17 +117,17 @@ class ResampledSearch {
     return most;
   }
 
-  /// Of a budget, while a first base is sought.
-  static uint64_t firstHeightBytes(const GivenObject& given) {
-    if (given.image == nullptr) return given.options.bytes;
-    const double part = kHeightsPart * static_cast<double>(given.options.bytes);
-    return std::min(given.options.bytes, std::max(kLeastHeightBytes, static_cast<uint64_t>(part)));
+  /// Of a budget, while a base is sought.
+  uint64_t heightBytes() const {
+    if (given_.image == nullptr) return given_.options.bytes;
+    const double part = kHeightsPart * static_cast<double>(given_.options.bytes);
+    return std::min(given_.options.bytes, std::max(kLeastHeightBytes, static_cast<uint64_t>(part)));
   }
 
   Result<SharedTrial> inBudget(uint32_t triangles) {
     tks_encode_options options = given_.options;
     options.psnr = options.max_error = 0;
-    options.bytes = height_bytes_;
+    options.bytes = heightBytes();
     options.camera_count = 0;
     return coded({resampled(triangles), {}, {}}, options, nullptr);
   }
@@ -258,11 +217,8 @@ class ResampledSearch {
   }
 
   std::shared_ptr<const ResampledObject> resampled(uint32_t triangles) {
-    std::shared_ptr<const ResampledObject>& object = resampled_[triangles];
-    if (object == nullptr)
-      object = std::make_shared<const ResampledObject>(
-          given_.source.resampled({triangles, kDepth, positionBits(triangles)}));
-    return object;
+    return std::make_shared<const ResampledObject>(
+        given_.source.resampled({triangles, kDepth, positionBits(triangles)}));
   }
 
   MeshDistance distanceOf(const ResampledObject& object, const std::vector<float>& heights,
@@ -317,8 +273,6 @@ class ResampledSearch {
   }
 
   GivenObject& given_;
-  uint64_t height_bytes_ = firstHeightBytes(given_);  ///< of a budget, for which a base is sought
-  std::map<uint32_t, std::shared_ptr<const ResampledObject>> resampled_;  ///< by triangles
 };
 
 }  // namespace

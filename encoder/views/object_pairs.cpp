@@ -22,19 +22,47 @@ struct DrawnSurface {
   std::vector<PatchPlace> places;  ///< of the samples that show it
 };
 
+/// Triangles that are drawn of a surface, at most, unless its patches are more. Pictures of several
+/// hundred pixels a side show no smaller ones, and drawing all would take most of the time.
+constexpr uint64_t kMostTriangles = 1 << 18;
+
+/// The places of every 2^skipped-th sample of patches of (2^depth + 1)^2, in both directions, and
+/// the triangles between them, as of meshOfSamples().
+TriangleMesh thinned(const TriangleMesh& mesh, uint32_t patches, int depth, int skipped) {
+  const uint32_t side = (1u << depth) + 1, step = 1u << skipped, n = 1u << (depth - skipped);
+  TriangleMesh thin;
+  for (uint32_t patch = 0; patch < patches; ++patch) {
+    const auto first = static_cast<uint32_t>(thin.points.size());
+    for (uint32_t y = 0; y < side; y += step)
+      for (uint32_t x = 0; x < side; x += step)
+        thin.points.push_back(mesh.points[(size_t{patch} * side + y) * side + x]);
+    for (uint32_t square = 0; square < n * n; ++square) {
+      const uint32_t nw = first + square / n * (n + 1) + square % n, sw = nw + n + 1;
+      thin.triangles.push_back({nw, sw, sw + 1});
+      thin.triangles.push_back({nw, sw + 1, nw + 1});
+    }
+  }
+  return thin;
+}
+
 /// Heights on patches, drawn with the textures of patches.
 class SurfacePictures {
  public:
   SurfacePictures(std::vector<Camera> cameras, BaseMesh base, int texture_depth)
-      : pictures_(std::move(cameras)), base_(std::move(base)), texture_depth_(texture_depth) {}
+      : pictures_(std::move(cameras)), base_(std::move(base)), texture_depth_(texture_depth) {
+    while (drawnDepth() > 0 &&
+           uint64_t{2} * base_.forest->patches() << 2 * drawnDepth() > kMostTriangles)
+      ++skipped_;
+  }
 
   DrawnSurface drawn(const std::vector<float>& heights) const {
-    const TriangleMesh mesh = meshOfSamples(base_, heights);
+    const TriangleMesh mesh = thinned(meshOfSamples(base_, heights), base_.forest->patches(),
+                                      base_.forest->depth(), skipped_);
     DrawnSurface surface{pictures_.seenOf({mesh.points, mesh.triangles}), {}};
     for (const SeenTriangle& sample : surface.seen)
       surface.places.push_back(sample.triangle == SeenTriangle::kSky
                                    ? PatchPlace()
-                                   : patchPlaceOf(sample, base_.forest->depth(), texture_depth_));
+                                   : patchPlaceOf(sample, drawnDepth(), texture_depth_));
     return surface;
   }
   std::vector<Colour> colours(const DrawnSurface& surface, const PatchTexture& texture) const {
@@ -44,9 +72,11 @@ class SurfacePictures {
   const TrianglePictures& pictures() const { return pictures_; }
 
  private:
+  int drawnDepth() const { return base_.forest->depth() - skipped_; }
+
   TrianglePictures pictures_;
   BaseMesh base_;
-  int texture_depth_;
+  int texture_depth_, skipped_ = 0;
 };
 
 /// Samples of the inputs in the unit of the surface.

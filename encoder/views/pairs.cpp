@@ -144,9 +144,10 @@ std::vector<double> renderedErrors(const EncodeInputs& inputs, DecodedNodes& dec
 /// Bytes behind the opening of the first prefix that is looked at. A smaller number takes time for
 /// prefixes that show little.
 constexpr double kFirstNode = 64;
-/// The bytes of one prefix that is looked at over those of the one before; with meshes, which take
-/// long, and without them. Ratios of 3.5 lose 0.33 dB where 2 loses 0.12; smaller ones take time.
-constexpr double kMeshRatio = 4, kRatio = 2;
+/// The bytes of one prefix that is looked at over those of the one before; with meshes and forests,
+/// which take long, and without them. Ratios of 3.5 lose 0.33 dB where 2 loses 0.12; smaller ones
+/// take time.
+constexpr double kSlowRatio = 4, kRatio = 2;
 /// Prefixes are looked at up to this part of the budget. Up to a third joint encoding takes 0.8 of
 /// the time, with losses within 0.03 dB; a smaller number looks at longer prefixes.
 constexpr uint64_t kPartWithNodes = 3;
@@ -205,7 +206,8 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
                         const Rated<CodedTexture>& texture) {
   const bool meshes_for_cameras =
       inputs.options.camera_count > 0 && looksAtMeshes(inputs, *heights.coded.quantised);
-  const double ratio = meshes_for_cameras ? kMeshRatio : kRatio;
+  const bool on_forest = inputs.heights->domain == TKS_DOMAIN_FOREST;
+  const double ratio = meshes_for_cameras || on_forest ? kSlowRatio : kRatio;
   const uint64_t budget = inputs.budgeted() ? inputs.options.bytes : UINT64_MAX;
   const Nodes nodes = {nodesOf(heights, ratio, budget), nodesOf(texture, ratio, budget)};
   PairNodes squares = {squaresAt(nodes.heights), squaresAt(nodes.textures)};

@@ -45,7 +45,7 @@ TEST(PassQueue, HoldsEveryPassOnceAndPlanesOfABandInTurn) {
     const std::vector<BandPlan> plan = randomPlan(random);
     const int planes = static_cast<int>(random() % 12);
     std::vector<uint32_t> significant(plan.size(), 0);
-    std::map<uint16_t, std::set<std::tuple<int, PassKind>>> seen;
+    std::map<uint32_t, std::set<std::tuple<int, PassKind>>> seen;
     PassQueue queue(plan, planes);
     size_t count = 0, wanted = 0, left = 0;
     for (const BandPlan& band : plan) {
@@ -91,7 +91,7 @@ TEST(PassQueue, FollowsTheNorms) {
 
 /// Of two bands alike, the rest of the one with more significant coefficients comes first.
 TEST(PassQueue, LooksFirstWhereMuchIsSignificant) {
-  for (const uint16_t dense : {uint16_t{0}, uint16_t{1}}) {
+  for (const uint32_t dense : {0u, 1u}) {
     std::vector<BandPlan> plan(2);
     plan[0].shape = plan[1].shape = {100, 100};
     PassQueue queue(plan, 2);

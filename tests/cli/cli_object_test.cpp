@@ -181,7 +181,7 @@ TEST_F(CliObject, OptionsOfTerrainAreRefused) {
   const std::set<std::string> before = names();
   for (const char* arguments : {"encode blob.obj -o b.tks --lossless",
                                 "encode blob.obj -o b.tks --bytes 2k --regions 64",
-                                "encode blob.obj -o b.tks --bytes 2k --view low",
+                                "encode blob.obj -o b.tks --bytes 2k --view low --engine rendered",
                                 "encode blob.obj -o b.tks --bytes 2k --domain cube",
                                 "encode blob.obj -o b.tks --bytes 2k --spacing 3",
                                 "encode blob.obj -o b.tks --bytes 2k --crs EPSG:4326",
