@@ -50,7 +50,7 @@ TEST(ForestStream, RestoresTexelsOfManyPatches) {
   const std::vector<uint32_t> lone(size_t{4} * 4096, Forest::kBorder);
   const ForestRaster picture{Forest(3, lone), {samples::Pattern::kRidges, 0, 0, 3, TKS_U8, 8}};
   Stream stream(picture.encodedTexels(lossless()));
-  EXPECT_EQ(stream.texels(), picture.raster.data);
+  EXPECT_EQ(stream.texture(), picture.raster.data);
 }
 
 TEST(ForestStream, SaysHowItsSidesAreGlued) {
