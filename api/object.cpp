@@ -33,6 +33,7 @@ ObjectPlaces placesOf(const BaseMesh& mesh, std::span<const float> heights) {
   const double unit = mesh.cell / (1 << BentBase::kPlaceBits);
   ObjectPlaces all;
   all.places.reserve(heights.size());
+  for (std::vector<int32_t>& units : all.units) units.reserve(heights.size());
   const auto unitsOf = [&](double from_origin) {
     constexpr double kMost = 1 << 30;
     const double units = from_origin / unit;  // of any size, and none where a cell is next to 0

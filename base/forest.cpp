@@ -93,10 +93,13 @@ void Forest::joinCorners() {
 }
 
 Forest::Place Forest::across(int64_t n, uint32_t side, int64_t along, int64_t depth) const {
-  const uint32_t other = sides_[side], patch = other / kSides;
-  if (reversed(side, other)) along = n - along;
-  depth = folded(depth, n);
-  switch (other % kSides) {
+  const uint32_t other = sides_[side];
+  return at(n, other, reversed(side, other) ? n - along : along, folded(depth, n));
+}
+
+Forest::Place Forest::at(int64_t n, uint32_t side, int64_t along, int64_t depth) {
+  const uint32_t patch = side / kSides;
+  switch (side % kSides) {
     case kNorth:
       return {patch, along, depth};
     case kEast:
@@ -140,7 +143,7 @@ Forest::Place Forest::owner(int64_t n, const Place& sample) const {
   }
   if (!west && !east && !north && !south) return sample;
   const uint32_t side = first + (north ? kNorth : east ? kEast : south ? kSouth : kWest);
-  if (sides_[side] == kBorder || sides_[side] > side) return sample;
+  if (isOwner(side)) return sample;
   return across(n, side, north || south ? x : y, 0);
 }
 

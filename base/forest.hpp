@@ -19,6 +19,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/bit_plane.hpp"
@@ -76,24 +77,24 @@ class Forest {
   template <class Visit>
   void forEachShared(int64_t n, const Visit& visit) const {
     for (uint32_t patch = 0; patch < patches(); ++patch) {
-      const auto see = [&](int64_t x, int64_t y) {
-        const Place sample{patch, x, y}, owned = owner(n, sample);
-        if (!(owned == sample)) visit(sample, owned);
-      };
-      for (int64_t k = 0; k <= n; ++k) {
-        see(k, 0);
-        see(k, n);
+      for (const auto& [x, y] : {std::pair(int64_t{0}, int64_t{0}), {n, 0}, {n, n}, {0, n}}) {
+        const Place corner{patch, x, y}, owned = owner(n, corner);
+        if (!(owned == corner)) visit(corner, owned);
       }
-      for (int64_t k = 1; k < n; ++k) {
-        see(0, k);
-        see(n, k);
+      for (uint32_t side = patch * kSides; side < (patch + 1) * kSides; ++side) {
+        if (isOwner(side)) continue;
+        for (int64_t k = 1; k < n; ++k) visit(at(n, side, k, 0), across(n, side, k, 0));
       }
     }
   }
 
  private:
   void joinCorners();
-  /// The place at that depth behind a side, `along` counted as the side runs.
+  /// Samples of the side are coded as such, not as those of the one that it is glued to.
+  bool isOwner(uint32_t side) const { return sides_[side] == kBorder || sides_[side] > side; }
+  /// The place at that depth within a patch, seen from a side, `along` counted as the side runs.
+  static Place at(int64_t n, uint32_t side, int64_t along, int64_t depth);
+  /// The place at that depth behind a side.
   Place across(int64_t n, uint32_t side, int64_t along, int64_t depth) const;
 
   int depth_;

@@ -156,29 +156,30 @@ int delayOf(PassKind kind, size_t density) {
   return (kind == PassKind::kLikely ? kLikelyDelay : kRestDelay)[density];
 }
 
-/// Greater keys first; of equal ones the higher plane, then the lower band, then the higher tier,
-/// then the lower kind. All of it is one number, since queues of forests have many passes: 28 bits
-/// of the key, 6 of the plane, 22 of the band, 4 of the tier, 4 of the kind.
-uint64_t rankOf(const Pass& pass) {
-  constexpr int kLeastKey = -(1 << 20), kMostKind = 15;
-  const auto key = static_cast<uint64_t>(pass.key - kLeastKey);
-  const uint64_t band = kMostBands - 1 - pass.band;
-  const auto kind = static_cast<uint64_t>(kMostKind - static_cast<int>(pass.kind));
-  return key << 36 | uint64_t{pass.plane} << 30 | band << 8 | uint64_t{pass.tier} << 4 | kind;
+/// The tiers that bands have: where none is divided the first one alone.
+size_t tiersOf(const std::vector<BandPlan>& plan) {
+  const auto isDivided = [](const BandPlan& band) { return band.tiers != nullptr; };
+  return std::any_of(plan.begin(), plan.end(), isDivided) ? kPriorities : 1;
 }
 
-bool isLater(const Pass& a, const Pass& b) {
-  return rankOf(a) < rankOf(b);
+/// No pass has a greater key.
+int greatestKey(const std::vector<BandPlan>& plan, int planes, size_t tiers) {
+  int key = BandPlan::kNoKey;
+  for (const BandPlan& band : plan)
+    key = std::max({key, 16 * (planes - 1) + band.log_norm, band.key_floor});
+  return key + 16 * (static_cast<int>(tiers) - 1);
 }
 
 }  // namespace
 
 PassQueue::PassQueue(const std::vector<BandPlan>& plan, int planes)
-    : progress_(kPriorities * plan.size()) {
+    : tiers_(tiersOf(plan)),
+      progress_(tiers_ * plan.size()),
+      order_(greatestKey(plan, planes, tiers_)) {
   assert(planes >= 0 && plan.size() <= kMostBands);
   if (planes == 0) return;
   for (size_t band = 0; band < plan.size(); ++band) {
-    for (uint8_t tier = 0; tier < kPriorities; ++tier) {
+    for (uint8_t tier = 0; tier < tiers_; ++tier) {
       const uint32_t members = plan[band].members(tier);
       if (members == 0) continue;
       const Pass first = {static_cast<uint32_t>(band), tier, static_cast<uint8_t>(planes - 1),
@@ -189,18 +190,18 @@ PassQueue::PassQueue(const std::vector<BandPlan>& plan, int planes)
       push(first, 0);
     }
   }
+  order_.settle();
 }
 
 void PassQueue::need(size_t band) {
-  for (size_t tier = 0; tier < kPriorities; ++tier) {
-    Progress& progress = progress_[kPriorities * band + tier];
+  for (size_t tier = 0; tier < tiers_; ++tier) {
+    Progress& progress = progress_[tiers_ * band + tier];
     needed_ += !progress.needed && progress.open > 0;
     progress.needed = true;
   }
 }
 
 void PassQueue::push(Pass pass, uint32_t significant) {
-  assert(pass.plane < 30);
   Progress& progress = progressOf(pass);
   assert(significant <= progress.coefficients);
   const uint32_t rarity = progress.coefficients / std::max(significant, 1u);
@@ -208,17 +209,17 @@ void PassQueue::push(Pass pass, uint32_t significant) {
   pass.key = std::max(16 * pass.plane + progress.log_norm - delayOf(pass.kind, density),
                       progress.key_floor);
   ++progress.open;
-  pending_.push_back(pass);
-  std::push_heap(pending_.begin(), pending_.end(), isLater);
+  order_.add(pass);
 }
 
 void PassQueue::pop(const Band& band) {
-  assert(!pending_.empty() && progressOf(pending_.front()).open > 0);
-  std::pop_heap(pending_.begin(), pending_.end(), isLater);
-  const Pass done = pending_.back();
-  pending_.pop_back();
-  Progress& progress = progressOf(done);
-  if (--progress.open > 0) return;
+  const Pass done = order_.front();
+  order_.pop();
+  if (--progressOf(done).open == 0) pushNext(done, band);
+  order_.settle();
+}
+
+void PassQueue::pushNext(const Pass& done, const Band& band) {
   const uint32_t significant = band.tier_states[done.tier].significant_count;
   Pass next = done;
   if (done.kind == PassKind::kLikely) {
@@ -231,8 +232,9 @@ void PassQueue::pop(const Band& band) {
     --next.plane;
     push(next, significant);
   } else {
-    assert(needed_ >= progress.needed);
-    needed_ -= progress.needed;
+    const bool needed = progressOf(done).needed;
+    assert(needed_ >= needed);
+    needed_ -= needed;
   }
 }
 

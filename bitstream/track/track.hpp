@@ -12,6 +12,7 @@
 
 #include "base/view.hpp"
 #include "bitstream/track/band.hpp"
+#include "bitstream/track/pass_order.hpp"
 #include "bitstream/track/plane_pass.hpp"
 
 namespace tetrakis::inline track {
@@ -82,23 +83,6 @@ struct BandPlan {
   uint32_t members(size_t tier) const;
 };
 
-/// A pass over a tier of a band.
-struct Pass {
-  uint32_t band;
-  uint8_t tier;
-  uint8_t plane;
-  PassKind kind;
-  /// 16 log2 of norm * 2^plane, less a delay, but at least BandPlan::key_floor; 16 more for each
-  /// priority of the tier.
-  int key = 0;
-};
-
-/// Bands of a track, fewer than: a forest has some for each patch, of each colour plane.
-inline constexpr size_t kMostBands = size_t{1} << 22;
-
-/// Bit-planes a coefficient may have: magnitudes stay below 2^30.
-inline constexpr int kMaxPlanes = 30;
-
 /// Bands and contexts: the state that encoder and decoder build in step.
 struct TrackState {
   TrackState(const std::vector<BandPlan>& plan, int planes);
@@ -129,9 +113,9 @@ class PassQueue {
  public:
   PassQueue(const std::vector<BandPlan>& plan, int planes);
 
-  bool empty() const { return pending_.empty(); }
+  bool empty() const { return order_.empty(); }
   /// The next pass.
-  const Pass& front() const { return pending_.front(); }
+  Pass front() const { return order_.front(); }
   /// Takes the next pass off the queue, once it has been coded. band: what is known by then of its
   /// band.
   void pop(const Band& band);
@@ -148,11 +132,14 @@ class PassQueue {
     uint8_t open = 0;           ///< passes of the plane that are not coded yet
   };
 
-  Progress& progressOf(const Pass& pass) { return progress_[kPriorities * pass.band + pass.tier]; }
+  Progress& progressOf(const Pass& pass) { return progress_[tiers_ * pass.band + pass.tier]; }
   void push(Pass pass, uint32_t significant);
+  /// Pushes what follows once no pass of a tier is left.
+  void pushNext(const Pass& done, const Band& band);
 
+  size_t tiers_;                    ///< of every band
   std::vector<Progress> progress_;  ///< of each tier of each band
-  std::vector<Pass> pending_;       ///< a heap
+  PassOrder order_;                 ///< of the passes that may come next, one or two of a tier
   size_t needed_ = 0;               ///< tiers of needed bands with passes left
 };
 

@@ -44,6 +44,15 @@ uint64_t rootOf(uint64_t x) {
   return root;
 }
 
+/// The largest integer that is no more than a / b, of |a| below 2^53 and b from 1 to 2^53. The
+/// quotient of doubles, which is found much sooner, is off by less than 1 before it is cut.
+int64_t quotientOf(int64_t a, int64_t b) {
+  auto quotient = static_cast<int64_t>(static_cast<double>(a) / static_cast<double>(b));
+  while (quotient * b > a) --quotient;
+  while ((quotient + 1) * b <= a) ++quotient;
+  return quotient;
+}
+
 /// The same direction, 2^kNormalBits long; 0 for 0.
 Vector unit(Vector a) {
   constexpr int kBits = 30;  // whose squares fit in 64 bits, all three together
@@ -53,10 +62,8 @@ Vector unit(Vector a) {
   for (int64_t& value : a)
     value = bits > kBits ? shifted(value, bits - kBits) : value * (int64_t{1} << (kBits - bits));
   const auto length = static_cast<int64_t>(rootOf(static_cast<uint64_t>(dot(a, a))));
-  for (int64_t& value : a) {
-    const int64_t doubled = value * (int64_t{2} << BentBase::kNormalBits) + length;
-    value = doubled / (2 * length) - (doubled % (2 * length) < 0 ? 1 : 0);
-  }
+  for (int64_t& value : a)
+    value = quotientOf(value * (int64_t{2} << BentBase::kNormalBits) + length, 2 * length);
   return a;
 }
 
@@ -114,20 +121,22 @@ std::vector<BasePoint> BentBase::patch(uint32_t patch) const {
   }
   std::vector<BasePoint> points;
   points.reserve(static_cast<size_t>((n + 1) * (n + 1)));
-  const auto between = [&](int64_t i, int64_t j, const Vector& nw, const Vector& ne,
-                           const Vector& se, const Vector& sw) {
-    return (n - j) * ((n - i) * nw + i * ne) + j * ((n - i) * sw + i * se);
+  // Coons' patch less its bilinear part, all times n^2, is linear along a row but for two edges.
+  const auto mixed = [n](int64_t k, const Vector& begin, const Vector& end) {
+    return (n - k) * begin + k * end;
   };
+  const Vector* const normals = &normals_[first];
   const int bits = 2 * mesh_.forest->depth();
   for (int64_t j = 0; j <= n; ++j) {
+    const auto y = static_cast<size_t>(j);
+    const Vector begin = n * west[y] - mixed(j, north.front(), south.front());
+    const Vector end = n * east[y] - mixed(j, north.back(), south.back());
+    const Vector first_normal = mixed(j, normals[0], normals[3]);
+    const Vector last_normal = mixed(j, normals[1], normals[2]);
     for (int64_t i = 0; i <= n; ++i) {
-      const auto x = static_cast<size_t>(i), y = static_cast<size_t>(j);
-      const Vector rulings =
-          n * ((n - j) * north[x] + j * south[x] + (n - i) * west[y] + i * east[y]);
-      const Vector flat = between(i, j, north.front(), north.back(), south.back(), south.front());
-      points.push_back(
-          {shifted(rulings - flat, bits), unit(between(i, j, normals_[first], normals_[first + 1],
-                                                       normals_[first + 2], normals_[first + 3]))});
+      const auto x = static_cast<size_t>(i);
+      const Vector place = n * mixed(j, north[x], south[x]) + mixed(i, begin, end);
+      points.push_back({shifted(place, bits), unit(mixed(i, first_normal, last_normal))});
     }
   }
   return points;

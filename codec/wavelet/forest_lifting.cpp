@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/wavelet/forest_lifting.hpp"
 
+#include <array>
 #include <cassert>
 
 #include "base/forest.hpp"
@@ -53,25 +54,46 @@ size_t ForestLifting::indexOf(uint32_t patch, int64_t x, int64_t y) const {
 }
 
 void ForestLifting::findCopies() {
-  const auto place = [&](const Forest::Place& of) { return indexOf(of.patch, of.x, of.y); };
-  const int64_t n = n_, margin = margin_;
   const size_t side = size_t{n_} + 1;
   around_.reserve(forest_.patches() * (size_t{width_} * width_ - side * side));
   shared_.reserve(forest_.patches() * Forest::kSides * side);
+  const std::array<Range, 3> ranges = {
+      {{-int64_t{margin_}, margin_}, {0, side}, {n_ + 1, margin_}}};
   for (uint32_t patch = 0; patch < forest_.patches(); ++patch) {
-    const auto see = [&](int64_t x, int64_t y) {
-      around_.push_back({indexOf(patch, x, y), place(forest_.locate(n, {patch, x, y}))});
-    };
-    for (int64_t y = -margin; y <= n + margin; ++y) {
-      const bool inside = y >= 0 && y <= n;
-      for (int64_t x = -margin; x < 0; ++x) see(x, y);
-      for (int64_t x = 0; x <= n && !inside; ++x) see(x, y);
-      for (int64_t x = n + 1; x <= n + margin; ++x) see(x, y);
+    for (const Range& rows : ranges) {
+      for (const Range& columns : ranges)
+        if (rows.first != 0 || columns.first != 0) see(patch, columns, rows);
     }
   }
-  forest_.forEachShared(n, [&](const Forest::Place& sample, const Forest::Place& owner) {
-    shared_.push_back({place(sample), place(owner)});
+  forest_.forEachShared(n_, [&](const Forest::Place& sample, const Forest::Place& owner) {
+    shared_.push_back({indexOf(sample), indexOf(owner)});
   });
+}
+
+/// All places of such a block are seen in one patch, which is turned as a whole, so that an index
+/// is the sum of a part that depends on the column and one that depends on the row. Along a side,
+/// even places have equal distances, and so have odd ones.
+void ForestLifting::see(uint32_t patch, const Range& columns, const Range& rows) {
+  const auto partsOf = [&](const Range& range, const auto& placeOf, std::vector<size_t>& parts) {
+    parts.resize(range.count);
+    for (size_t k = 0; k < range.count; ++k) {
+      parts[k] = k > 2 && range.first == 0
+                     ? parts[k - 2] + parts[2] - parts[0]
+                     : indexOf(forest_.locate(n_, placeOf(range.first + static_cast<int64_t>(k))));
+    }
+  };
+  const auto inRow = [&](int64_t x) { return Forest::Place{patch, x, rows.first}; };
+  const auto inColumn = [&](int64_t y) { return Forest::Place{patch, columns.first, y}; };
+  partsOf(columns, inRow, column_parts_);
+  partsOf(rows, inColumn, row_parts_);
+  for (size_t y = 0; y < rows.count; ++y) {
+    const size_t row = row_parts_[y] - row_parts_[0];
+    for (size_t x = 0; x < columns.count; ++x) {
+      const Forest::Place place{patch, columns.first + static_cast<int64_t>(x),
+                                rows.first + static_cast<int64_t>(y)};
+      around_.push_back({indexOf(place), column_parts_[x] + row});
+    }
+  }
 }
 
 void ForestLifting::copyAll(const std::vector<Copy>& copies) {

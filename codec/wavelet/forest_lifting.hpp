@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "base/forest.hpp"
 #include "codec/wavelet/held_cells.hpp"
 #include "codec/wavelet/lifting/lifting.hpp"
 #include "codec/wavelet/pyramid.hpp"
@@ -39,9 +40,19 @@ class ForestLifting {
     size_t to, from;
   };
 
+  /// Columns or rows from one on, all within a patch or all beyond one of its sides.
+  struct Range {
+    int64_t first;
+    size_t count;
+  };
+
   /// Of a sample of a patch, or of what lies around it; even columns come before odd ones.
   size_t indexOf(uint32_t patch, int64_t x, int64_t y) const;
+  size_t indexOf(const Forest::Place& place) const {
+    return indexOf(place.patch, place.x, place.y);
+  }
   void findCopies();
+  void see(uint32_t patch, const Range& columns, const Range& rows);
   void copyAll(const std::vector<Copy>& copies);
   void lift(size_t round, const HeldCellsOfLevel& held);
   void step(size_t round, JointStep step, const HeldCellsOfLevel& held);
@@ -64,6 +75,8 @@ class ForestLifting {
   std::vector<int32_t> patches_;
   std::vector<uint16_t> numbers_;  ///< of held samples, laid out like the patches; empty: none
   std::vector<Copy> around_, shared_;
+  std::vector<size_t> column_parts_,
+      row_parts_;  ///< of indices around a patch, while copies are found
 };
 
 }  // namespace tetrakis::inline wavelet

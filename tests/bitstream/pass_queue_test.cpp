@@ -73,6 +73,34 @@ TEST(PassQueue, HoldsEveryPassOnceAndPlanesOfABandInTurn) {
   }
 }
 
+/// Each pass is behind the one before, also where floors make keys alike.
+TEST(PassQueue, GivesPassesInTheOrderOfTheirRanks) {
+  Random random(2);
+  const auto rankOf = [](const Pass& pass) {
+    return std::tuple(-pass.key, -pass.plane, pass.band, -pass.tier, pass.kind);
+  };
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<BandPlan> plan(500, BandPlan{.shape = {3, 5}});
+    for (BandPlan& band : plan) {
+      band.log_norm = static_cast<int>(random() % 60);
+      if (trial % 2 != 0) band.key_floor = static_cast<int>(random() % 3);
+    }
+    std::vector<uint32_t> significant(plan.size(), 0);
+    PassQueue queue(plan, 5);
+    std::tuple before = rankOf({0, 0, 0, PassKind::kLikely, 1 << 20});
+    size_t count = 0;
+    for (; !queue.empty(); ++count) {
+      const Pass pass = queue.front();
+      EXPECT_LT(before, rankOf(pass));
+      before = rankOf(pass);
+      uint32_t& known = significant[pass.band];
+      if (random() % 4 == 0) known = std::min(known + 5, 15u);
+      queue.pop(bandWith(plan[pass.band].shape, known));
+    }
+    EXPECT_EQ(count, 5 * 3 * plan.size());
+  }
+}
+
 /// Of two bands with as many significant coefficients, one whose norm is twice as large is a plane
 /// ahead.
 TEST(PassQueue, FollowsTheNorms) {
@@ -83,7 +111,7 @@ TEST(PassQueue, FollowsTheNorms) {
   for (int i = 0; !queue.empty(); ++i) {
     const Pass pass = queue.front();
     if (i < 3) {
-      EXPECT_EQ(pass.band, 1);
+      EXPECT_EQ(pass.band, 1u);
     }
     queue.pop(bandWith(plan[0].shape, 50));
   }

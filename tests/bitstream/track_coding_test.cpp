@@ -77,8 +77,10 @@ void expectTruth(const TrackState& state, size_t index, const BandSource& source
   const BandShape& shape = band.shape;
   std::vector<int32_t> whole(shape.columns), fine(shape.columns);
   for (uint32_t row = 0; row < shape.rows; ++row) {
-    Reconstruction(band, 0).row(row, whole.data());
-    Reconstruction(band, places).row(row, fine.data());
+    if (band.hasCells()) {
+      Reconstruction(band, 0).row(row, whole.data());
+      Reconstruction(band, places).row(row, fine.data());
+    }
     for (uint32_t column = 0; column < shape.columns; ++column) {
       const size_t cell = shape.cell(row, column), word = shape.word(row, column / 32);
       const int32_t truth = source.values[cell];

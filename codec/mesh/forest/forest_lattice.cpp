@@ -91,13 +91,13 @@ class JoinedMesh {
     place_[sample] = static_cast<uint32_t>(mesh_.vertices.size());
     mesh_.vertices.push_back(sample);
   }
+  /// Gives samples that others own the vertices of those, once all are added.
+  void shareVertices() { shareOwned(forest_, std::span(place_), lastOf(forest_)); }
   /// mesh: its vertices are samples of the patch.
   void addTriangles(uint32_t patch, const LatticeMesh& mesh) {
-    const uint32_t side = forest_.side();
-    for (const uint32_t vertex : mesh.triangles) {
-      const uint32_t local = mesh.vertices[vertex];
-      mesh_.triangles.push_back(place_[ownerOf(forest_, patch, local % side, local / side)]);
-    }
+    const size_t first = size_t{patch} * forest_.side() * forest_.side();
+    for (const uint32_t vertex : mesh.triangles)
+      mesh_.triangles.push_back(place_[first + mesh.vertices[vertex]]);
   }
   LatticeMesh take() { return std::move(mesh_); }
 
@@ -137,6 +137,7 @@ LatticeMesh meshOf(const ForestLattice& lattice, std::span<const ForestVertex> v
     for (const auto& [x, y] : {std::pair(0u, 0u), {last, 0u}, {0u, last}, {last, last}})
       joined.addVertex(ownerOf(forest, patch, x, y));
   for (const ForestVertex v : vertices) joined.addVertex(lattice.sample(v));
+  joined.shareVertices();
   const PatchMeshes meshes(lattice, vertices);
   for (uint32_t patch = 0; patch < forest.patches(); ++patch)
     joined.addTriangles(patch, meshes.of(patch));
