@@ -89,6 +89,7 @@ Status put(tks_decoder& decoder, std::span<const Run> runs) {
   const size_t front = decoder.data.size();
   decoder.is_lost = true;  // if memory ends on the way
   if (decoder.pieces.empty()) {
+    decoder.packets.borrowed.joinAll(decoder.packets.payload);
     decoder.pieces.put(0, decoder.data);
     decoder.data = decoder.pieces.from(0);
   }
@@ -161,12 +162,12 @@ int fedLevel(const tks_decoder& decoder, Component component, const auto& header
   if (isComplete(decoder)) return 0;
   int fed = header.wavelet.forest == nullptr ? coarsestLevel(header.shown()) : 0;
   const auto regions = regionsOf(header.width, header.height, header.regions.side_log2);
-  const auto& tracks = decoder.packets.payload.codewords[static_cast<size_t>(component)];
-  for (const auto& [number, bytes] : tracks) {
-    if (number >= regions.size() || bytes.empty()) continue;  // tracks of corrections
-    const Region& region = regions[number];
+  for (size_t i = 0; i < regions.size(); ++i) {
+    const uint64_t bytes = decoder.packets.bytesOf(component, static_cast<uint32_t>(i));
+    if (bytes == 0) continue;
+    const Region& region = regions[i];
     const uint64_t samples = uint64_t{region.x1 - region.x0} * (region.y1 - region.y0);
-    fed = std::min(fed, levelFedBy(bytes.size(), samples, region.first_level - 1));
+    fed = std::min(fed, levelFedBy(bytes, samples, region.first_level - 1));
   }
   return fed;
 }

@@ -163,7 +163,7 @@ Status giveValidity(tks_decoder& decoder, const Call& call) {
     valid = decoder.heights->geometry.valid;
   } else if (!decoder.packets.payload.nothingOf(Component::kGeometry)) {
     valid = decodeValidityLayer(*header.geometry, header.layers,
-                                decoder.packets.payload.codewordsOf(Component::kGeometry), *view);
+                                decoder.packets.codewordsOf(Component::kGeometry, {true}), *view);
   }
   auto* const out = static_cast<uint8_t*>(call.out);
   if (valid.empty()) {
@@ -187,7 +187,8 @@ Status giveTexels(tks_decoder& decoder, const Call& call) {
     return {};
   }
   const TextureHeader shown = headerFor(decoder, header, *view);
-  const Codewords codewords = decoder.packets.payload.codewordsOf(Component::kTexture);
+  const Codewords codewords = decoder.packets.codewordsOf(
+      Component::kTexture, neededTracks(decoder.parsed.header, Component::kTexture, *view));
   TextureMemory* const memory =
       memoryOf(decoder, decoder.texture_memory, decoder.texture_windows, *view);
   auto* out = static_cast<std::byte*>(call.out);

@@ -7,9 +7,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "api/guarded.hpp"
 #include "base/view.hpp"
+#include "bitstream/stream/borrowed_packets.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/stream/pieces.hpp"
@@ -24,8 +26,17 @@ namespace tetrakis::inline api {
 /// What there is of the packets of a stream.
 struct TakenPackets {
   Demultiplexed payload;
-  uint64_t bytes = 0;    ///< that `payload` takes, at most
-  bool has_gap = false;  ///< a byte is missing before others
+  BorrowedPackets borrowed;  ///< of the bytes given to tks_open(), what no call has needed yet
+  uint64_t bytes = 0;        ///< that `payload` takes, at most
+  bool has_gap = false;      ///< a byte is missing before others
+
+  /// The codewords of a component, of which those of needed tracks are there: of the others the
+  /// lengths are right.
+  Codewords codewordsOf(Component component, const std::vector<bool>& needed) {
+    return borrowed.codewordsOf(component, needed, payload);
+  }
+  /// How many bytes of a track are there.
+  uint64_t bytesOf(Component component, uint32_t track) const;
 };
 
 }  // namespace tetrakis::inline api

@@ -88,11 +88,12 @@ TextureHeader headerFor(const tks_decoder& decoder, const TextureHeader& header,
 /// Which region a missing coefficient reaches is looked up for each region, in proportion to the
 /// square of their number: in planes of very many regions all corrections wait for all coefficients
 /// of the view.
-Codewords heightTracksFor(const tks_decoder& decoder, const View& view) {
+Codewords heightTracksFor(tks_decoder& decoder, const View& view) {
   constexpr uint64_t kMostLookedUp = 1 << 17;  // about a tenth of a second
   const StreamHeader& header = decoder.parsed.header;
   const GeometryHeader& geometry = *header.geometry;
-  Codewords tracks = decoder.packets.payload.codewordsOf(Component::kGeometry);
+  Codewords tracks = decoder.packets.codewordsOf(Component::kGeometry,
+                                                 neededTracks(header, Component::kGeometry, view));
   const uint64_t corrections = correctionTracks(geometry, header.layers);
   if (!decoder.packets.has_gap || corrections == 0) return tracks;
   const size_t coefficients = tracks.size() - corrections;

@@ -134,9 +134,7 @@ void fillStream(const tks_decoder& decoder, tks_info& info) {
 /// of what it decides.
 bool voidsAreKnown(const tks_decoder& decoder) {
   constexpr uint64_t kReadAhead = 4;
-  const auto& tracks = decoder.packets.payload.codewords[0];
-  const auto first = tracks.find(0);
-  const uint64_t known = first == tracks.end() ? 0 : first->second.size();
+  const uint64_t known = decoder.packets.bytesOf(Component::kGeometry, 0);
   const uint64_t ahead = isComplete(decoder) ? kReadAhead : 0;
   return known + ahead >= decoder.parsed.header.layers.maskEnd();
 }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <string>
 
+#include "api/needed.hpp"
+
 namespace tetrakis::inline api {
 
 uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks) {
@@ -12,14 +14,14 @@ uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks) {
   uint64_t known = 0;
   for (size_t c = 0; c < kComponents; ++c) known += std::min(tracks[c].tracks, count.packets);
   // A vector that grows has up to twice its size beside the one before.
-  return count.packets * sizeof(PacketHead) + 3 * count.bytes + known * kNode;
+  return count.packets * (sizeof(PacketHead) + BorrowedPackets::kPacketBytes) + 3 * count.bytes +
+         known * kNode;
 }
 
 namespace {
 
-/// Bytes that the call allocates at its peak, at most; meshes include what they hand over. The
-/// stream holds what is asked for.
-uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
+/// What a call takes beside the codewords that it joins.
+uint64_t decodingBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   if (request.part == TKS_PART_TEXTURE) {
     if (decoder.packets.payload.nothingOf(Component::kTexture)) return kDrawnOnceBytes;
     return textureBytes(decoder, request.view);
@@ -31,6 +33,22 @@ uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   if (decoder.heights && !request.view.window) return 0;
   const HeightsBytes heights(decoder, request.view);
   return request.part == TKS_PART_VALIDITY ? heights.validity() : heights.decoding();
+}
+
+/// Of codewords that no call has needed yet.
+uint64_t joinedBytes(const tks_decoder& decoder, const MemoryRequest& request) {
+  const BorrowedPackets& borrowed = decoder.packets.borrowed;
+  if (borrowed.bytes() == 0) return 0;
+  const bool texture = request.part == TKS_PART_TEXTURE;
+  const Component component = texture ? Component::kTexture : Component::kGeometry;
+  const StreamHeader& header = decoder.parsed.header;
+  return borrowed.bytesOf(component, neededTracks(header, component, request.view));
+}
+
+/// Bytes that the call allocates at its peak, at most; meshes include what they hand over. The
+/// stream holds what is asked for.
+uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
+  return decodingBytes(decoder, request) + joinedBytes(decoder, request);
 }
 
 }  // namespace
@@ -57,7 +75,8 @@ std::string describe(const tks_decoder& decoder, const MemoryRequest& request) {
 
 /// What the decoder holds already.
 uint64_t heldBytes(const tks_decoder& decoder) {
-  uint64_t bytes = decoder.packets.bytes + decoder.pieces.bytes() + decoder.heights_memory.bytes() +
+  uint64_t bytes = decoder.packets.bytes - decoder.packets.borrowed.bytes() +
+                   decoder.pieces.bytes() + decoder.heights_memory.bytes() +
                    decoder.texture_memory.bytes() + decoder.heights_windows.bytes() +
                    decoder.texture_windows.bytes();
   if (!decoder.heights) return bytes;

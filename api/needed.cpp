@@ -33,6 +33,8 @@ std::vector<bool> neededTracks(const auto& header, const View& view) {
 }  // namespace
 
 std::vector<bool> neededTracks(const StreamHeader& header, Component component, const View& view) {
+  if (view.isWhole())
+    return std::vector<bool>(trackCounts(header)[static_cast<size_t>(component)].tracks, true);
   if (component == Component::kTexture)
     return neededTracks(*header.texture, codedView(*header.texture, view));
   const GeometryHeader& geometry = *header.geometry;

@@ -38,6 +38,6 @@ TextureHeader headerFor(const tks_decoder& decoder, const TextureHeader& header,
 
 /// The tracks of the heights: corrections of a region are empty unless all coefficients are there
 /// that reach into it, because corrections of other heights correct nothing.
-Codewords heightTracksFor(const tks_decoder& decoder, const View& view);
+Codewords heightTracksFor(tks_decoder& decoder, const View& view);
 
 }  // namespace tetrakis::inline api

@@ -127,9 +127,19 @@ Result<TakenPackets> takePackets(const tks_decoder& decoder) {
   if (!count.ok()) return count.status();
   const Result<uint64_t> bytes = memoryFor(decoder, *count);
   if (!bytes.ok()) return bytes.status();
-  Result<Demultiplexed> taken = demultiplex(payload, start, tracks, count->packets);
-  if (!taken.ok()) return taken.status();
-  return TakenPackets{*std::move(taken), *bytes};
+  TakenPackets taken;
+  taken.bytes = *bytes;
+  taken.payload.counts = tracks;
+  taken.payload.heads.reserve(count->packets);
+  if (Status status = passHeads(payload, start, taken.payload); !status.ok()) return status;
+  taken.borrowed = BorrowedPackets(payload, taken.payload);
+  return taken;
+}
+
+uint64_t TakenPackets::bytesOf(Component component, uint32_t track) const {
+  const auto& joined = payload.codewords[static_cast<size_t>(component)];
+  const auto found = joined.find(track);
+  return found != joined.end() ? found->second.size() : borrowed.bytesOf(component, track);
 }
 
 namespace {

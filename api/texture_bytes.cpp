@@ -21,10 +21,8 @@ constexpr uint32_t kTexels = 1 << 20, kLeastRows = 64;
 bool areRemembered(const tks_decoder& decoder) {
   const TextureHeader& header = *decoder.parsed.header.texture;
   if (!decoder.remembers || header.direct()) return false;
-  const auto& tracks = decoder.packets.payload.codewords[static_cast<size_t>(Component::kTexture)];
-  const auto first = tracks.find(0);
   const uint64_t opening = header.alpha_bytes + header.overlay_bytes;
-  return opening == 0 || (first != tracks.end() && first->second.size() >= opening);
+  return decoder.packets.bytesOf(Component::kTexture, 0) >= opening;
 }
 
 }  // namespace

@@ -48,12 +48,17 @@ Decoded decodedFrom(Stream& stream) {
           info.packets,     info.heights_rmse, info.texture_psnr};
 }
 
-/// Appends pieces of `stride` bytes, each in memory that is gone afterwards.
-void appendAndCompare(const Vector& vector, size_t stride) {
-  const Bytes& bytes = vector.bytes;
+uint64_t headerOf(const Bytes& bytes) {
   uint64_t header = 0;
-  ASSERT_EQ(tks_header_bytes(bytes.data(), bytes.size(), &header), TKS_OK);
-  Bytes opening(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(header));
+  EXPECT_EQ(tks_header_bytes(bytes.data(), bytes.size(), &header), TKS_OK);
+  return header;
+}
+
+/// Opens the first `opened` bytes and appends pieces of `stride` bytes, each in memory that is gone
+/// afterwards.
+void appendAndCompare(const Vector& vector, uint64_t opened, size_t stride) {
+  const Bytes& bytes = vector.bytes;
+  Bytes opening(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(opened));
   Stream growing(opening);
   ASSERT_EQ(growing.status(), TKS_OK) << vector.name;
   for (size_t end = opening.size(); end < bytes.size();) {
@@ -65,7 +70,7 @@ void appendAndCompare(const Vector& vector, size_t stride) {
       ASSERT_EQ(tks_append(growing.get(), piece.data(), piece.size()), TKS_OK)
           << vector.name << ": " << tks_message(growing.get());
     }
-    if (begin == header) opening.assign(opening.size(), 0xee);  // no longer needed
+    if (begin == opened) opening.assign(opening.size(), 0xee);  // no longer needed
     Stream fresh(Prefix(bytes).first(end));
     ASSERT_TRUE(decodedFrom(growing) == decodedFrom(fresh))
         << vector.name << ": " << end << " of " << bytes.size() << " bytes, by " << stride;
@@ -74,13 +79,22 @@ void appendAndCompare(const Vector& vector, size_t stride) {
 }
 
 TEST(Append, ByteByByteIsAsFromTheStart) {
-  for (const Vector& vector : vectors(400)) ASSERT_NO_FATAL_FAILURE(appendAndCompare(vector, 1));
+  for (const Vector& vector : vectors(400))
+    ASSERT_NO_FATAL_FAILURE(appendAndCompare(vector, headerOf(vector.bytes), 1));
 }
 
 TEST(Append, InPiecesIsAsFromTheStart) {
   for (const Vector& vector : vectors(9000)) {
     const size_t tenth = std::max<size_t>(vector.bytes.size() / 10, 1);
-    ASSERT_NO_FATAL_FAILURE(appendAndCompare(vector, tenth));
+    ASSERT_NO_FATAL_FAILURE(appendAndCompare(vector, headerOf(vector.bytes), tenth));
+  }
+}
+
+/// The bytes that a decoder was opened on are no longer needed, though no call has decoded them.
+TEST(Append, ToSomePacketsIsAsFromTheStart) {
+  for (const Vector& vector : vectors(9000)) {
+    const uint64_t header = headerOf(vector.bytes), payload = vector.bytes.size() - header;
+    ASSERT_NO_FATAL_FAILURE(appendAndCompare(vector, header + payload * 3 / 4, payload / 8 + 1));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "conformance/samples/terrain_samples.hpp"
@@ -98,6 +99,11 @@ class Stream {
     info_.size = sizeof info_;
     if (status_ == TKS_OK) status_ = tks_get_info(decoder_, &info_);
   }
+  /// Keeps bytes that nobody else keeps.
+  explicit Stream(Bytes&& bytes, const tks_limits* limits = nullptr)
+      : Stream(Prefix(bytes), limits) {
+    kept_ = std::move(bytes);
+  }
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
   ~Stream() {
@@ -141,6 +147,7 @@ class Stream {
   }
 
  private:
+  Bytes kept_;
   tks_decoder* decoder_ = nullptr;
   tks_status status_ = TKS_OK;
   tks_info info_ = {};
