@@ -19,6 +19,10 @@ namespace {
 /// Base meshes are tried that have this many triangles, or 2^k times as many.
 constexpr uint32_t kCoarsestBase = 125, kFinestBase = 8000;
 
+/// The same of a mesh with a texture. Finer bases cut the texture in more pieces: pictures of their
+/// atlas mix texels of neighbours, and all takes longer.
+constexpr uint32_t kFinestTexturedBase = 2000;
+
 /// Bytes of a budget for each triangle of the base that is tried first.
 constexpr double kBytesForTriangle = 5;
 
@@ -112,8 +116,9 @@ class ResampledSearch {
 
   /// The first size of a base that all triangles of the mesh fit in, or the largest one.
   uint32_t mostTriangles() const {
+    const uint32_t finest = given_.image != nullptr ? kFinestTexturedBase : kFinestBase;
     uint32_t most = kCoarsestBase;
-    while (most < kFinestBase && most < given_.source.cleaned().mesh.triangles.size()) most *= 2;
+    while (most < finest && most < given_.source.cleaned().mesh.triangles.size()) most *= 2;
     return most;
   }
 

@@ -11,7 +11,7 @@ namespace tetrakis::inline wavelet {
 
 namespace {
 
-constexpr uint64_t kOnce = 64 << 10;  // plans and models
+constexpr uint64_t kOnce = 80 << 10;  // plans, models and the order of passes
 constexpr uint64_t kBand = 512;       // a band of a plane, and its plan, without coefficients
 
 /// The bands of a track, marked by what the view needs of each plane of them.

@@ -166,6 +166,8 @@ Status checkSurfaceArguments(const EncodeArguments& arguments) {
             "--max-error"};
   if (!arguments.texture.empty() && arguments.bytes == 0)
     return {TKS_USAGE, "a mesh with --texture takes --bytes as its target"};
+  if (!arguments.cameras.isDefault() && arguments.bytes == 0)
+    return {TKS_USAGE, "cameras share bytes between a mesh and its texture: give --bytes"};
   const std::pair<const char*, bool> options[] = {
       {"--triangles", arguments.triangles > 0},
       {"--engine", arguments.engine != "modelled"},
