@@ -39,6 +39,13 @@ Pass PassOrder::front() const {
           greatest_key_ - static_cast<int>(closed_ - 1)};
 }
 
+uint64_t PassOrder::bytes() const {
+  uint64_t ranks = spare_.capacity();
+  for (const Ranks& of_key : keys_) ranks += of_key.capacity();
+  for (const Ranks& of_plane : planes_) ranks += of_plane.capacity();
+  return keys_.capacity() * sizeof(Ranks) + ranks * sizeof(Rank);
+}
+
 void PassOrder::add(const Pass& pass) {
   assert(pass.key <= greatest_key_);
   const auto key = static_cast<size_t>(greatest_key_ - pass.key);

@@ -40,6 +40,7 @@ class PassOrder {
   explicit PassOrder(int greatest_key) : greatest_key_(greatest_key) {}
 
   bool empty() const { return count_ == 0; }
+  uint64_t bytes() const;
   /// Passes may be added after pop(); then settle() finds the first one, which front() gives.
   void add(const Pass& pass);
   void settle();

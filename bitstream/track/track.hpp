@@ -114,6 +114,7 @@ class PassQueue {
   PassQueue(const std::vector<BandPlan>& plan, int planes);
 
   bool empty() const { return order_.empty(); }
+  uint64_t bytes() const { return progress_.size() * sizeof(Progress) + order_.bytes(); }
   /// The next pass.
   Pass front() const { return order_.front(); }
   /// Takes the next pass off the queue, once it has been coded. band: what is known by then of its

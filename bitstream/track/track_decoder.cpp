@@ -156,7 +156,7 @@ const TrackState& GrowingTrack::decodePasses(std::span<const uint8_t> codeword, 
 }
 
 uint64_t GrowingTrack::bytes() const {
-  uint64_t sum = (state_.models.size() + 1) * sizeof(BandModels);
+  uint64_t sum = (state_.models.size() + 1) * sizeof(BandModels) + passes_.bytes();
   for (const BandPlan& band : plan_) {
     sum += band.absent.size() * sizeof(uint32_t);
     if (band.tiers != nullptr) sum += band.tiers->bytes();
