@@ -149,7 +149,8 @@ TEST(WindowMemory, GrowsWithTheBytes) {
 /// Pieces come in any order, as do those of a map that is moved about.
 TEST(WindowMemory, GrowsAroundGaps) {
   std::mt19937 random(3);
-  for (const auto& [name, bytes] : streams()) {
+  for (const auto& named : streams()) {
+    const Bytes& bytes = named.second;
     const Stream whole(bytes);
     if (whole.info().index == TKS_INDEX_NONE) continue;
     const auto header = static_cast<size_t>(whole.info().header_bytes);
