@@ -173,7 +173,8 @@ TEST(WindowMemory, GrowsAroundGaps) {
         const Question question = anyQuestion(lasting.info(), random);
         const Stream fresh(Prefix(bytes).first(header));
         for (size_t k = 0; k < count; ++k) put(fresh, pieces[k]);
-        ASSERT_TRUE(answer(lasting, question) == answer(fresh, question)) << name << ", " << count;
+        ASSERT_TRUE(answer(lasting, question) == answer(fresh, question))
+            << named.first << ", " << count;
       }
     }
   }
