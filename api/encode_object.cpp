@@ -2,6 +2,7 @@
 // Objects through the C interface: a mesh of any triangles becomes heights over a base mesh, or
 // triangles on a grid, whichever comes nearer to it.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <utility>
@@ -65,8 +66,9 @@ tks_object_trial trialOf(const std::optional<CodedObject>& coded) {
   if (!coded) return {};
   constexpr double kWhite = 255;
   const double picture = coded->picture_error;
+  if (picture < 0) return {coded->stream.size(), coded->distance.psnr, 0};
   return {coded->stream.size(), coded->distance.psnr,
-          picture > 0 ? 10 * portable::log10(kWhite * kWhite / picture) : 0};
+          picture > 0 ? 10 * portable::log10(kWhite * kWhite / picture) : HUGE_VAL};
 }
 
 tks_object_report reportOf(const ObjectSource& source, const BothKinds& both) {

@@ -14,10 +14,6 @@ namespace {
 
 constexpr uint32_t kMostElements = 1u << 26;  ///< points, and triangles
 
-struct Closer {
-  void operator()(tks_decoder* decoder) const { tks_close(decoder); }
-};
-
 }  // namespace
 
 Status misusedObject(const std::string& sentence) {
@@ -111,7 +107,7 @@ Result<std::vector<uint8_t>> encodedTrial(GivenObject& given, tks_encode_options
 Result<std::vector<uint16_t>> decodedTexels(const std::vector<uint8_t>& stream) {
   tks_decoder* opened = nullptr;
   const tks_status status = tks_open(stream.data(), stream.size(), nullptr, &opened, nullptr, 0);
-  const std::unique_ptr<tks_decoder, Closer> decoder(opened);
+  const OwnDecoder decoder(opened);
   tks_info info{};
   info.size = sizeof info;
   if (status != TKS_OK || tks_get_info(decoder.get(), &info) != TKS_OK)

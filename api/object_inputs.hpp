@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "base/watch.hpp"
@@ -85,8 +87,8 @@ struct GivenObject {
 
 struct CodedObject {
   std::vector<uint8_t> stream;
-  MeshDistance distance;     ///< to the mesh
-  double picture_error = 0;  ///< mean square (ObjectPictures); 0: there is no texture
+  MeshDistance distance;      ///< to the mesh
+  double picture_error = -1;  ///< mean square (ObjectPictures); -1: there is no texture
   /// Of tks_object_report, where they are of the stream.
   tks_object_kind kind = TKS_OBJECT_RESAMPLED;
   uint32_t patches = 0, depth = 0, texture_depth = 0, coded_triangles = 0;
@@ -106,6 +108,12 @@ Result<CodedObject> encodeResampled(GivenObject& given);
 
 /// Within the target of the options: as many triangles, on as fine a grid, as serve it best.
 Result<CodedObject> encodeTriangles(GivenObject& given);
+
+struct DecoderCloser {
+  void operator()(tks_decoder* decoder) const { tks_close(decoder); }
+};
+/// A decoder of a stream that an encoder has made.
+using OwnDecoder = std::unique_ptr<tks_decoder, DecoderCloser>;
 
 /// The texels of a stream, interleaved. Those of 8 bits become numbers up to 255.
 Result<std::vector<uint16_t>> decodedTexels(const std::vector<uint8_t>& stream);

@@ -37,17 +37,15 @@ ImagePlace placeOn(Extent image, const std::array<Place, 3>& corners, const Seen
   const double texels = std::abs(side(1, 0) * side(2, 1) - side(1, 1) * side(2, 0)) / 2 *
                         static_cast<double>(image.samples());
   const double wide = texels / std::max(double{seen.samples}, 1e-30);
-  return {along(0), along(1), wide > 1 ? portable::log2(wide) / 2 : 0};
+  const bool is_coarser = wide > 1 && std::isfinite(wide);
+  return {along(0), along(1), is_coarser ? portable::log2(wide) / 2 : 0};
 }
 
-/// The image of a mesh repeats.
+/// The image of a mesh repeats. A place that is no number is its corner.
 Colour repeated(const ScreenTexture& texture, const ImagePlace& place) {
-  return texture.at(place.u - std::floor(place.u), place.v - std::floor(place.v), place.level);
+  const auto inside = [](double at) { return std::isfinite(at) ? at - std::floor(at) : 0; };
+  return texture.at(inside(place.u), inside(place.v), place.level);
 }
-
-struct DecoderCloser {
-  void operator()(tks_decoder* decoder) const { tks_close(decoder); }
-};
 
 Status unsound() {
   return {TKS_MISMATCH, "The stream of the object is not sound."};
@@ -71,7 +69,7 @@ Result<DecodedObject> decodedObject(const std::vector<uint8_t>& stream) {
   tks_decoder* opened = nullptr;
   if (tks_open(stream.data(), stream.size(), nullptr, &opened, nullptr, 0) != TKS_OK)
     return unsound();
-  const std::unique_ptr<tks_decoder, DecoderCloser> decoder(opened);
+  const OwnDecoder decoder(opened);
   tks_info info{};
   info.size = sizeof info;
   tks_object_mesh mesh{};
@@ -109,26 +107,32 @@ PatchPlace onPatch(const ImagePlace& place, const Texels& raster, int depth) {
           static_cast<float>(place.level)};
 }
 
+/// The cameras of the caller, which are checked, or those all around the mesh. Some of the latter
+/// may see nothing: a flat mesh shows them its edge.
+Result<std::vector<Camera>> camerasOf(const tks_encode_options& options, const TriangleMesh& mesh) {
+  if (options.camera_count == 0) {
+    const Box box = boxAround(mesh.points);
+    return camerasAround({box.low, box.high});
+  }
+  std::vector<Camera> cameras = givenCameras(options);
+  for (const Camera& camera : cameras)
+    if (Status status = checkCamera(camera); !status.ok()) return status;
+  const auto counts = [](const Camera& camera) { return camera.weight > 0; };
+  if (std::none_of(cameras.begin(), cameras.end(), counts))
+    return misusedObject("No camera has a weight above 0.");
+  return cameras;
+}
+
 }  // namespace
 
 Result<ObjectPictures> ObjectPictures::of(const GivenObject& given) {
   const TriangleMesh& mesh = given.source.cleaned().mesh;
-  const Box box = boxAround(mesh.points);
-  std::vector<Camera> cameras = givenCameras(given.options);
-  if (cameras.empty()) {
-    Result<std::vector<Camera>> around = camerasAround({box.low, box.high});
-    if (!around.ok()) return around.status();
-    cameras = std::move(*around);
-  }
-  const auto counts = [](const Camera& camera) { return camera.weight > 0; };
-  for (const Camera& camera : cameras)
-    if (Status status = checkCamera(camera); !status.ok()) return status;
-  if (std::none_of(cameras.begin(), cameras.end(), counts))
-    return misusedObject("No camera has a weight above 0.");
-  ObjectPictures pictures(std::move(cameras));
+  Result<std::vector<Camera>> cameras = camerasOf(given.options, mesh);
+  if (!cameras.ok()) return cameras.status();
+  ObjectPictures pictures(*std::move(cameras));
   pictures.seen_ = pictures.pictures_.seenOf({mesh.points, mesh.triangles});
   const size_t blind = pictures.pictures_.firstBlind(pictures.seen_);
-  if (blind < pictures.pictures_.cameras().size())
+  if (given.options.camera_count > 0 && blind < pictures.pictures_.cameras().size())
     return misusedObject("Camera '" + pictures.pictures_.cameras()[blind].name +
                          "' sees nothing of the mesh.");
   const std::shared_ptr<const TextureSource> image = quantiseTexture(*given.image);

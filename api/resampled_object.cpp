@@ -2,7 +2,6 @@
 // encodeResampled() codes an object as heights over a base mesh. A coarse base takes few bytes and
 // leaves more of them to the heights, but loses thin parts: so bases of several sizes are tried.
 #include "api/object_inputs.hpp"
-#include "api/object_pictures.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "api/object_pictures.hpp"
 #include "base/forest.hpp"
 #include "base/portable_math.hpp"
 

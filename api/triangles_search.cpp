@@ -3,7 +3,6 @@
 // bytes as few triangles on a fine grid: so it tries several numbers of triangles, and for each of
 // them several grids.
 #include "api/object_inputs.hpp"
-#include "api/object_pictures.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -12,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "api/object_pictures.hpp"
 #include "base/portable_math.hpp"
 #include "bitstream/stream/header.hpp"
 #include "codec/remesh/half_edges.hpp"
@@ -277,8 +277,7 @@ class TrianglesSearch {
     if (static_cast<double>(coarsest->size()) > most) return best;
     for (int grid = kFinestBesideTexture; grid >= kCoarsest; grid -= kTexturedSteps) {
       const std::optional<std::vector<uint8_t>> alone = trial.streamOf(grid);
-      if (!alone) return tooMany();
-      if (static_cast<double>(alone->size()) > most) continue;
+      if (!alone || static_cast<double>(alone->size()) > most) continue;
       Result<CodedObject> made = withTexture(trial, grid, alone->size());
       if (!made.ok()) return made;
       if (best.ok() && made->picture_error >= best->picture_error) break;

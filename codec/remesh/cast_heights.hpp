@@ -26,9 +26,10 @@ CastSurface castHeights(
     const BaseMesh& base, const TriangleTree& mesh,
     const std::function<SurfacePoint(uint32_t patch, double x, double y)>& place_of);
 
-/// The surface over a base as a mesh: each square between four samples becomes two triangles.
-/// kSampleTriangles triangles that follow on each other lie side by side.
+/// So many triangles of meshOfSamples() that follow on each other lie side by side.
 inline constexpr uint32_t kSampleTriangles = 8;
+
+/// The surface over a base as a mesh: each square between four samples becomes two triangles.
 TriangleMesh meshOfSamples(const BaseMesh& base, const std::vector<float>& heights);
 
 }  // namespace tetrakis::inline remesh

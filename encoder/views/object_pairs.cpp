@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/views/object_pairs.hpp"
+// objectErrors() draws surfaces over a base mesh for cameras, with the textures of their patches.
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 
 #include "base/samples.hpp"
 #include "codec/remesh/cast_heights.hpp"
+#include "encoder/views/pairs.hpp"
 #include "encoder/views/view_inputs.hpp"
 #include "ratecontrol/pictures/patch_texture.hpp"
 #include "ratecontrol/pictures/triangle_pictures.hpp"

@@ -11,7 +11,6 @@
 
 #include "base/samples.hpp"
 #include "encoder/views/decoded_nodes.hpp"
-#include "encoder/views/object_pairs.hpp"
 #include "encoder/views/view_inputs.hpp"
 #include "ratecontrol/allocation/allocation.hpp"
 #include "ratecontrol/pictures/picture_errors.hpp"

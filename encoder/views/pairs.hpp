@@ -54,4 +54,13 @@ bool mapsPay(const EncodeInputs& inputs, const Selection& with, const Selection&
 PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& heights,
                         const Rated<CodedTexture>& texture);
 
+// objectErrors() (object_pairs.cpp) is the modelled engine for surfaces over a base mesh: it draws
+// pairs of a prefix of the heights with a prefix of the texture for cameras all around, or for those
+// of the options.
+
+/// Errors of the pictures of all pairs, in the order that PairErrors takes; none if nobody can look
+/// at the surface. inputs: of both components on a forest.
+std::vector<double> objectErrors(const EncodeInputs& inputs, DecodedNodes& decoded,
+                                 const Nodes& nodes);
+
 }  // namespace tetrakis::inline views

@@ -450,7 +450,7 @@ typedef struct tks_object_trial {
   uint64_t bytes;     /* 0: the kind was not asked for, or cannot meet the target */
   double psnr;        /* of the surface, as of tks_object_report */
   double screen_psnr; /* dB of R, G and B in the cameras' pictures, over pixels in which the mesh or
-                         the object is seen; 0: there is no image */
+                         the object is seen; infinite without error; 0: there is no image */
 } tks_object_trial;
 
 /* What became of a mesh. Distances are between its surface and that of the decoded stream, in its

@@ -301,6 +301,26 @@ TEST(ObjectStreams, TakeTheKindWhosePicturesAreBetter) {
             triangles.screen_psnr > resampled.screen_psnr);
 }
 
+/// Some of the cameras around a flat mesh see its edge alone. Coordinates that are no numbers, or
+/// far away, show some texel.
+TEST(ObjectStreams, TakeFlatMeshesAndOddCoordinates) {
+  const PaintedBox box;
+  const TriangleMesh flat = made::openGrid(12, 12, 0);
+  std::vector<float> texcoords(
+      box.texcoords.begin(),
+      box.texcoords.begin() + static_cast<ptrdiff_t>(6 * flat.triangles.size()));
+  const GivenMesh given(flat);
+  const tks_image image = box.image();
+  for (const float odd : {0.5f, NAN, INFINITY, -3e38f}) {
+    for (size_t i = 0; i < texcoords.size(); i += 7) texcoords[i] = odd;
+    tks_triangle_mesh mesh = given.given();
+    mesh.texcoords = texcoords.data();
+    const Encoded made = encodeMesh(mesh, budget(8000), &image);
+    EXPECT_GT(made.report.as_resampled.bytes, 0u) << odd;
+    EXPECT_GT(made.report.as_resampled.screen_psnr, 5) << odd;
+  }
+}
+
 TEST(ObjectStreams, RefuseCamerasThatSeeNothing) {
   const PaintedBox box;
   const GivenMesh given(box.mesh);

@@ -222,7 +222,7 @@ Json trialJson(const tks_object_trial& trial, bool taken) {
   return {{"taken", taken},
           {"bytes", trial.bytes},
           {"surface_psnr", finiteOrNull(trial.psnr)},
-          {"screen_psnr", trial.screen_psnr > 0 ? Json(trial.screen_psnr) : Json()}};
+          {"screen_psnr", trial.screen_psnr > 0 ? finiteOrNull(trial.screen_psnr) : Json()}};
 }
 
 /// Both kinds of object, if somebody asked.
