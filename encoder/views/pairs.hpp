@@ -55,8 +55,8 @@ PairErrors pairErrorsOf(const EncodeInputs& inputs, const Rated<CodedHeights>& h
                         const Rated<CodedTexture>& texture);
 
 // objectErrors() (object_pairs.cpp) is the modelled engine for surfaces over a base mesh: it draws
-// pairs of a prefix of the heights with a prefix of the texture for cameras all around, or for those
-// of the options.
+// pairs of a prefix of the heights with a prefix of the texture for cameras all around, or for
+// the cameras that the options tell.
 
 /// Errors of the pictures of all pairs, in the order that PairErrors takes; none if nobody can look
 /// at the surface. inputs: of both components on a forest.
