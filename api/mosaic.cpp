@@ -214,6 +214,21 @@ tks_status tks_mosaic_needs(const uint8_t* plan, size_t plan_size, tks_tile tile
   });
 }
 
+tks_status tks_mosaic_block(const uint8_t* plan, size_t plan_size, tks_tile tile,
+                            tks_window* block) {
+  return answering([&]() -> Status {
+    if (block == nullptr) return outputMissing();
+    const Result<MosaicPlan> known = takePlan(plan, plan_size);
+    if (!known.ok()) return known.status();
+    const MosaicGrid grid = known->grid();
+    const Result<Tile> of = takeTile(grid, tile);
+    if (!of.ok()) return of.status();
+    const Window window = grid.block(*of);
+    *block = {window.x, window.y, window.width, window.height};
+    return {};
+  });
+}
+
 tks_status tks_mosaic_code(const uint8_t* plan, size_t plan_size, tks_tile tile,
                            const tks_mosaic_source* source, const tks_mosaic_files* files,
                            uint32_t threads, char* message, size_t message_size) {

@@ -77,6 +77,11 @@ tks_status tks_mosaic_tiles(const uint8_t* plan, size_t plan_size, tks_tile* til
 tks_status tks_mosaic_needs(const uint8_t* plan, size_t plan_size, tks_tile tile, tks_tile* tiles,
                             size_t room, size_t* count);
 
+/* Writes which samples the task of a tile reads: of the heights in group 0; in further ones of the
+ * low band of 3 * group levels. */
+tks_status tks_mosaic_block(const uint8_t* plan, size_t plan_size, tks_tile tile,
+                            tks_window* block);
+
 /* Reads `bytes` bytes of a file from an offset on, or as many as there are, and writes how many
  * that were. Returns 0, or anything else if the file is missing or cannot be read. */
 typedef int (*tks_read_file)(void* user, const char* name, uint64_t offset, uint64_t bytes,
