@@ -43,7 +43,9 @@ struct MosaicPlanArguments {
 
 Status planMosaic(const MosaicPlanArguments& arguments, bool quiet) {
   Notes notes;
-  Result<OpenSource> source = openSource(arguments.sources, arguments.nodata, notes);
+  const Result<std::vector<std::string>> paths = sourceFiles(arguments.sources);
+  if (!paths.ok()) return paths.status();
+  Result<OpenSource> source = openSource(*paths, arguments.nodata, notes);
   if (!source.ok()) return source.status();
   for (const Note& note : notes)
     tellNote(quoted(arguments.sources.front()) + ": " + note.text, quiet);
@@ -72,8 +74,7 @@ Status planMosaic(const MosaicPlanArguments& arguments, bool quiet) {
   if (status != TKS_OK) return statusOf(status, message.data(), &given);
   const std::vector<uint8_t> bytes(plan.data, plan.data + plan.size);
   tks_free_buffer(&plan);
-  return WorkFolder::create(arguments.work, bytes, arguments.sources, arguments.nodata,
-                            arguments.force);
+  return WorkFolder::create(arguments.work, bytes, *paths, arguments.nodata, arguments.force);
 }
 
 struct MosaicCodeArguments {

@@ -59,18 +59,19 @@ Result<OpenSource> openOne(const std::string& path, Notes& notes) {
   return openTiffWindows(path, notes);
 }
 
-Result<OpenSource> openSource(const std::vector<std::string>& paths,
+Result<OpenSource> openSource(const std::vector<std::string>& files,
                               const std::optional<double>& nodata, Notes& notes) {
-  std::vector<std::string> files = paths;
-  std::error_code ignored;
-  if (paths.size() == 1 && std::filesystem::is_directory(paths[0], ignored)) {
-    auto found = filesIn(paths[0]);
-    if (!found.ok()) return found.status();
-    files = *std::move(found);
-  }
-  Result<OpenSource> source = files.size() == 1 ? openOne(files[0], notes) : openGrid(files, notes);
+  if (files.size() > 1) return openGrid(files, nodata, notes);
+  Result<OpenSource> source = openOne(files.front(), notes);
   if (!source.ok() || !nodata) return source;
   return OpenSource(std::make_unique<Redeclared>(*std::move(source), *nodata));
+}
+
+Result<std::vector<std::string>> sourceFiles(const std::vector<std::string>& paths) {
+  std::error_code ignored;
+  if (paths.size() == 1 && std::filesystem::is_directory(paths[0], ignored))
+    return filesIn(paths[0]);
+  return paths;
 }
 
 }  // namespace tetrakis::tools

@@ -39,17 +39,21 @@ Result<OpenSource> openTiffWindows(const std::string& path, Notes& notes);
 /// "file.raw:WIDTHxHEIGHT:type", or a tile of SRTM (.hgt), which is read whole.
 Result<OpenSource> openRawWindows(const std::string& path);
 
-/// Many files, each of which lies on the grid of the first one: of equal pixels, types and
-/// reference systems, whole pixels apart. Where they overlap, the sample of the last one that has
-/// one counts. Samples that no file has are void.
-Result<OpenSource> openGrid(const std::vector<std::string>& paths, Notes& notes);
-
-/// One file, several, or a folder of .tif and .hgt files, in the order of their names. nodata: in
-/// the place of what the files declare.
-Result<OpenSource> openSource(const std::vector<std::string>& paths,
-                              const std::optional<double>& nodata, Notes& notes);
-
 /// One file of any of these kinds.
 Result<OpenSource> openOne(const std::string& path, Notes& notes);
+
+/// Many files, each of which lies on the grid of the first one: of equal pixels, types and
+/// reference systems, whole pixels apart. Where they overlap, the sample of the last one that has
+/// one counts. Samples that no file has are void. nodata: in the place of what the files declare.
+Result<OpenSource> openGrid(const std::vector<std::string>& paths,
+                            const std::optional<double>& nodata, Notes& notes);
+
+/// One file, or several on one grid.
+Result<OpenSource> openSource(const std::vector<std::string>& files,
+                              const std::optional<double>& nodata, Notes& notes);
+
+/// The files that are meant: those of a folder that are .tif or .hgt, in the order of their names,
+/// or the paths themselves.
+Result<std::vector<std::string>> sourceFiles(const std::vector<std::string>& paths);
 
 }  // namespace tetrakis::tools

@@ -202,13 +202,15 @@ Result<HeightFile> around(std::vector<Member>& members) {
 
 }  // namespace
 
-Result<OpenSource> openGrid(const std::vector<std::string>& paths, Notes& notes) {
+Result<OpenSource> openGrid(const std::vector<std::string>& paths,
+                            const std::optional<double>& nodata, Notes& notes) {
   std::vector<Member> members;
   for (const std::string& path : paths) {
     Notes ignored;
     const Result<OpenSource> source = openOne(path, members.empty() ? notes : ignored);
     if (!source.ok()) return source.status();
     members.push_back({path, (*source)->described()});
+    if (nodata) members.back().described.nodata = nodata;
     const Status placed = place(members.front().described, members.back());
     if (!placed.ok()) return placed;
   }

@@ -148,6 +148,8 @@ Result<WorkFolder> WorkFolder::open(const std::string& path) {
     return Status(TKS_IO, quoted(path) + " has a damaged list of sources: plan it again");
   for (const auto& file : json["files"])
     if (file.is_string()) folder.sources_.push_back(file.get<std::string>());
+  if (folder.sources_.empty())
+    return Status(TKS_IO, quoted(path) + " has no sources: plan it again");
   if (json.contains("nodata") && json["nodata"].is_number())
     folder.nodata_ = json["nodata"].get<double>();
   const Result<std::vector<tks_tile>> tiles = tilesOf(folder.plan_, path);
