@@ -238,5 +238,17 @@ TEST_F(CliMosaic, RefusesTilesThatMemoryCannotHold) {
   EXPECT_FALSE(std::filesystem::exists(path("w/g0-x0-y0.part")));
 }
 
+/// The samples alone would take more than the whole process may.
+TEST_F(CliMosaic, CodesPlanesThatDoNotFitIntoMemory) {
+  write("all.raw", "");
+  std::filesystem::resize_file(path("all.raw"), uint64_t{2} * 16384 * 16384);
+  const Outcome run = shell(
+      "ulimit -v 450000; $TETRAKIS mosaic plan all.raw:16384x16384:i16 -o w --lossless --tile 2048 "
+      "&& $TETRAKIS mosaic code w --threads 2 && $TETRAKIS mosaic merge w -o a.tks");
+  EXPECT_EQ(run.code, 0) << run.err;
+  const Outcome info = cli("info a.tks --json");
+  EXPECT_NE(info.out.find("\"width\": 16384"), std::string::npos) << info.out;
+}
+
 }  // namespace
 }  // namespace tetrakis::test

@@ -126,13 +126,15 @@ Result<std::vector<MosaicTask>> chosenTasks(const WorkFolder& folder,
   return own;
 }
 
-/// What a task takes: its block as samples, as integers, with a mask, and its coefficients.
-Status checkTaskMemory(const WorkFolder& folder, const tks_tile& tile) {
-  constexpr uint64_t kBytesASample = 16, kBesides = 64 << 20;
+/// What a task takes: its block as samples and as integers, with a mask and its copies, and what
+/// tracks and the blocks of a TIFF take beside it.
+Status checkTaskMemory(const WorkFolder& folder, const tks_tile& tile, tks_sample sample) {
+  constexpr uint64_t kBesides = 96 << 20, kAsIntegers = 4, kAsMasks = 3;
+  const uint64_t a_sample = tks_sample_bytes(sample) + kAsIntegers + kAsMasks;
   tks_window block = {};
   tks_mosaic_block(folder.plan().data(), folder.plan().size(), tile, &block);
   return checkMemoryFor("coding the tile " + nameOf(tile),
-                        kBesides + kBytesASample * block.width * block.height);
+                        kBesides + a_sample * block.width * block.height);
 }
 
 Status codeMosaic(const MosaicCodeArguments& arguments, bool quiet) {
@@ -150,7 +152,8 @@ Status codeMosaic(const MosaicCodeArguments& arguments, bool quiet) {
     Progress::report(&progress, static_cast<double>(i) / static_cast<double>(tasks->size()));
     const MosaicTask& task = (*tasks)[i];
     if (folder->isDone(task, source->get())) continue;
-    if (Status memory = checkTaskMemory(*folder, task.tile); !memory.ok()) return memory;
+    if (Status memory = checkTaskMemory(*folder, task.tile, given.heights.sample); !memory.ok())
+      return memory;
     std::array<char, 512> message{};
     const tks_status status =
         tks_mosaic_code(folder->plan().data(), folder->plan().size(), task.tile, &given.given,
