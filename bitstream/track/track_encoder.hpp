@@ -83,8 +83,8 @@ int planesOf(const TrackSource& track);
 /// coefficient, or more.
 EncodedTrack encodeTrack(const TrackSource& source, int planes);
 
-/// The same of all of them, where each track is coded by itself: only those that are being coded take
-/// memory. source_of: is asked for every track twice, by several threads at a time.
+/// The same of all of them, where each track is coded by itself: only those that are being coded
+/// take memory. source_of: is asked for every track twice, by several threads at a time.
 std::vector<EncodedTrack> encodeWholeTracks(size_t count,
                                             const std::function<TrackSource(size_t)>& source_of,
                                             uint32_t threads);
