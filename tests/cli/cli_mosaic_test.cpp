@@ -238,6 +238,46 @@ TEST_F(CliMosaic, RefusesTilesThatMemoryCannotHold) {
   EXPECT_FALSE(std::filesystem::exists(path("w/g0-x0-y0.part")));
 }
 
+/// Streams that were coded apart, from a source that was cut: one plane, without a step at the cut.
+TEST_F(CliMosaic, JoinsStreamsThatAdjoin) {
+  makeTiles();
+  for (const char* name : {"0-0", "250-0", "0-240", "250-240"}) {
+    const std::string tile = name;
+    ASSERT_EQ(cli("encode tiles/" + tile + ".tif --lossless -o tiles/" + tile + ".tks").code, 0);
+    std::filesystem::remove(path("tiles/" + tile + ".tif"));
+  }
+  Outcome run = cli("mosaic join tiles -o joined.tks --lossless --tile 64 --regions 32");
+  ASSERT_EQ(run.code, 0) << run.err;
+  plan("ground.tif");
+  finish("w", "whole.tks");
+  EXPECT_EQ(content("joined.tks"), content("whole.tks"));
+  for (const std::string& name : names()) EXPECT_FALSE(name.starts_with(".")) << name;
+  run = cli("mosaic join tiles -o joined.tks --lossless");
+  EXPECT_EQ(run.code, 2) << "there is a file already";
+  run = cli("mosaic join nowhere.tif -o other.tks --lossless");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_FALSE(std::filesystem::exists(path("other.tks")));
+}
+
+TEST_F(CliMosaic, VerifiesEverySample) {
+  makeTiles();
+  plan("tiles");
+  finish("w", "a.tks");
+  Outcome run = cli("mosaic verify w a.tks");
+  EXPECT_EQ(run.code, 0) << run.err;
+  for (int i = 1; i <= 3; ++i)
+    EXPECT_EQ(cli("mosaic verify w a.tks --part " + std::to_string(i) + "/3").code, 0);
+  ASSERT_EQ(cli("mosaic join tiles -o rough.tks --max-error 2 --tile 64 --regions 32").code, 0);
+  EXPECT_EQ(cli("mosaic verify w rough.tks").code, 0);
+  HeightFile other = ground();
+  other.data[2 * (123 * kSide + 45)] ^= std::byte{8};
+  ASSERT_TRUE(tools::writeHeights(path("other.tif"), other).ok());
+  ASSERT_EQ(cli("encode other.tif --lossless -o other.tks").code, 0);
+  run = cli("mosaic verify w other.tks");
+  EXPECT_EQ(run.code, 7);
+  EXPECT_NE(run.err.find("8"), std::string::npos) << run.err;
+}
+
 /// The samples alone would take more than the whole process may.
 TEST_F(CliMosaic, CodesPlanesThatDoNotFitIntoMemory) {
   write("all.raw", "");

@@ -37,7 +37,7 @@ class Redeclared : public HeightSource {
 
 bool isNamedHeights(const std::filesystem::path& path) {
   const std::string format = formatOf(path.string(), "");
-  return format == "tif" || format == "tiff" || isNamedHgt(path.string());
+  return format == "tif" || format == "tiff" || format == "tks" || isNamedHgt(path.string());
 }
 
 Result<std::vector<std::string>> filesIn(const std::string& folder) {
@@ -47,7 +47,7 @@ Result<std::vector<std::string>> filesIn(const std::string& folder) {
     if (isNamedHeights(entry.path())) files.push_back(entry.path().string());
   if (error) return Status(TKS_IO, "cannot read " + quoted(folder) + ": " + error.message());
   if (files.empty())
-    return Status(TKS_USAGE, "the folder " + quoted(folder) + " holds no .tif or .hgt file");
+    return Status(TKS_USAGE, "the folder " + quoted(folder) + " holds no .tif, .hgt or .tks file");
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -56,6 +56,7 @@ Result<std::vector<std::string>> filesIn(const std::string& folder) {
 
 Result<OpenSource> openOne(const std::string& path, Notes& notes) {
   if (parseRawName(path) || isNamedHgt(path)) return openRawWindows(path);
+  if (formatOf(path, "") == "tks") return openStreamWindows(path);
   return openTiffWindows(path, notes);
 }
 

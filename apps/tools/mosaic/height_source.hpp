@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // HeightSource reads heights window by window, so that they may be larger than memory: from a TIFF,
-// from raw samples, or from many such files that lie on one grid.
+// from raw samples, from a stream, or from many such files that lie on one grid.
 #pragma once
 
 #include <cstddef>
@@ -39,6 +39,9 @@ Result<OpenSource> openTiffWindows(const std::string& path, Notes& notes);
 /// "file.raw:WIDTHxHEIGHT:type", or a tile of SRTM (.hgt), which is read whole.
 Result<OpenSource> openRawWindows(const std::string& path);
 
+/// A stream with heights (.tks) on a plane.
+Result<OpenSource> openStreamWindows(const std::string& path);
+
 /// One file of any of these kinds.
 Result<OpenSource> openOne(const std::string& path, Notes& notes);
 
@@ -52,7 +55,7 @@ Result<OpenSource> openGrid(const std::vector<std::string>& paths,
 Result<OpenSource> openSource(const std::vector<std::string>& files,
                               const std::optional<double>& nodata, Notes& notes);
 
-/// The files that are meant: those of a folder that are .tif or .hgt, in the order of their names,
+/// The files that are meant: those of a folder that are .tif, .hgt or .tks, in the order of their names,
 /// or the paths themselves.
 Result<std::vector<std::string>> sourceFiles(const std::vector<std::string>& paths);
 
