@@ -50,6 +50,8 @@ struct tks_decoder {
   tetrakis::TakenPackets packets;
   std::optional<tetrakis::ScatteredPackets> scattered;  ///< once bytes left a gap
   int heights_level = 0, texture_level = 0;
+  uint32_t frame = 0;     ///< that is shown, of a stream of several
+  double first_base = 0;  ///< the header's base of frame 0: that of the header is the shown frame's
   std::optional<tetrakis::DecodedHeights> heights;  ///< of that level, decoded on first use
   bool remembers = false;  ///< what was decoded of tracks, so that more bytes cost what they tell
   tetrakis::HeightsMemory heights_memory;  ///< for views of all levels
@@ -73,6 +75,9 @@ Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder);
 
 /// The heights in steps, with their corrections of steps and without those of samples.
 Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
+
+/// How many frames the stream has.
+uint32_t framesOf(const StreamHeader& header);
 
 /// Decodes what a view shows of the heights, which the stream holds. Keeps what the decoder
 /// remembers, and no heights.

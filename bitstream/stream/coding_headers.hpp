@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// WaveletHeader, RegionHeader and PriorityHeader are the parts of a header that heights and
-// textures share: the wavelet, spatial regions, and priorities over the ground; Coding says how a
-// component is coded (docs/FORMAT.md, section 2).
+// WaveletHeader, RegionHeader, PriorityHeader and FramesHeader are the parts of a header that
+// heights and textures share: the wavelet, spatial regions, priorities over the ground, and frames;
+// Coding says how a component is coded (docs/FORMAT.md, section 2).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/forest.hpp"
 #include "bitstream/track/track.hpp"
@@ -24,8 +25,8 @@ enum class Coding : uint8_t { kStored = 0, kDrawn = 1, kWavelet = 2 };
 struct PartKind {
   static constexpr uint64_t kRepeatedLines = 1, kPriorities = 2, kValidity = 3, kBridges = 4,
                             kLateMask = 5, kNodata = 6, kValueTable = 7, kFlatAreas = 8,
-                            kCorrections = 9, kBaseMesh = 10, kCutOut = 16, kOverlay = 17,
-                            kColours = 18, kFurtherColour = 19, kChannelTables = 20,
+                            kCorrections = 9, kBaseMesh = 10, kFrames = 11, kCutOut = 16,
+                            kOverlay = 17, kColours = 18, kFurtherColour = 19, kChannelTables = 20,
                             kWhiteLevel = 21, kBandWeights = 22, kBound = 64;
 };
 
@@ -77,6 +78,33 @@ struct PriorityHeader {
   }
   static constexpr uint8_t kLeastTileLog2 = 4;
   static constexpr uint64_t kMostTiles = 65536;
+};
+
+/// Filters over time: codec/frames/frame_lifting.hpp.
+enum class TimeFilter : uint8_t { kNone = 0, kHaar = 1, kFiveThree = 2 };
+
+/// Frames of a component, which follow one another in time. Each has the planes of the component.
+struct FramesHeader {
+  uint8_t count = 1;  ///< 1: the component is no sequence
+  TimeFilter filter = TimeFilter::kNone;
+  /// Of heights: the base of each frame but the first; empty: all have that of the first.
+  std::vector<double> bases = {};
+
+  bool none() const { return count == 1; }
+
+  template <class V>
+  void visit(V& v) {
+    v.u8("frames", count, 2, kMost);
+    v.u8("time_filter", filter, 0, static_cast<uint64_t>(TimeFilter::kFiveThree));
+  }
+  template <class V>
+  void visitBases(V& v) {
+    v.unless(std::vector<double>(), bases, [&] {
+      if constexpr (V::kReads) bases.resize(v.ok() ? count - 1u : 0);
+      for (double& base : bases) v.f64("frame_base", base);
+    });
+  }
+  static constexpr uint8_t kMost = 32;
 };
 
 /// The tiles of a side of a plane.
