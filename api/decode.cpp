@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Heights, validity and texels through the C interface: all of a level, or a window.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -61,6 +62,13 @@ Status lost() {
 uint32_t framesOf(const StreamHeader& header) {
   if (header.geometry && !header.geometry->frames.none()) return header.geometry->frames.count;
   return header.texture ? header.texture->frames.count : 1;
+}
+
+void showScale(tks_decoder& decoder) {
+  GeometryHeader& geometry = *decoder.parsed.header.geometry;
+  const FrameScale scale = geometry.frames.scale(decoder.frame);
+  geometry.base = decoder.base + static_cast<double>(scale.offset) * decoder.step;
+  geometry.step = std::ldexp(decoder.step, scale.shift);
 }
 
 Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window* window) {
@@ -240,9 +248,7 @@ Status setFrame(tks_decoder& decoder, uint32_t frame) {
   if (frame == decoder.frame) return {};
   decoder.frame = frame;
   decoder.heights.reset();
-  if (!header.geometry || header.geometry->frames.bases.empty()) return {};
-  header.geometry->base =
-      frame == 0 ? decoder.first_base : header.geometry->frames.bases[frame - 1];
+  if (header.geometry) showScale(decoder);
   return {};
 }
 

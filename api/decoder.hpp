@@ -50,8 +50,9 @@ struct tks_decoder {
   tetrakis::TakenPackets packets;
   std::optional<tetrakis::ScatteredPackets> scattered;  ///< once bytes left a gap
   int heights_level = 0, texture_level = 0;
-  uint32_t frame = 0;     ///< that is shown, of a stream of several
-  double first_base = 0;  ///< the header's base of frame 0: that of the header is the shown frame's
+  uint32_t frame = 0;  ///< that is shown, of a stream of several
+  /// Base and step that the stream states: those of `parsed` are the shown frame's.
+  double base = 0, step = 1;
   std::optional<tetrakis::DecodedHeights> heights;  ///< of that level, decoded on first use
   bool remembers = false;  ///< what was decoded of tracks, so that more bytes cost what they tell
   tetrakis::HeightsMemory heights_memory;  ///< for views of all levels
@@ -78,6 +79,9 @@ Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
 
 /// How many frames the stream has.
 uint32_t framesOf(const StreamHeader& header);
+
+/// Gives the header of heights the base and the step of the frame that is shown.
+void showScale(tks_decoder& decoder);
 
 /// Decodes what a view shows of the heights, which the stream holds. Keeps what the decoder
 /// remembers, and no heights.

@@ -83,14 +83,26 @@ struct PriorityHeader {
 /// Filters over time: codec/frames/frame_lifting.hpp.
 enum class TimeFilter : uint8_t { kNone = 0, kHaar = 1, kFiveThree = 2 };
 
+/// Of heights: what the steps of a frame are in those of the component: q of the frame stands for
+/// offset + q * 2^shift of these.
+struct FrameScale {
+  static constexpr int64_t kMostOffset = int64_t{1} << 26;
+  static constexpr uint8_t kMostShift = 24;
+
+  int64_t offset = 0;
+  uint8_t shift = 0;
+
+  bool operator==(const FrameScale&) const = default;
+};
+
 /// Frames of a component, which follow one another in time. Each has the planes of the component.
 struct FramesHeader {
   uint8_t count = 1;  ///< 1: the component is no sequence
   TimeFilter filter = TimeFilter::kNone;
-  /// Of heights: the base of each frame but the first; empty: all have that of the first.
-  std::vector<double> bases = {};
+  std::vector<FrameScale> scales = {};  ///< of each frame; empty: all have the component's steps
 
   bool none() const { return count == 1; }
+  FrameScale scale(size_t frame) const { return scales.empty() ? FrameScale() : scales[frame]; }
 
   template <class V>
   void visit(V& v) {
@@ -98,10 +110,13 @@ struct FramesHeader {
     v.u8("time_filter", filter, 0, static_cast<uint64_t>(TimeFilter::kFiveThree));
   }
   template <class V>
-  void visitBases(V& v) {
-    v.unless(std::vector<double>(), bases, [&] {
-      if constexpr (V::kReads) bases.resize(v.ok() ? count - 1u : 0);
-      for (double& base : bases) v.f64("frame_base", base);
+  void visitScales(V& v) {
+    v.unless(std::vector<FrameScale>(), scales, [&] {
+      if constexpr (V::kReads) scales.resize(v.ok() ? count : 0);
+      for (FrameScale& scale : scales) {
+        v.zigzag("frame_offset", scale.offset, FrameScale::kMostOffset);
+        v.u8("frame_shift", scale.shift, 0, FrameScale::kMostShift);
+      }
     });
   }
   static constexpr uint8_t kMost = 32;

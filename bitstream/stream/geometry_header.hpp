@@ -71,7 +71,7 @@ struct GeometryHeader {
     v.part(PartKind::kBaseMesh, !base_mesh.none(), [&](auto& part) { base_mesh.visit(part); });
     v.part(PartKind::kFrames, !frames.none(), [&](auto& part) {
       frames.visit(part);
-      frames.visitBases(part);
+      frames.visitScales(part);
     });
   }
   /// What informs.

@@ -17,74 +17,97 @@ int32_t wrapped(int64_t value) {
   return static_cast<int32_t>(static_cast<uint32_t>(value));
 }
 
-/// One step at the plane `of`, which is at an odd place of its level if it is predicted.
-struct Step {
-  std::span<int32_t> of;
-  std::span<const int32_t> before, after;  ///< mirrored at the ends; Haar reads one of them
+/// A plane with its scale. Values are in units of 2^-fraction_bits.
+struct Plane {
+  std::span<int32_t> values;
+  int64_t offset = 0;  ///< in these units
+  int shift = 0;
 
-  /// Adds sign * round((before + after) / 2^shift) to the values.
-  void addMean(int sign, int shift) const {
-    const int64_t half = int64_t{1} << (shift - 1);
-    for (size_t i = 0; i < of.size(); ++i)
-      of[i] = wrapped(of[i] + sign * ((int64_t{before[i]} + after[i] + half) >> shift));
-  }
-  /// Adds sign * floor(from / 2^shift).
-  void add(std::span<const int32_t> from, int sign, int shift) const {
-    for (size_t i = 0; i < of.size(); ++i)
-      of[i] = wrapped(of[i] + int64_t{sign} * (from[i] >> shift));
+  /// In steps of the component: of a frame, and of a difference of frames.
+  int64_t whole(size_t i) const { return offset + difference(i); }
+  int64_t difference(size_t i) const { return int64_t{values[i]} << shift; }
+};
+
+/// One step of the inverse, or its opposite, at one plane: `of`. The planes beside it are mirrored
+/// at the ends.
+struct Step {
+  Plane of, before, after;
+
+  /// Adds sign * (from(i) / 2^more, rounded to the plane's own steps) to its values.
+  template <class From>
+  void add(int sign, int more, int64_t half, const From& from) const {
+    const int shift = of.shift + more;
+    for (size_t i = 0; i < of.values.size(); ++i)
+      of.values[i] = wrapped(of.values[i] + sign * ((from(i) + half) >> shift));
   }
   /// sign: 1 in the inverse.
   void predict(TimeFilter filter, int sign) const {
-    if (filter == TimeFilter::kHaar) return add(before, sign, 0);
-    addMean(sign, 1);
+    if (filter == TimeFilter::kHaar) {
+      const int64_t half = (int64_t{1} << of.shift) >> 1;
+      return add(sign, 0, half, [&](size_t i) { return before.whole(i) - of.offset; });
+    }
+    add(sign, 1, int64_t{1} << of.shift,
+        [&](size_t i) { return before.whole(i) + after.whole(i) - 2 * of.offset; });
   }
   /// sign: -1 in the inverse. has_pair: there is a plane behind this one.
   void update(TimeFilter filter, int sign, bool has_pair) const {
-    if (filter == TimeFilter::kFiveThree) return addMean(sign, 2);
-    if (has_pair) add(after, sign, 1);
+    if (filter == TimeFilter::kFiveThree) {
+      add(sign, 2, int64_t{2} << of.shift,
+          [&](size_t i) { return before.difference(i) + after.difference(i); });
+    } else if (has_pair) {
+      add(sign, 1, 0, [&](size_t i) { return after.difference(i); });
+    }
   }
 };
 
-/// The step of a plane of a level whose planes lie `distance` apart.
-Step stepAt(const FrameViews& frames, size_t plane, size_t distance) {
-  const size_t count = frames.size();
-  const size_t after = plane + distance < count ? plane + distance : plane - distance;
-  const size_t before = plane >= distance ? plane - distance : after;
-  return {frames[plane], frames[before], frames[after]};
-}
+/// All planes of a group, lifted level by level.
+class Lifting {
+ public:
+  Lifting(const FramesHeader& header, int fraction_bits, const FrameViews& frames)
+      : filter_(header.filter) {
+    for (size_t t = 0; t < frames.size(); ++t) {
+      const FrameScale scale = header.scale(t);
+      planes_.push_back({frames[t], scale.offset << fraction_bits, scale.shift});
+    }
+  }
+  /// distance: of the planes of a level.
+  void predict(size_t distance, int sign) const {
+    for (size_t t = distance; t < planes_.size(); t += 2 * distance)
+      stepAt(t, distance).predict(filter_, sign);
+  }
+  void update(size_t distance, int sign) const {
+    for (size_t t = 0; t < planes_.size(); t += 2 * distance)
+      stepAt(t, distance).update(filter_, sign, t + distance < planes_.size());
+  }
 
-template <class Do>
-void forEach(size_t first, size_t step, size_t count, const Do& what) {
-  for (size_t t = first; t < count; t += step) what(t);
-}
+ private:
+  Step stepAt(size_t plane, size_t distance) const {
+    const size_t after = plane + distance < planes_.size() ? plane + distance : plane - distance;
+    const size_t before = plane >= distance ? plane - distance : after;
+    return {planes_[plane], planes_[before], planes_[after]};
+  }
 
-void predictAll(TimeFilter filter, const FrameViews& frames, size_t distance, int sign) {
-  forEach(distance, 2 * distance, frames.size(),
-          [&](size_t t) { stepAt(frames, t, distance).predict(filter, sign); });
-}
-
-void updateAll(TimeFilter filter, const FrameViews& frames, size_t distance, int sign) {
-  const size_t count = frames.size();
-  forEach(0, 2 * distance, count, [&](size_t t) {
-    stepAt(frames, t, distance).update(filter, sign, t + distance < count);
-  });
-}
+  TimeFilter filter_;
+  std::vector<Plane> planes_;
+};
 
 }  // namespace
 
-void forwardFrames(TimeFilter filter, const FrameViews& frames) {
-  if (filter == TimeFilter::kNone) return;
+void forwardFrames(const FramesHeader& header, int fraction_bits, const FrameViews& frames) {
+  if (header.filter == TimeFilter::kNone) return;
+  const Lifting lifting(header, fraction_bits, frames);
   for (size_t distance = 1; distance < frames.size(); distance *= 2) {
-    predictAll(filter, frames, distance, -1);
-    updateAll(filter, frames, distance, 1);
+    lifting.predict(distance, -1);
+    lifting.update(distance, 1);
   }
 }
 
-void inverseFrames(TimeFilter filter, const FrameViews& frames) {
-  if (filter == TimeFilter::kNone) return;
+void inverseFrames(const FramesHeader& header, int fraction_bits, const FrameViews& frames) {
+  if (header.filter == TimeFilter::kNone) return;
+  const Lifting lifting(header, fraction_bits, frames);
   for (size_t distance = std::bit_floor(frames.size() - 1); distance > 0; distance /= 2) {
-    updateAll(filter, frames, distance, -1);
-    predictAll(filter, frames, distance, 1);
+    lifting.update(distance, -1);
+    lifting.predict(distance, 1);
   }
 }
 
@@ -104,12 +127,14 @@ int fineNorm(TimeFilter filter, bool high, size_t splits) {
 
 }  // namespace
 
-FrameNorms::FrameNorms(TimeFilter filter, uint32_t frames) {
+FrameNorms::FrameNorms(const FramesHeader& header) {
+  const uint32_t frames = header.count;
   assert(frames >= 1 && frames <= FramesHeader::kMost);
   const auto levels = static_cast<size_t>(std::bit_width(frames - 1));
-  fine_.push_back(fineNorm(filter, false, levels));
-  for (uint32_t t = 1; t < frames; ++t)
-    fine_.push_back(fineNorm(filter, true, static_cast<size_t>(std::countr_zero(t)) + 1));
+  for (uint32_t t = 0; t < frames; ++t) {
+    const size_t splits = t == 0 ? levels : static_cast<size_t>(std::countr_zero(t)) + 1;
+    fine_.push_back(fineNorm(header.filter, t > 0, splits) + kFineSteps * header.scale(t).shift);
+  }
 }
 
 double FrameNorms::energy(uint32_t plane) const {

@@ -20,17 +20,19 @@ namespace tetrakis::inline frames {
 /// Planes of the frames of a group, one for each, of as many values.
 using FrameViews = std::vector<std::span<int32_t>>;
 
-/// Lifts frames over time, in place. Haar makes differences one bit wider than samples. 5/3 makes
-/// them two bits wider, and the mean wider by a factor of 1.5 a level at most.
-void forwardFrames(TimeFilter filter, const FrameViews& frames);
+/// Lifts frames over time, in place. Where frames have scales, each is foretold in the steps of the
+/// component and then rounded to its own. Haar makes differences one bit wider than samples. 5/3
+/// makes them two bits wider, and the mean wider by a factor of 1.5 a level at most.
+/// fraction_bits: of the values.
+void forwardFrames(const FramesHeader& header, int fraction_bits, const FrameViews& frames);
 
 /// Undoes it, in place. Defined for all values: differences wrap, sums have 64 bits.
-void inverseFrames(TimeFilter filter, const FrameViews& frames);
+void inverseFrames(const FramesHeader& header, int fraction_bits, const FrameViews& frames);
 
-/// The norms of what one unit of a plane makes of the frames.
+/// The norms of what one unit of a plane makes of the frames, in steps of the component.
 class FrameNorms {
  public:
-  FrameNorms(TimeFilter filter, uint32_t frames);
+  explicit FrameNorms(const FramesHeader& header);
 
   /// 16 log2 of the norm, rounded.
   int log16(uint32_t plane) const { return (fine_[plane] + 8) >> 4; }

@@ -10,21 +10,12 @@
 
 namespace tetrakis::inline frames {
 
-namespace {
-
-/// Contexts: of the mean over time and of its details, of the first colour and of others.
-uint32_t modelsOf(uint32_t frame, uint32_t colour) {
-  return kPlaneModels * (2 * (frame > 0) + (colour > 0));
-}
-
-}  // namespace
-
 FramePlan::FramePlan(const FrameLayout& of, const SharedBits& lifted,
                      const std::optional<SynthesisNorms>& norms)
     : of_(of),
       layout_(specOf(of.wavelet), Pyramid(lifted, of.extent), {}, norms),
       regions_(regionsOf(of.extent.width, of.extent.height, of.regions.side_log2)),
-      norms_(of.frames.filter, of.frames.count) {}
+      norms_(of.frames) {}
 
 std::optional<uint32_t> FramePlan::companionOf(uint32_t plane) const {
   const uint32_t colours = of_.colours(), frame = plane / colours;
@@ -40,7 +31,7 @@ std::vector<BandPlan> FramePlan::bands(std::span<const BandPart> parts) const {
     const uint32_t frame = p / of_.colours(), colour = p % of_.colours();
     const int priority = of_.priorities[colour] + norms_.log16(frame);
     const auto first = static_cast<int>(bands.size());
-    std::vector<BandPlan> plan = layout_.plan(parts, first, priority, modelsOf(frame, colour));
+    std::vector<BandPlan> plan = layout_.plan(parts, first, priority, kPlaneModels * (colour > 0));
     if (p == 0) plan = layout_.marked(parts, std::move(plan));
     const std::optional<uint32_t> companion = companionOf(p);
     for (size_t i = 0; i < plan.size(); ++i) {
@@ -84,7 +75,7 @@ FramePlanes decodeFramePlanes(const FrameLayout& of, const FramePlan& plan,
   for (uint32_t c = 0; c < of.colours(); ++c) {
     FrameViews frames;
     for (uint32_t p = c; p < of.planes(); p += of.colours()) frames.emplace_back(out.planes[p]);
-    inverseFrames(of.frames.filter, frames);
+    inverseFrames(of.frames, out.fraction_bits, frames);
   }
   return out;
 }

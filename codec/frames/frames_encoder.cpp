@@ -25,8 +25,9 @@ FrameViews framesOf(Planes& planes, uint32_t c, uint32_t colours) {
   return frames;
 }
 
-Planes lifted(TimeFilter filter, uint32_t colours, Planes planes) {
-  for (uint32_t c = 0; c < colours; ++c) forwardFrames(filter, framesOf(planes, c, colours));
+Planes lifted(FramesHeader header, TimeFilter filter, uint32_t colours, Planes planes) {
+  header.filter = filter;
+  for (uint32_t c = 0; c < colours; ++c) forwardFrames(header, 0, framesOf(planes, c, colours));
   return planes;
 }
 
@@ -80,7 +81,7 @@ FrameCoding chooseFrameCoding(const FrameSource& source, int bits, Purpose purpo
   double least = 0;
   Planes left;
   for (const TimeFilter filter : kFilters) {
-    Planes planes = lifted(filter, colours, source.planes);
+    Planes planes = lifted(source.layout.frames, filter, colours, source.planes);
     if (bitsOf(planes) > most) continue;
     const double cost = losslessBits(Stack(planes, source, 1).view(), bits);
     if (filter != TimeFilter::kNone && cost >= least) continue;
@@ -120,7 +121,8 @@ struct TransformedFrames {
 void transform(const FrameLayout& layout, const FramePlan& plan, const SharedBits& marks,
                Planes& planes, uint32_t threads) {
   for (uint32_t c = 0; c < layout.colours(); ++c)
-    forwardFrames(layout.frames.filter, framesOf(planes, c, layout.colours()));
+    forwardFrames(layout.frames, layout.wavelet.fraction_bits,
+                  framesOf(planes, c, layout.colours()));
   const std::vector<uint8_t> bytes = shownMarks(marks, {});
   parallelFor(threads, planes.size(), [&](size_t p) {
     clearUnmarked(std::span(planes[p]), bytes);

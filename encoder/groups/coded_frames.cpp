@@ -39,7 +39,7 @@ GeometryHeader headerOf(const tks_heights& first, const FrameSteps& steps) {
   header.base = steps.base;
   header.step = steps.step;
   header.frames.count = static_cast<uint8_t>(steps.steps.size());
-  header.frames.bases = steps.bases;
+  header.frames.scales = steps.scales;
   header.wavelet.ring = first.domain == TKS_DOMAIN_CYLINDER;
   return header;
 }
@@ -72,6 +72,7 @@ double HeightFrames::squaresOf(const Codewords& prefix, uint32_t threads,
     const DecodedGeometry shown =
         decodeHeights(coded->header, coded->layers, prefix, view, {threads, &kept}).geometry;
     const std::vector<uint8_t> valid = shownMarks(truth.masks[t], {});
+    const double own = portable::exp2(truth.scale(t).shift);
     const double unit = portable::exp2(-shown.fraction_bits);
     for (size_t i = 0; i < shown.heights.size(); ++i) {
       const bool is_valid = valid.empty() || valid[i] != 0;
@@ -79,7 +80,7 @@ double HeightFrames::squaresOf(const Codewords& prefix, uint32_t threads,
       if (is_valid != is_shown) {
         squares += validityWorth(truth);
       } else if (is_valid) {
-        const double error = shown.heights[i] * unit - truth.steps[t][i];
+        const double error = own * (shown.heights[i] * unit - truth.steps[t][i]);
         squares += error * error;
       }
     }

@@ -17,6 +17,9 @@ namespace tetrakis::inline groups {
 
 namespace {
 
+/// Bits that heights of frames may span, as HeightSteps have them.
+constexpr int kMostRangeBits = 26;
+
 /// All frames one below the other, as heights of their own.
 struct StackedFrames {
   std::vector<std::byte> samples;
@@ -32,17 +35,6 @@ struct StackedFrames {
     heights.domain = TKS_DOMAIN_PLANE;
   }
 };
-
-int spanBits(const Planes& planes) {
-  int32_t low = std::numeric_limits<int32_t>::max(), high = std::numeric_limits<int32_t>::min();
-  for (const std::vector<int32_t>& plane : planes) {
-    for (const int32_t value : plane) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  }
-  return static_cast<int>(std::bit_width(static_cast<uint32_t>(high) - static_cast<uint32_t>(low)));
-}
 
 FrameSteps cutApart(const HeightSteps& all, Extent extent, size_t frames) {
   FrameSteps out;
@@ -63,56 +55,88 @@ FrameSteps cutApart(const HeightSteps& all, Extent extent, size_t frames) {
   return out;
 }
 
-/// The least of the steps that show each frame exactly by itself, if it shows all of them.
-std::optional<double> commonStep(std::span<const tks_heights> frames) {
-  double least = std::numeric_limits<double>::infinity();
+/// The steps that show each frame exactly by itself; none if some frame has no such steps.
+std::vector<HeightSteps> ownSteps(std::span<const tks_heights> frames) {
+  std::vector<HeightSteps> own;
   for (const tks_heights& frame : frames) {
-    const Result<HeightSteps> steps = toSteps(frame, {});
-    if (!steps.ok() || !steps->exact) return std::nullopt;
-    if (steps->range_bits > 0) least = std::min(least, steps->step);
+    Result<HeightSteps> steps = toSteps(frame, {});
+    if (!steps.ok() || !steps->exact) return {};
+    own.push_back(*std::move(steps));
   }
-  return std::isfinite(least) ? std::optional(least) : std::nullopt;
+  return own;
 }
 
-/// Bases that lie as near to that of the first frame as whole steps bring them; the steps move the
-/// other way. Nothing if the samples do not come back from those.
-std::optional<FrameSteps> withOwnBases(std::span<const tks_heights> frames, double step) {
+/// How often a step is doubled from the finest one on; nothing if it is not.
+std::optional<uint8_t> shiftOf(double step, double finest) {
+  int shift = 0;
+  const bool doubled = std::frexp(step / finest, &shift) == 0.5;
+  if (!doubled || shift < 1 || shift > FrameScale::kMostShift + 1) return std::nullopt;
+  return static_cast<uint8_t>(shift - 1);
+}
+
+/// The scales of frames in a base and a step; none if they do not have whole offsets.
+std::vector<FrameScale> scalesOf(const std::vector<HeightSteps>& own, double base, double step) {
+  std::vector<FrameScale> scales;
+  for (const HeightSteps& frame : own) {
+    const double offset = std::round((frame.base - base) / step);
+    const std::optional<uint8_t> shift = frame.range_bits == 0 ? 0 : shiftOf(frame.step, step);
+    if (!shift || !(std::abs(offset) < FrameScale::kMostOffset)) return {};
+    scales.push_back({static_cast<int64_t>(offset), *shift});
+  }
+  return scales;
+}
+
+/// The bits of all heights that scaled frames span, in steps of the finest.
+int spanBits(const FrameSteps& frames) {
+  int64_t low = INT64_MAX, high = INT64_MIN;
+  for (size_t t = 0; t < frames.steps.size(); ++t) {
+    const auto [least, most] = std::minmax_element(frames.steps[t].begin(), frames.steps[t].end());
+    const FrameScale scale = frames.scale(t);
+    low = std::min(low, scale.offset + (int64_t{*least} << scale.shift));
+    high = std::max(high, scale.offset + (int64_t{*most} << scale.shift));
+  }
+  return static_cast<int>(std::bit_width(static_cast<uint64_t>(high - low)));
+}
+
+/// Frames whose steps are their own; nothing if these have no common scale.
+std::optional<FrameSteps> scaledSteps(std::span<const tks_heights> frames) {
+  std::vector<HeightSteps> own = ownSteps(frames);
+  if (own.empty()) return std::nullopt;
   FrameSteps out;
-  for (const tks_heights& frame : frames) {
-    Result<HeightSteps> steps = toSteps(frame, {.given = step});
-    if (!steps.ok() || !steps->exact) return std::nullopt;
-    if (out.steps.empty()) out.base = steps->base;
-    const double away = std::round((steps->base - out.base) / step);
-    if (!(std::abs(away) < 1 << 25)) return std::nullopt;
-    const double base = steps->base - away * step;
-    for (int32_t& value : steps->steps) value += static_cast<int32_t>(away);
-    HeightSteps moved = std::move(*steps);
-    moved.base = base;
-    if (errorsOf(frame, moved).largest > 0) return std::nullopt;
-    if (!out.steps.empty()) out.bases.push_back(base);
-    const Extent extent = extentOf(frame);
-    out.masks.push_back(sharedBits(moved.valid, extent));
-    out.steps.push_back(std::move(moved.steps));
+  out.step = std::numeric_limits<double>::infinity();
+  for (const HeightSteps& frame : own)
+    if (frame.range_bits > 0) out.step = std::min(out.step, frame.step);
+  if (!std::isfinite(out.step)) return std::nullopt;
+  out.base = own.front().base;
+  out.scales = scalesOf(own, out.base, out.step);
+  if (out.scales.empty()) return std::nullopt;
+  for (size_t t = 0; t < own.size(); ++t) {
+    HeightSteps& steps = own[t];
+    steps.base = out.base + static_cast<double>(out.scales[t].offset) * out.step;
+    steps.step = std::ldexp(out.step, out.scales[t].shift);
+    if (errorsOf(frames[t], steps).largest > 0) return std::nullopt;
+    out.masks.push_back(sharedBits(steps.valid, extentOf(frames[t])));
+    out.steps.push_back(std::move(steps.steps));
   }
-  out.step = step;
   out.exact = true;
-  out.range_bits = spanBits(out.steps);
-  return out;
+  out.range_bits = spanBits(out);
+  return out.range_bits <= kMostRangeBits ? std::optional(std::move(out)) : std::nullopt;
 }
 
-/// The steps of all frames together, or finer ones with a base for each frame where these take
-/// fewer bits or are the only exact ones.
+/// The steps of all frames together, or those of each frame where these are wider, or alone exact.
 Result<FrameSteps> exactSteps(std::span<const tks_heights> frames) {
   const StackedFrames stack(frames);
   const Result<HeightSteps> together = toSteps(stack.heights, {});
   if (!together.ok()) return together.status();
-  const Extent extent = extentOf(frames.front());
-  FrameSteps steps = cutApart(*together, extent, frames.size());
+  FrameSteps steps = cutApart(*together, extentOf(frames.front()), frames.size());
   if (stack.heights.sample != TKS_F32) return steps;
-  const std::optional<double> common = commonStep(frames);
-  if (!common || (steps.exact && *common <= steps.step)) return steps;
-  std::optional<FrameSteps> own = withOwnBases(frames, *common);
-  return own ? *std::move(own) : steps;
+  std::optional<FrameSteps> scaled = scaledSteps(frames);
+  if (!scaled) return steps;
+  const auto is_wider = [&](const FrameScale& scale) {
+    return std::ldexp(scaled->step, scale.shift) > steps.step;
+  };
+  const bool wider = std::any_of(scaled->scales.begin(), scaled->scales.end(), is_wider);
+  return wider || !steps.exact ? *std::move(scaled) : steps;
 }
 
 /// Steps with which every sample is within the error: as wide as twice that, on the grid of the
@@ -174,6 +198,14 @@ FrameSteps filled(FrameSteps of) {
   std::vector<std::vector<uint8_t>> valid;
   for (const SharedBits& mask : of.masks) valid.push_back(shownMarks(mask, {}));
   const auto is_valid = [&](size_t t, size_t i) { return valid[t].empty() || valid[t][i] != 0; };
+  const auto height_at = [&](size_t t, size_t i) {
+    const FrameScale scale = of.scale(t);
+    return scale.offset + (int64_t{of.steps[t][i]} << scale.shift);
+  };
+  const auto put = [&](size_t t, size_t i, int64_t height) {
+    const FrameScale scale = of.scale(t);
+    of.steps[t][i] = static_cast<int32_t>((height - scale.offset) >> scale.shift);
+  };
   for (size_t i = 0; i < samples; ++i) {
     size_t before = frames;  // the last valid frame; none so far
     for (size_t t = 0; t < frames; ++t) {
@@ -184,16 +216,15 @@ FrameSteps filled(FrameSteps of) {
       size_t after = t + 1;
       while (after < frames && !is_valid(after, i)) ++after;
       if (before == frames && after == frames) break;
-      const int64_t a = of.steps[before == frames ? after : before][i];
-      const int64_t b = of.steps[after == frames ? before : after][i];
+      const int64_t a = height_at(before == frames ? after : before, i);
+      const int64_t b = height_at(after == frames ? before : after, i);
+      const bool inside = before != frames && after != frames;
       for (; t < after; ++t) {
-        const bool inside = before != frames && after != frames;
         const auto way = static_cast<int64_t>(inside ? t - before : 0);
         const auto all = static_cast<int64_t>(inside ? after - before : 1);
-        of.steps[t][i] = static_cast<int32_t>(a + (b - a) * way / all);
+        put(t, i, a + (b - a) * way / all);
       }
       before = after;
-      t = after;
     }
   }
   return of;

@@ -18,21 +18,17 @@ namespace tetrakis::inline groups {
 struct FrameSteps {
   Planes steps;  ///< one plane a frame; of voids any
   FrameMasks masks;
-  double step = 1;
-  double base = 0;            ///< of the first frame
-  std::vector<double> bases;  ///< of the others; empty: all have that of the first
-  bool exact = false;         ///< every valid sample comes back bit for bit
-  int range_bits = 0;         ///< steps of all frames span less than 2^range_bits
+  double base = 0, step = 1;
+  std::vector<FrameScale> scales;  ///< of each frame; empty: all have this base and step
+  bool exact = false;              ///< every valid sample comes back bit for bit
+  int range_bits = 0;              ///< heights of all frames span less than 2^range_bits steps
 
-  double baseOf(size_t frame) const {
-    return frame == 0 || bases.empty() ? base : bases[frame - 1];
-  }
+  FrameScale scale(size_t frame) const { return scales.empty() ? FrameScale() : scales[frame]; }
   uint64_t validSamples() const;
 };
 
 /// Steps that suit the target of the options. frames: one or more, alike but for their samples. Exact
-/// steps may have a base for each frame, as fields of weather models have that are packed one by
-/// one. TKS_UNSUPPORTED: the target needs samples that no steps show, and that a group of a single
+/// steps may have a scale for each frame: fields of weather models are packed one by one. TKS_UNSUPPORTED: the target needs samples that no steps show, and that a group of a single
 /// frame may restore in another way.
 Result<FrameSteps> stepsOfFrames(std::span<const tks_heights> frames,
                                  const tks_encode_options& options);
