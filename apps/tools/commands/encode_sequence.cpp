@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tools/commands/encode_sequence.hpp"
 
-#include <glob.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <optional>
@@ -14,6 +11,7 @@
 #include "apps/tools/commands/encode_inputs.hpp"
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/frame_files.hpp"
 #include "apps/tools/output/output.hpp"
 #include "apps/tools/output/output_names.hpp"
 #include "apps/tools/output/progress.hpp"
@@ -22,36 +20,10 @@
 namespace tetrakis::tools {
 namespace {
 
-bool isPattern(const std::string& path) {
-  return path.find_first_of("*?[") != std::string::npos && !std::filesystem::exists(path);
-}
-
-/// The files of each frame; "" where there is none.
-struct FrameNames {
-  std::vector<std::string> heights, textures;
-
-  size_t count() const { return std::max(heights.size(), textures.size()); }
-  EncodeArguments argumentsOf(EncodeArguments arguments, size_t frame) const {
-    arguments.height = heights.empty() ? "" : heights[frame];
-    arguments.texture = textures.empty() ? "" : textures[frame];
-    return arguments;
-  }
-};
-
-Result<FrameNames> namesOf(const EncodeArguments& arguments) {
-  FrameNames names;
-  for (const auto& [pattern, list] : {std::pair(&arguments.height, &names.heights),
-                                      std::pair(&arguments.texture, &names.textures)}) {
-    if (pattern->empty()) continue;
-    Result<std::vector<std::string>> files = filesOf(*pattern);
-    if (!files.ok()) return files.status();
-    *list = *std::move(files);
-  }
-  const bool both = !names.heights.empty() && !names.textures.empty();
-  if (!both || names.heights.size() == names.textures.size()) return names;
-  return Status(TKS_USAGE, std::to_string(names.heights.size()) + " heights and " +
-                               std::to_string(names.textures.size()) +
-                               " textures: each frame takes one of both");
+EncodeArguments argumentsOf(EncodeArguments arguments, const FrameNames& names, size_t frame) {
+  arguments.height = names.height(frame);
+  arguments.texture = names.texture(frame);
+  return arguments;
 }
 
 /// Seconds between frames; nothing where nobody says.
@@ -112,7 +84,7 @@ class SequenceWriting {
 
  private:
   Status push(size_t frame) {
-    const EncodeArguments arguments = names_.argumentsOf(arguments_, frame);
+    const EncodeArguments arguments = argumentsOf(arguments_, names_, frame);
     const Result<Reference> inputs = readInputs(arguments, quiet_ || frame > 0);
     if (!inputs.ok()) return inputs.status();
     if (!encoder_) {
@@ -183,19 +155,9 @@ bool isSequence(const EncodeArguments& arguments) {
   return isPattern(arguments.height) || isPattern(arguments.texture);
 }
 
-Result<std::vector<std::string>> filesOf(const std::string& pattern) {
-  if (!isPattern(pattern)) return std::vector<std::string>{pattern};
-  glob_t found = {};
-  const int failed = glob(pattern.c_str(), 0, nullptr, &found);
-  std::vector<std::string> files(found.gl_pathv, found.gl_pathv + found.gl_pathc);
-  globfree(&found);
-  if (failed == 0 && !files.empty()) return files;
-  return Status(TKS_IO, "no file is called as " + quoted(pattern) + " says");
-}
-
 Status encodeSequence(const EncodeArguments& arguments, bool quiet) {
   if (Status status = checkSequence(arguments); !status.ok()) return status;
-  const Result<FrameNames> names = namesOf(arguments);
+  const Result<FrameNames> names = frameNames(arguments.height, arguments.texture);
   if (!names.ok()) return names.status();
   std::vector<std::string> inputs = names->heights;
   inputs.insert(inputs.end(), names->textures.begin(), names->textures.end());
