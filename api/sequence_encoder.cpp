@@ -218,7 +218,7 @@ Status encodePending(tks_sequence_encoder& encoder) {
 
 Status push(tks_sequence_encoder& encoder, const tks_heights* heights, const tks_image* image,
             int64_t time) {
-  if (time < -kMostTime || time > kMostTime) return misuse("A time lies within +-2^62 ticks.");
+  if (time < -kMostTime || time > kMostTime) return misuse("A time lies within +-2^61 ticks.");
   if (encoder.has_time && time <= encoder.last_time)
     return misuse("A frame at tick " + std::to_string(time) +
                   " is not later than the one before, " + std::to_string(encoder.last_time) + ".");

@@ -28,7 +28,7 @@ void visitTimes(V& v, std::vector<int64_t>& times) {
       // Both are below 2^63: unsigned sums tell whether the next way is.
       const auto sum = static_cast<uint64_t>(way) + static_cast<uint64_t>(more);
       next = static_cast<int64_t>(sum);
-      v.require("time", next > 0 && next <= kMostTime - times[t - 1]);
+      v.require("time", next > 0 && times[t - 1] <= kMostTime - next);
       if (v.ok()) times[t] = times[t - 1] + next;
     }
     way = next;
@@ -40,7 +40,7 @@ void visitTimes(V& v, std::vector<int64_t>& times) {
 template <class V>
 void GroupHead::visit(V& v) {
   v.varint("number", number, 0, UINT32_MAX);
-  v.varint("first_frame", first_frame, 0, uint64_t{UINT32_MAX} * kMostFrames);
+  v.varint("first_frame", first_frame, 0, kMostFirstFrame);
   uint32_t count = frames();
   v.varint("frames", count, 1, kMostFrames);
   v.varint("stream_bytes", stream_bytes, 1, UINT64_MAX >> 2);

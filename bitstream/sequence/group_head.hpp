@@ -22,8 +22,9 @@ inline constexpr std::array<uint8_t, 4> kGroupMagic = {'T', 'K', 'G', 0x1a};
 inline constexpr uint8_t kGroupVersion = 1;
 inline constexpr uint32_t kMostHeadBytes = 1u << 16;
 inline constexpr uint32_t kMostFrames = 32;  ///< of a group
+inline constexpr uint64_t kMostFirstFrame = uint64_t{UINT32_MAX} * kMostFrames;
 inline constexpr uint32_t kMostIndexBytes = 1u << 30;
-inline constexpr int64_t kMostTime = int64_t{1} << 62;  ///< in ticks, either way
+inline constexpr int64_t kMostTime = int64_t{1} << 61;  ///< in ticks, either way
 
 /// What a tick is, and when tick 0 is.
 struct Clock {

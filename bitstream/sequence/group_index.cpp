@@ -44,7 +44,7 @@ void visitSpan(V& v, GroupSpan& span, int64_t& later) {
 template <class V>
 void visitIndex(V& v, ReadIndex& index) {
   v.varint("number", index.number, 0, UINT32_MAX);
-  v.varint("first_frame", index.first_frame, 0, UINT64_MAX >> 2);
+  v.varint("first_frame", index.first_frame, 0, kMostFirstFrame);
   v.varint("bytes_before", index.group_bytes, 1, UINT64_MAX >> 2);
   v.varint("frames", index.own.frames, 1, kMostFrames);
   v.zigzag("first_time", index.own.first_time, kMostTime);

@@ -475,7 +475,7 @@ tks_status tks_sequence_encoder_open(const tks_sequence_options* options,
 void tks_sequence_encoder_close(tks_sequence_encoder* encoder);
 
 /* Takes one frame, which it copies, at a time in ticks after that of the frame before, within
- * +-2^62. The last frame of a group is pushed when the group is encoded. All frames of a sequence
+ * +-2^61. The last frame of a group is pushed when the group is encoded. All frames of a sequence
  * are alike, as those of tks_encode_frames. Where frames together cannot be coded as the target
  * asks for, each is a group by itself. TKS_USAGE, with a sentence in message: as tks_encode; the
  * frame is not like the first one, or is not later than the one before. The frame then is not
