@@ -143,7 +143,7 @@ Status giveHeights(tks_decoder& decoder, const Call& call, size_t sample_bytes, 
   if (!view.ok()) return view.status();
   const size_t count = view->extentIn(decoder.parsed.header.geometry->shown()).samples();
   if (Status s = call.check(decoder, *view, count, sample_bytes); !s.ok()) return s;
-  if (decoder.packets.payload.nothingOf(Component::kGeometry)) {
+  if (heightsAreUnsent(decoder)) {
     unsent(count);
   } else if (view->window) {
     all(decodeHeights(decoder, *view));

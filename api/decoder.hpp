@@ -80,6 +80,13 @@ Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
 /// How many frames the stream has.
 uint32_t framesOf(const StreamHeader& header);
 
+/// Whether nothing of the heights was sent, so that all samples are alike. Those of frames with
+/// scales may differ by roundings from level to level.
+inline bool heightsAreUnsent(const tks_decoder& decoder) {
+  return decoder.packets.payload.nothingOf(Component::kGeometry) &&
+         decoder.parsed.header.geometry->frames.scales.empty();
+}
+
 /// Gives the header of heights the base and the step of the frame that is shown.
 void showScale(tks_decoder& decoder);
 

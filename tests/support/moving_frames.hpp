@@ -1,43 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames for tests: one half of them stands still, the other half moves, and their voids change.
+// Frames through the C interface, for tests.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <vector>
 
+#include "conformance/samples/moving_frames.hpp"
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {
 
-using FrameRasters = std::vector<samples::Raster>;
-
-/// The columns from the middle on move by one column a frame.
-inline FrameRasters movingFrames(samples::Recipe recipe, uint32_t frames) {
-  const uint32_t width = recipe.width;
-  recipe.width += frames;
-  const samples::Raster wide = samples::make(recipe);
-  const size_t texel = tks_sample_bytes(recipe.sample) * recipe.channels;
-  FrameRasters rasters;
-  for (uint32_t t = 0; t < frames; ++t) {
-    samples::Raster frame = wide;
-    frame.width = width;
-    frame.data.resize(size_t{width} * recipe.height * texel);
-    for (uint32_t y = 0; y < recipe.height; ++y) {
-      for (uint32_t x = 0; x < width; ++x) {
-        const size_t from = size_t{y} * recipe.width + x + (2 * x >= width ? t : 0);
-        std::memcpy(frame.data.data() + (size_t{y} * width + x) * texel,
-                    wide.data.data() + from * texel, texel);
-      }
-    }
-    rasters.push_back(std::move(frame));
-  }
-  return rasters;
-}
+using samples::FrameRasters;
+using samples::movingFrames;
 
 inline std::vector<tks_heights> heightsOf(const FrameRasters& rasters) {
   std::vector<tks_heights> heights;
