@@ -42,8 +42,8 @@ struct FrameArguments {
 Status takeFrame(const tks_heights* heights, const tks_image* image,
                  const tks_encode_options& options, FrameArguments& out);
 
-/// The stream of one frame or more, which is proved to keep what it promises. TKS_UNSUPPORTED: as of
-/// tks_encode_frames.
+/// The stream of one frame or more, which is proved to keep what it promises. TKS_UNSUPPORTED: as
+/// of tks_encode_frames.
 Result<std::vector<uint8_t>> encodeFrames(const FrameArguments& frames);
 
 }  // namespace tetrakis::inline api

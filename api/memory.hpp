@@ -100,8 +100,8 @@ struct PlanesBytes {
   }
 };
 
-/// What frames of so many planes of a view take beside their coefficients: each plane as it is kept,
-/// the marks beside them, those of the frame that is shown, and the work of the threads.
+/// What frames of so many planes of a view take beside their coefficients: each plane as it is
+/// kept, the marks beside them, those of the frame that is shown, and the work of the threads.
 inline uint64_t framesBytes(const auto& header, const PlanesBytes& planes, uint64_t samples,
                             uint32_t colours = 1) {
   if (header.frames.none()) return 0;

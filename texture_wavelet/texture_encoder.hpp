@@ -29,8 +29,9 @@ EncodedTexture encodeStoredTexture(const Texels& texels);
 
 // encodeTextureFrames() codes images that follow one another in time, as the frames of one texture.
 
-/// frames: 2 to 32 images of one size and kind. ring: WaveletHeader::ring. Complete tracks for Purpose::kLossless are
-/// lossless. Distortion is the squared error of all samples, alpha included.
+/// frames: 2 to 32 images of one size and kind. ring: WaveletHeader::ring. Complete tracks for
+/// Purpose::kLossless are lossless. Distortion is the squared error of all samples, alpha
+/// included.
 EncodedTexture encodeTextureFrames(const std::vector<Texels>& frames, bool ring, Purpose purpose,
                                    const TextureOptions& options);
 

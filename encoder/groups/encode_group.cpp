@@ -123,9 +123,7 @@ std::vector<Packet> keepForPsnr(const GroupInputs& inputs, const Group& group,
   return keepNeeded(packets, needs, quality_after);
 }
 
-}  // namespace
-
-Result<std::vector<uint8_t>> encodeGroup(const GroupInputs& inputs) {
+Result<std::vector<uint8_t>> encodeForTarget(const GroupInputs& inputs) {
   Group group;
   if (!inputs.heights.empty()) {
     Result<HeightFrames> heights = codeHeightFrames(inputs);
@@ -150,6 +148,28 @@ Result<std::vector<uint8_t>> encodeGroup(const GroupInputs& inputs) {
   if (inputs.options.bytes != 0)
     selection.packets = keepWithinBudget(selection.packets, inputs.options.bytes);
   return writeStream(inputs.first(), selection);
+}
+
+/// Frames to the last bit, if the budget holds them.
+std::optional<std::vector<uint8_t>> losslessWithin(const GroupInputs& inputs) {
+  tks_encode_options options = inputs.options;
+  options.bytes = 0;
+  options.lossless = 1;
+  Result<std::vector<uint8_t>> stream = encodeForTarget({inputs.heights, inputs.images, options});
+  if (!stream.ok() || stream->size() > inputs.options.bytes) return std::nullopt;
+  return *std::move(stream);
+}
+
+}  // namespace
+
+Result<std::vector<uint8_t>> encodeGroup(const GroupInputs& inputs) {
+  Result<std::vector<uint8_t>> stream = encodeForTarget(inputs);
+  // Where a budget is not used up, its lossy coefficients end at roundings.
+  const bool is_left = stream.ok() && inputs.options.bytes > stream->size();
+  if (!is_left) return stream;
+  std::optional<std::vector<uint8_t>> exact = losslessWithin(inputs);
+  if (exact) return *std::move(exact);
+  return stream;
 }
 
 }  // namespace tetrakis::inline groups

@@ -27,8 +27,9 @@ struct FrameSteps {
   uint64_t validSamples() const;
 };
 
-/// Steps that suit the target of the options. frames: one or more, alike but for their samples. Exact
-/// steps may have a scale for each frame: fields of weather models are packed one by one. TKS_UNSUPPORTED: the target needs samples that no steps show, and that a group of a single
+/// Steps that suit the target of the options. frames: one or more, alike but for their samples.
+/// Exact steps may have a scale for each frame: fields of weather models are packed one by one.
+/// TKS_UNSUPPORTED: the target needs samples that no steps show, and that a group of a single
 /// frame may restore in another way.
 Result<FrameSteps> stepsOfFrames(std::span<const tks_heights> frames,
                                  const tks_encode_options& options);

@@ -54,7 +54,8 @@ Result<Decoder> openDecoder(std::span<const uint8_t> bytes);
 /// Whether the bytes begin as a sequence does, and not as a stream.
 bool isSequence(std::span<const std::byte> bytes);
 
-/// Reads, checks (strict), cuts and opens. Of a sequence it opens the group of a frame. A cut that leaves no whole header gives TKS_TRUNCATED.
+/// Reads, checks (strict), cuts and opens. Of a sequence it opens the group of a frame. A cut
+/// that leaves no whole header gives TKS_TRUNCATED.
 Result<OpenStream> openStream(const StreamSource& source);
 
 /// Whether a stream holds an object: heights over a base mesh, or triangles as they are.
