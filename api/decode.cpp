@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Heights, validity and texels through the C interface: all of a level, or a window.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 
@@ -29,6 +30,12 @@ template <class Memory>
 Memory* memoryOf(const tks_decoder& decoder, Memory& levels, Memory& windows, const View& view) {
   levels.tracks.all_levels = true;
   windows.tracks.tracks.most_bytes = decoder.most_of_windows;
+  if (framesOf(decoder.parsed.header) > 1) {
+    // All frames of the view are kept, whether or not their tracks are.
+    levels.tracks.forgets = !decoder.remembers;
+    windows.tracks.forgets = decoder.most_of_windows == 0;
+    return view.window ? &windows : &levels;
+  }
   if (view.window) return decoder.most_of_windows > 0 ? &windows : nullptr;
   return decoder.remembers ? &levels : nullptr;
 }
@@ -52,24 +59,38 @@ Status lost() {
           "Memory was exhausted while the decoder took bytes: close it and open the stream anew."};
 }
 
+uint32_t framesOf(const StreamHeader& header) {
+  if (header.geometry && !header.geometry->frames.none()) return header.geometry->frames.count;
+  return header.texture ? header.texture->frames.count : 1;
+}
+
+void showScale(tks_decoder& decoder) {
+  GeometryHeader& geometry = *decoder.parsed.header.geometry;
+  const FrameScale scale = geometry.frames.scale(decoder.frame);
+  geometry.base = decoder.base + static_cast<double>(scale.offset) * decoder.step;
+  geometry.step = std::ldexp(decoder.step, scale.shift);
+}
+
 Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window* window) {
   const StreamHeader& header = decoder.parsed.header;
   const bool texture = part == TKS_PART_TEXTURE;
   if (texture && !header.texture) return noTexture();
   if (!texture && !header.geometry) return noHeights();
   const int level = texture ? decoder.texture_level : decoder.heights_level;
-  if (window == nullptr) return View{level, {}};
+  if (window == nullptr) return View{level, {}, decoder.frame};
   if (level > 0) return Status(TKS_USAGE, "Windows are parts of level 0; set the level to 0.");
   const Extent extent = texture ? header.texture->shown() : header.geometry->shown();
   const Window asked{window->x, window->y, window->width, window->height};
-  if (asked.isInside(extent)) return View{0, asked};
+  if (asked.isInside(extent)) return View{0, asked, decoder.frame};
   return Status(TKS_USAGE, "The window must lie inside the " + std::to_string(extent.width) +
                                " x " + std::to_string(extent.height) +
                                " samples and hold one or more.");
 }
 
-DecodedHeights decodeHeights(tks_decoder& decoder, const View& view) {
+DecodedHeights decodeHeights(tks_decoder& decoder, const View& asked) {
   const StreamHeader& header = decoder.parsed.header;
+  View view = asked;
+  view.frame = decoder.frame;
   decoder.heights_windows.parts.most_bytes = decoder.most_of_windows;
   return decodeHeights(
       headerFor(decoder, *header.geometry, view), header.layers, heightTracksFor(decoder, view),
@@ -122,7 +143,7 @@ Status giveHeights(tks_decoder& decoder, const Call& call, size_t sample_bytes, 
   if (!view.ok()) return view.status();
   const size_t count = view->extentIn(decoder.parsed.header.geometry->shown()).samples();
   if (Status s = call.check(decoder, *view, count, sample_bytes); !s.ok()) return s;
-  if (decoder.packets.payload.nothingOf(Component::kGeometry)) {
+  if (heightsAreUnsent(decoder)) {
     unsent(count);
   } else if (view->window) {
     all(decodeHeights(decoder, *view));
@@ -218,9 +239,26 @@ Status setLevels(tks_decoder& decoder, uint32_t heights, uint32_t texture) {
   return {};
 }
 
+Status setFrame(tks_decoder& decoder, uint32_t frame) {
+  StreamHeader& header = decoder.parsed.header;
+  const uint32_t frames = framesOf(header);
+  if (frame >= frames)
+    return {TKS_USAGE, "The stream has no frame " + std::to_string(frame) + "; it has " +
+                           std::to_string(frames) + ", from 0 on."};
+  if (frame == decoder.frame) return {};
+  decoder.frame = frame;
+  decoder.heights.reset();
+  if (header.geometry) showScale(decoder);
+  return {};
+}
+
 }  // namespace
 
 }  // namespace tetrakis::inline api
+
+tks_status tks_set_frame(tks_decoder* decoder, uint32_t frame) {
+  return tetrakis::keeping(decoder, [&] { return tetrakis::setFrame(*decoder, frame); });
+}
 
 tks_status tks_set_levels(tks_decoder* decoder, uint32_t heights, uint32_t texture) {
   return tetrakis::keeping(decoder,

@@ -50,6 +50,9 @@ struct tks_decoder {
   tetrakis::TakenPackets packets;
   std::optional<tetrakis::ScatteredPackets> scattered;  ///< once bytes left a gap
   int heights_level = 0, texture_level = 0;
+  uint32_t frame = 0;  ///< that is shown, of a stream of several
+  /// Base and step that the stream states: those of `parsed` are the shown frame's.
+  double base = 0, step = 1;
   std::optional<tetrakis::DecodedHeights> heights;  ///< of that level, decoded on first use
   bool remembers = false;  ///< what was decoded of tracks, so that more bytes cost what they tell
   tetrakis::HeightsMemory heights_memory;  ///< for views of all levels
@@ -73,6 +76,19 @@ Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder);
 
 /// The heights in steps, with their corrections of steps and without those of samples.
 Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
+
+/// How many frames the stream has.
+uint32_t framesOf(const StreamHeader& header);
+
+/// Whether nothing of the heights was sent, so that all samples are alike. Those of frames with
+/// scales may differ by roundings from level to level.
+inline bool heightsAreUnsent(const tks_decoder& decoder) {
+  return decoder.packets.payload.nothingOf(Component::kGeometry) &&
+         decoder.parsed.header.geometry->frames.scales.empty();
+}
+
+/// Gives the header of heights the base and the step of the frame that is shown.
+void showScale(tks_decoder& decoder);
 
 /// Decodes what a view shows of the heights, which the stream holds. Keeps what the decoder
 /// remembers, and no heights.

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <initializer_list>
 
+#include "api/encode_arguments.hpp"
 #include "api/encoded_stream.hpp"
 #include "api/guarded.hpp"
 #include "base/forest.hpp"
@@ -21,11 +22,11 @@
 
 namespace tetrakis::inline api {
 
-namespace {
-
 Status misuse(const std::string& sentence) {
   return {TKS_USAGE, sentence};
 }
+
+namespace {
 
 /// Two hundred times what a reference system takes, and a header holds all of them.
 Status checkTexts(const std::string& whose, std::initializer_list<const char*> texts) {
@@ -224,17 +225,12 @@ Status checkedHeights(const tks_heights& given, tks_heights& out) {
 
 namespace {
 
-/// The caller's structs as this library knows them, checked.
-struct Arguments {
-  tks_heights heights;
-  tks_image image;
-  tks_encode_options options;
-};
-
 Status takeImage(const tks_image& given, tks_image& out) {
   const Status status = takeSized("the texture", given, offsetof(tks_image, geotransform), out);
   return status.ok() ? checkImage(out) : status;
 }
+
+}  // namespace
 
 Status takeArguments(const tks_heights* heights, const tks_image* image,
                      const tks_encode_options* options, Arguments& out) {
@@ -255,6 +251,8 @@ Status takeArguments(const tks_heights* heights, const tks_image* image,
   return status;
 }
 
+namespace {
+
 Status encodeAndProve(const tks_heights* heights, const tks_image* image,
                       const tks_encode_options* options, tks_buffer* out) {
   Arguments known;
@@ -274,7 +272,8 @@ Status encodeAndProve(const tks_heights* heights, const tks_image* image,
                     .notes = known.options.explain != nullptr ? &notes : nullptr});
   if (!stream.ok()) return stream.status();
   watch.stage(1);
-  Status proved = prove(*stream, known_heights, known_image, known.options);
+  Status proved = prove(*stream, {known_heights, heights != nullptr ? 1u : 0u},
+                        {known_image, image != nullptr ? 1u : 0u}, known.options);
   if (!proved.ok()) return proved;
   watch.stage(1);
   if (known.options.explain != nullptr)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "api/encoded_stream.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -118,8 +119,8 @@ tks_limits noLimits() {
 
 }  // namespace
 
-Status prove(std::span<const uint8_t> stream, const tks_heights* heights, const tks_image* image,
-             const tks_encode_options& options) {
+Status prove(std::span<const uint8_t> stream, std::span<const tks_heights> heights,
+             std::span<const tks_image> images, const tks_encode_options& options) {
   if (options.bytes != 0 && stream.size() > options.bytes)
     return broken("the stream takes more than its budget");
   tks_decoder* opened = nullptr;
@@ -133,11 +134,17 @@ Status prove(std::span<const uint8_t> stream, const tks_heights* heights, const 
   if (!works(tks_get_info(opened, &info))) return broken("the stream says nothing of itself");
   const bool lossless = info.lossless != 0;
   if (options.lossless != 0 && !lossless) return broken("the stream is not lossless");
-  if (heights != nullptr && (lossless || options.max_error > 0)) {
-    const HeightPromise promise(*heights, lossless, options.max_error);
-    if (Status status = proveHeights(opened, *heights, promise); !status.ok()) return status;
+  const bool heights_promise = lossless || options.max_error > 0;
+  for (uint32_t t = 0; t < std::max(heights.size(), images.size()); ++t) {
+    if (!works(tks_set_frame(opened, t))) return broken("the stream lacks a frame");
+    Status status;
+    if (!heights.empty() && heights_promise)
+      status =
+          proveHeights(opened, heights[t], HeightPromise(heights[t], lossless, options.max_error));
+    if (status.ok() && !images.empty() && lossless) status = proveTexture(opened, images[t]);
+    if (!status.ok()) return status;
   }
-  return image != nullptr && lossless ? proveTexture(opened, *image) : Status();
+  return {};
 }
 
 namespace {

@@ -27,11 +27,12 @@ void giveBytes(std::span<const uint8_t> bytes, tks_buffer& out);
 // caller gets a stream that breaks a promise.
 
 /// Decodes the finished stream through the public interface and compares: a budget, a largest
-/// error, and every bit where the target or the stream says lossless. heights and image (null:
-/// there is none) are what was encoded. TKS_MISMATCH with a sentence if a promise is broken, which
-/// is a fault of the encoder. Streams that promise nothing are not decoded.
-Status prove(std::span<const uint8_t> stream, const tks_heights* heights, const tks_image* image,
-             const tks_encode_options& options);
+/// error, and every bit where the target or the stream says lossless. heights and images (none:
+/// there are none) are what was encoded, frame by frame. TKS_MISMATCH with a sentence if a
+/// promise is broken, which is a fault of the encoder. Streams that promise nothing are not
+/// decoded.
+Status prove(std::span<const uint8_t> stream, std::span<const tks_heights> heights,
+             std::span<const tks_image> images, const tks_encode_options& options);
 
 // explain() tells a caller of tks_encode() the plans that the encoder weighed.
 

@@ -85,13 +85,16 @@ uint64_t HeightsBytes::decodingLines() const {
 
 uint64_t HeightsBytes::decodingTaken() const {
   if (header_.drawn) return drawing();
-  const PlanesBytes planes(decoder_, header_, view_, 1, voids_);
+  const uint32_t frames = header_.frames.count;
+  const PlanesBytes planes(decoder_, header_, view_, frames, voids_);
   const uint64_t samples = view_.window ? shown_ : low();
   const uint64_t masks = wholeMasks() + (voids_ ? samples : 0);
   const uint64_t corrections = corrected_ ? samples * (kValueBytes + 1) + rows() + parts() : 0;
-  const TrackNeeds needs = trackNeeds(decoder_, header_, 1, voids_ || flat_, Component::kGeometry);
+  const TrackNeeds needs =
+      trackNeeds(decoder_, header_, frames, voids_ || flat_, Component::kGeometry);
   const uint64_t state = stateBytes(decoder_, header_, view_, needs, Component::kGeometry);
-  const uint64_t surface = planes.coefficients + samples + masks + flatBytes() + joinedBytes() +
+  const uint64_t surface = frames * planes.coefficients + samples + masks + flatBytes() +
+                           joinedBytes() + framesBytes(header_, planes, samples) +
                            std::max({state, planes.work, corrections + tableBytes()});
   return kOnceBytes + trackBytes(header_) +
          std::max({surface, flatOpeningBytes(), openingMaskBytes()});
@@ -109,7 +112,9 @@ uint64_t HeightsBytes::drawing() const {
 /// Which samples of the plane are valid, and which are lifted where that is not the same.
 uint64_t HeightsBytes::wholeMasks() const {
   const bool bridged = layers_.bridge > 0 || layers_.late_mask;
-  return voids_ ? (bridged ? 2 : 1) * BitPlane::bytesOf(header_.extent()) : 0;
+  // Of frames: those that arrive and go, and what is valid in one of them.
+  const uint64_t masks = header_.frames.none() ? (bridged ? 2 : 1) : header_.frames.count + 6u;
+  return voids_ ? masks * BitPlane::bytesOf(header_.extent()) : 0;
 }
 
 /// The same while one of them is decoded, or found.

@@ -204,6 +204,11 @@ void fillTexture(const tks_decoder& decoder, tks_info& info) {
   info.texture_forest = forestOf(texture.wavelet.forest);
 }
 
+void fillFrames(const tks_decoder& decoder, tks_info& info) {
+  info.frames = framesOf(decoder.parsed.header);
+  info.frame = decoder.frame;
+}
+
 void fillMetadata(const tks_decoder& decoder, tks_info& info) {
   const Metadata& m = decoder.parsed.header.metadata;
   info.scale = m.scale;
@@ -227,9 +232,10 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info) {
   return tetrakis::answering([&]() -> tetrakis::Status {
     if (decoder->is_lost) return tetrakis::lost();
     tks_info full = {};
-    for (const auto fill : {tetrakis::fillStream, tetrakis::fillHeights, tetrakis::fillTexture,
-                            tetrakis::fillMetadata, tetrakis::fillGeoreference,
-                            tetrakis::fillPositions, tetrakis::fillQuality})
+    for (const auto fill :
+         {tetrakis::fillStream, tetrakis::fillHeights, tetrakis::fillTexture, tetrakis::fillFrames,
+          tetrakis::fillMetadata, tetrakis::fillGeoreference, tetrakis::fillPositions,
+          tetrakis::fillQuality})
       fill(*decoder, full);
     tetrakis::giveSized(full, *info);
     return {};

@@ -28,7 +28,7 @@ uint64_t decodingBytes(const tks_decoder& decoder, const MemoryRequest& request)
   }
   if (request.part == TKS_PART_CODED_MESH || request.part == TKS_PART_BUDGET_MESH)
     return meshBytes(decoder, request);
-  if (decoder.packets.payload.nothingOf(Component::kGeometry))
+  if (heightsAreUnsent(decoder))
     return decoder.parsed.header.geometry->drawn ? kDrawnOnceBytes : kOnceBytes;
   if (decoder.heights && !request.view.window) return 0;
   const HeightsBytes heights(decoder, request.view);

@@ -100,6 +100,15 @@ struct PlanesBytes {
   }
 };
 
+/// What frames of so many planes of a view take beside their coefficients: each plane as it is
+/// kept, the marks beside them, those of the frame that is shown, and the work of the threads.
+inline uint64_t framesBytes(const auto& header, const PlanesBytes& planes, uint64_t samples,
+                            uint32_t colours = 1) {
+  if (header.frames.none()) return 0;
+  const uint64_t all = (header.frames.count + 1u) * colours;
+  return all * (samples * kValueBytes + planes.work) + 2 * samples;
+}
+
 /// So many samples that are copied from coded lines, and the maps of lines.
 inline uint64_t copyBytes(const auto& header, uint64_t samples, uint64_t sample_bytes) {
   constexpr uint64_t kLine = 4 * sizeof(uint32_t);

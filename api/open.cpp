@@ -79,6 +79,11 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
   if (Status status = checkSizes(header, known); !status.ok()) return status;
   if (header.geometry && !header.geometry->base_mesh.none())
     decoder.base_mesh = decodeBaseMesh(header.geometry->base_mesh, header.geometry->wavelet.forest);
+  if (header.geometry) {
+    decoder.base = header.geometry->base;
+    decoder.step = header.geometry->step;
+    showScale(decoder);
+  }
   decoder.index = indexOf(header);
   decoder.max_memory = limitOf(known.max_memory, kDefaultMemory, kMostMemory);
   decoder.most_of_windows = decoder.max_memory / kShareOfWindows;

@@ -30,8 +30,9 @@ bool areRemembered(const tks_decoder& decoder) {
 std::vector<View> textureStrips(const tks_decoder& decoder, const View& view) {
   const TextureHeader& header = *decoder.parsed.header.texture;
   const uint32_t rows = std::max(kTexels / header.width, kLeastRows);
-  const bool strips = view.isWhole() && rows < header.height && header.repeats.none() &&
-                      header.wavelet.forest == nullptr && areRemembered(decoder);
+  const bool strips = view.isWhole() && header.frames.none() && rows < header.height &&
+                      header.repeats.none() && header.wavelet.forest == nullptr &&
+                      areRemembered(decoder);
   if (!strips) return {view};
   std::vector<View> views;
   for (uint32_t y = 0; y < header.height; y += rows)
@@ -64,7 +65,7 @@ class TextureBytes {
     if (header_.direct())
       return kDrawnOnceBytes + direct(view_.window ? area(header_) : shown_) +
              (view_.window ? out : 0);
-    const uint32_t colour_planes = header_.colourPlanes();
+    const uint32_t colour_planes = header_.colourPlanes() * header_.frames.count;
     const PlanesBytes planes(decoder_, header_, view_, colour_planes, masked_);
     const uint64_t all = colour_planes * planes.coefficients;
     const uint64_t masks = shown_ * ((masked_ ? 1 : 0) + (seen_ ? 1 : 0));
@@ -74,7 +75,8 @@ class TextureBytes {
         trackNeeds(decoder_, header_, colour_planes, masked_, Component::kTexture);
     const uint64_t state = stateBytes(decoder_, header_, view_, needs, Component::kTexture);
     const uint64_t once = header_.overlay_bytes > 0 ? kDrawnOnceBytes : kOnceBytes;
-    return once + opening() + tableBytesOf(header_) + trackBytes(header_) +
+    return once + framesBytes(header_, planes, shown_, header_.colourPlanes()) + opening() +
+           tableBytesOf(header_) + trackBytes(header_) +
            std::max({finding(), all + state, all + masks + planes.work, samples + masks + out});
   }
   /// What there is while a mask is decoded, or bridges are found.

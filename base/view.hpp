@@ -28,12 +28,14 @@ struct Window {
     return x < other.x + other.width && other.x < x + width && y < other.y + other.height &&
            other.y < y + height;
   }
+  bool operator==(const Window&) const = default;
 };
 
 /// The default view shows the whole plane. A view with a window has level 0.
 struct View {
   int level = 0;                 ///< the samples at multiples of 2^level in x and y are shown
   std::optional<Window> window;  ///< only the samples in the window are shown
+  uint32_t frame = 0;            ///< of a component in frames, the one that is shown
 
   bool isWhole() const { return level == 0 && !window; }
   /// How many samples of a plane of that size are shown.

@@ -2,11 +2,21 @@
 #include "conformance/decode_cut.hpp"
 
 #include <algorithm>
+#include <vector>
 
 #include "conformance/digest.hpp"
 #include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::conformance {
+namespace {
+
+void addSamples(const Result<std::vector<std::byte>>& decoded, std::vector<std::byte>& all,
+                int& status) {
+  if (decoded) all.insert(all.end(), decoded->begin(), decoded->end());
+  if (!decoded) status = decoded.status().code();
+}
+
+}  // namespace
 
 Cut decodeCut(std::span<const uint8_t> prefix, int level) {
   Cut cut;
@@ -26,16 +36,16 @@ Cut decodeCut(std::span<const uint8_t> prefix, int level) {
         decoder->setLevels(up_to(info.coarsest_level), up_to(info.texture_coarsest_level));
     if (!set.ok()) cut.status = set.code();
   }
-  if (decoder->info().has_heights) {
-    const auto heights = decoder->heights();
-    if (heights) cut.heights = sampleDigest(*heights, decoder->info().sample);
-    if (!heights) cut.status = heights.status().code();
+  std::vector<std::byte> heights, texture;  // of all frames, one behind the other
+  for (uint32_t t = 0; t < decoder->info().frames; ++t) {
+    if (const auto set = decoder->setFrame(t); !set.ok()) cut.status = set.code();
+    if (decoder->info().has_heights) addSamples(decoder->heights(), heights, cut.status);
+    if (decoder->info().has_texture) addSamples(decoder->texture(), texture, cut.status);
   }
-  if (decoder->info().has_texture) {
-    const auto texture = decoder->texture();
-    if (texture) cut.texture = sampleDigest(*texture, decoder->info().texture_sample);
-    if (!texture) cut.status = texture.status().code();
-  }
+  if (cut.status == TKS_OK && decoder->info().has_heights)
+    cut.heights = sampleDigest(heights, decoder->info().sample);
+  if (cut.status == TKS_OK && decoder->info().has_texture)
+    cut.texture = sampleDigest(texture, decoder->info().texture_sample);
   if (decoder->info().object_triangles > 0) {
     const auto mesh = decoder->objectMesh(TKS_MESH_BUDGET);
     if (mesh.ok()) cut.triangles = cornerDigest(*mesh);

@@ -142,7 +142,7 @@ class ColourPlanes {
 }  // namespace
 
 uint64_t TextureMemory::bytes() const {
-  uint64_t bytes = tracks.bytes();
+  uint64_t bytes = tracks.bytes() + frames.bytes();
   if (const TextureOpening* const whole = opening.whole.get()) {
     for (const SharedBits& marks : {whole->seen, whole->coded, whole->lifted})
       bytes += marks != nullptr ? BitPlane::bytesOf(marks->extent()) : 0;
@@ -151,7 +151,42 @@ uint64_t TextureMemory::bytes() const {
   return bytes;
 }
 
+FrameLayout frameLayoutOf(const TextureHeader& header) {
+  FrameLayout layout{header.extent(), header.frames, header.wavelet, header.regions, header.planes};
+  layout.priorities.assign(header.priority.begin(),
+                           header.priority.begin() + static_cast<int>(header.colourPlanes()));
+  return layout;
+}
+
 namespace {
+
+std::shared_ptr<const FramePlanes> framesOf(const TextureHeader& header, const Codewords& codewords,
+                                            const View& view,
+                                            const DecodeContext<TextureMemory>& context) {
+  TextureMemory* const memory = context.memory;
+  const uint64_t known = bytesOf(codewords);
+  if (memory != nullptr && memory->frames.holds(view, known)) return memory->frames.planes;
+  TrackMemory* const tracks = memory != nullptr ? &memory->tracks : nullptr;
+  const FrameLayout layout = frameLayoutOf(header);
+  const FramePlan plan(layout, nullptr, tracks != nullptr ? tracks->norms : std::nullopt);
+  if (tracks != nullptr) tracks->norms = plan.layout().norms();
+  auto planes = std::make_shared<const FramePlanes>(
+      decodeFramePlanes(layout, plan, codewords, view, {context.threads, tracks}));
+  if (memory != nullptr) memory->frames = {view, known, planes};
+  return planes;
+}
+
+/// One frame of a texture in frames.
+Texels decodeFrame(const TextureHeader& header, const Codewords& codewords, const View& view,
+                   const DecodeContext<TextureMemory>& context) {
+  const std::shared_ptr<const FramePlanes> all = framesOf(header, codewords, view, context);
+  const auto first =
+      all->planes.begin() + static_cast<ptrdiff_t>(view.frame * header.colourPlanes());
+  std::vector<std::vector<int32_t>> planes(first, first + header.colourPlanes());
+  Texels texels = emptyTexels(header, view.extentIn(header.extent()));
+  finish(header, all->fraction_bits, planes, context.threads, texels);
+  return texels;
+}
 
 /// A view of the lines that are coded.
 Texels decodeLines(const TextureHeader& header, const Codewords& codewords, const View& view,
@@ -160,6 +195,7 @@ Texels decodeLines(const TextureHeader& header, const Codewords& codewords, cons
   if (memory != nullptr && memory->drawing) return memory->drawing(codewords.front().size());
   if (header.stored) return decodeStoredTexture(header, codewords.front(), view);
   if (header.drawn()) return decodeDrawn(header, codewords.front(), view);
+  if (!header.frames.none()) return decodeFrame(header, codewords, view, context);
   Codewords coefficients = codewords;
   const auto opening =
       takeOpening(header, memory ? &memory->opening : nullptr, coefficients.front());

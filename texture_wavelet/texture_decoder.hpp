@@ -17,6 +17,7 @@
 #include "base/view.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/stream/texture_header.hpp"
+#include "codec/frames/frame_planes.hpp"
 #include "codec/wavelet/band_plan.hpp"
 #include "codec/wavelet/region_decoder.hpp"
 #include "codec/wavelet/synthesis/view_synthesis.hpp"
@@ -53,6 +54,9 @@ class TexturePlan {
   std::vector<PlaneBands> planes_;  ///< of each colour plane
   BandWeights weights_;
 };
+
+/// What a texture in frames says of its planes.
+FrameLayout frameLayoutOf(const TextureHeader& header);
 
 /// Returns the colour transform that a header describes.
 ColourTransform colourOf(const TextureHeader& header);
@@ -104,6 +108,7 @@ struct TextureMemory {
   /// Of encoders that look at many prefixes of small textures: the colour planes, most of which a
   /// few more bytes leave as they are; empty: they are not kept.
   std::vector<SynthesisMemory> planes = {};
+  KeptFrames frames = {};  ///< of a texture in frames: all frames of the last view
 
   uint64_t bytes() const;
 };

@@ -37,11 +37,8 @@ constexpr double kLeastSquares = 1;
 /// colours are off by half the range. A smaller number puts overlays further ahead of other bytes.
 constexpr double kOverlayPart = 4;
 
-/// What the squared error of each channel counts.
-using ChannelWeights = std::array<double, 4>;
+}  // namespace
 
-/// Squared error of all channels per squared error of each colour plane's coefficients of a level;
-/// alpha counts like a colour.
 std::vector<double> energiesOf(size_t planes, const ColourTransform& colour, int level,
                                const ChannelWeights& weights) {
   std::vector<double> energies(weights.begin(), weights.begin() + static_cast<int>(planes));
@@ -57,8 +54,7 @@ std::vector<double> energiesOf(size_t planes, const ColourTransform& colour, int
   return energies;
 }
 
-/// Those colour planes come first whose errors count most: 16 log2 of amplitudes is 8 log2 of
-/// energies.
+// 16 log2 of amplitudes is 8 log2 of energies.
 std::array<int64_t, 4> prioritiesOf(size_t planes, const ColourTransform& colour,
                                     const ChannelWeights& weights) {
   const std::vector<double> energies = energiesOf(planes, colour, 1, weights);
@@ -81,6 +77,8 @@ void describeColour(const ColourTransform& colour, TextureHeader& header) {
   std::copy(colour.further_shears.begin(), colour.further_shears.end(),
             header.further_shears.begin());
 }
+
+namespace {
 
 /// The codewords ahead of the coefficients: the mask of a cut-out, then the overlay. Empty: there
 /// is none.

@@ -3,12 +3,16 @@
 // fewest bytes for its purpose: the wavelet, a drawing, or its samples as they are. Encoder only.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "base/samples.hpp"
 #include "bitstream/stream/encoded_texture.hpp"
 #include "bitstream/stream/texture_header.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
+#include "texture_wavelet/colour/colour.hpp"
 #include "texture_wavelet/tables/channel_tables_encoder.hpp"
 #include "texture_wavelet/texture_source.hpp"
 
@@ -22,6 +26,31 @@ uint64_t storedBytes(const Texels& texels);
 
 /// One track, lossless.
 EncodedTexture encodeStoredTexture(const Texels& texels);
+
+// encodeTextureFrames() codes images that follow one another in time, as the frames of one texture.
+
+/// frames: 2 to 32 images of one size and kind. ring: WaveletHeader::ring. Complete tracks for
+/// Purpose::kLossless are lossless. Distortion is the squared error of all samples, alpha
+/// included.
+EncodedTexture encodeTextureFrames(const std::vector<Texels>& frames, bool ring, Purpose purpose,
+                                   const TextureOptions& options);
+
+// energiesOf() and the functions below it are what all textures that are coded by wavelet share.
+
+/// What the squared error of each channel counts.
+using ChannelWeights = std::array<double, 4>;
+
+/// Squared error of all channels per squared error of each colour plane's coefficients of a level;
+/// alpha counts like a colour.
+std::vector<double> energiesOf(size_t planes, const ColourTransform& colour, int level,
+                               const ChannelWeights& weights);
+
+/// Those colour planes come first whose errors count most.
+std::array<int64_t, 4> prioritiesOf(size_t planes, const ColourTransform& colour,
+                                    const ChannelWeights& weights);
+
+/// Writes the transform into a header.
+void describeColour(const ColourTransform& colour, TextureHeader& header);
 
 // visualWeights() gives each band of each colour plane a weight, so that passes come in the order
 // in which an eye notices them.

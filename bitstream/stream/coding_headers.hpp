@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// WaveletHeader, RegionHeader and PriorityHeader are the parts of a header that heights and
-// textures share: the wavelet, spatial regions, and priorities over the ground; Coding says how a
-// component is coded (docs/FORMAT.md, section 2).
+// WaveletHeader, RegionHeader, PriorityHeader and FramesHeader are the parts of a header that
+// heights and textures share: the wavelet, spatial regions, priorities over the ground, and frames;
+// Coding says how a component is coded (docs/FORMAT.md, section 2).
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/forest.hpp"
 #include "bitstream/track/track.hpp"
@@ -24,8 +25,8 @@ enum class Coding : uint8_t { kStored = 0, kDrawn = 1, kWavelet = 2 };
 struct PartKind {
   static constexpr uint64_t kRepeatedLines = 1, kPriorities = 2, kValidity = 3, kBridges = 4,
                             kLateMask = 5, kNodata = 6, kValueTable = 7, kFlatAreas = 8,
-                            kCorrections = 9, kBaseMesh = 10, kCutOut = 16, kOverlay = 17,
-                            kColours = 18, kFurtherColour = 19, kChannelTables = 20,
+                            kCorrections = 9, kBaseMesh = 10, kFrames = 11, kCutOut = 16,
+                            kOverlay = 17, kColours = 18, kFurtherColour = 19, kChannelTables = 20,
                             kWhiteLevel = 21, kBandWeights = 22, kBound = 64;
 };
 
@@ -77,6 +78,48 @@ struct PriorityHeader {
   }
   static constexpr uint8_t kLeastTileLog2 = 4;
   static constexpr uint64_t kMostTiles = 65536;
+};
+
+/// Filters over time: codec/frames/frame_lifting.hpp.
+enum class TimeFilter : uint8_t { kNone = 0, kHaar = 1, kFiveThree = 2 };
+
+/// Of heights: what the steps of a frame are in those of the component: q of the frame stands for
+/// offset + q * 2^shift of these.
+struct FrameScale {
+  static constexpr int64_t kMostOffset = int64_t{1} << 26;
+  static constexpr uint8_t kMostShift = 24;
+
+  int64_t offset = 0;
+  uint8_t shift = 0;
+
+  bool operator==(const FrameScale&) const = default;
+};
+
+/// Frames of a component, which follow one another in time. Each has the planes of the component.
+struct FramesHeader {
+  uint8_t count = 1;  ///< 1: the component is no sequence
+  TimeFilter filter = TimeFilter::kNone;
+  std::vector<FrameScale> scales = {};  ///< of each frame; empty: all have the component's steps
+
+  bool none() const { return count == 1; }
+  FrameScale scale(size_t frame) const { return scales.empty() ? FrameScale() : scales[frame]; }
+
+  template <class V>
+  void visit(V& v) {
+    v.u8("frames", count, 2, kMost);
+    v.u8("time_filter", filter, 0, static_cast<uint64_t>(TimeFilter::kFiveThree));
+  }
+  template <class V>
+  void visitScales(V& v) {
+    v.unless(std::vector<FrameScale>(), scales, [&] {
+      if constexpr (V::kReads) scales.resize(v.ok() ? count : 0);
+      for (FrameScale& scale : scales) {
+        v.zigzag("frame_offset", scale.offset, FrameScale::kMostOffset);
+        v.u8("frame_shift", scale.shift, 0, FrameScale::kMostShift);
+      }
+    });
+  }
+  static constexpr uint8_t kMost = 32;
 };
 
 /// The tiles of a side of a plane.

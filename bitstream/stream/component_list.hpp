@@ -165,7 +165,7 @@ void visitKnown(V& v, StreamHeader& header, const ListedComponent& one) {
     takeDomain(header.geometry->wavelet);
     header.geometry->visit(v, one.domain.grid);
     header.layers.visit(v);
-    header.geometry->visitBaseMesh(v);
+    header.geometry->visitOthers(v);
     header.geometry->visitBound(v);
     v.endParts(header.geometry->later_parts);
   } else {

@@ -45,7 +45,8 @@ struct GeometryHeader {
   PriorityHeader priorities;
   RegionHeader regions;
   BaseMeshHeader base_mesh;  ///< of heights on a forest that count along the normals of a surface
-  std::string later_parts;   ///< of kinds that are not known and inform, as they were read
+  FramesHeader frames;
+  std::string later_parts;  ///< of kinds that are not known and inform, as they were read
 
   /// domain: the lines that are shown.
   template <class V>
@@ -64,10 +65,14 @@ struct GeometryHeader {
     height = coded.height;
     v.part(PartKind::kPriorities, !priorities.none(), [&](auto& part) { priorities.visit(part); });
   }
-  /// Behind the layers.
+  /// Behind the layers: a base mesh, frames.
   template <class V>
-  void visitBaseMesh(V& v) {
+  void visitOthers(V& v) {
     v.part(PartKind::kBaseMesh, !base_mesh.none(), [&](auto& part) { base_mesh.visit(part); });
+    v.part(PartKind::kFrames, !frames.none(), [&](auto& part) {
+      frames.visit(part);
+      frames.visitScales(part);
+    });
   }
   /// What informs.
   template <class V>

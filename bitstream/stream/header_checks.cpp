@@ -184,6 +184,31 @@ Status checkTriangleMesh(const StreamHeader& header) {
           "Corrupt stream: the texture of its triangles has no places on them, or is no plane."};
 }
 
+/// Frames are planes of coefficients, with no layer but the masks of heights (docs/FORMAT.md,
+/// section 2).
+Status checkFrames(const StreamHeader& header) {
+  const auto plain = [](const auto& c) {
+    return !c.direct() && c.wavelet.forest == nullptr && c.repeats.none() && c.priorities.none();
+  };
+  bool all = true;
+  if (header.geometry && !header.geometry->frames.none()) {
+    const GeometryLayers& layers = header.layers;
+    all &= plain(*header.geometry) && !layers.late_mask && layers.table_bytes == 0 &&
+           layers.flat_bytes == 0 && layers.corrections == CorrectionKind::kNone;
+  }
+  if (header.texture && !header.texture->frames.none()) {
+    const TextureHeader& t = *header.texture;
+    all &= plain(t) && t.alpha_bytes == 0 && t.overlay_bytes == 0 && t.bridge == 0 &&
+           !t.tables.present && t.weights.levels == 0 && t.colour_shears.size() == 1;
+  }
+  if (header.geometry && header.texture)
+    all &= header.geometry->frames.count == header.texture->frames.count;
+  if (all) return {};
+  return {TKS_CORRUPT,
+          "Corrupt stream: its frames have tools that frames do not have, or heights and texture "
+          "have other numbers of them."};
+}
+
 /// A decoder may lack what it takes for the components of a later version.
 Status checkComponents(const StreamHeader& header) {
   if (header.geometry || header.texture || !header.triangle_mesh.none()) return {};
@@ -205,6 +230,7 @@ Status checkMeaning(const StreamHeader& header) {
   if (Status mesh = checkTriangleMesh(header); !mesh.ok()) return mesh;
   if (Status direct = checkDirect(header); !direct.ok()) return direct;
   if (Status priorities = checkPriorities(header); !priorities.ok()) return priorities;
+  if (Status frames = checkFrames(header); !frames.ok()) return frames;
   return checkTexture(header);
 }
 

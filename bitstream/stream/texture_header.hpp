@@ -82,6 +82,7 @@ struct TextureHeader {
   ChannelTablesHeader tables;
   PriorityHeader priorities;
   RegionHeader regions;
+  FramesHeader frames;
   BandWeights weights;
   /// Cut-out: alpha is 0 or the largest value, and no colour plane. A mask of so many bytes
   /// says which, ahead of the coefficients. 0: alpha, if there is one, is the last colour plane.
@@ -123,6 +124,7 @@ struct TextureHeader {
     height = coded.height;
     v.part(PartKind::kPriorities, !priorities.none(), [&](auto& part) { priorities.visit(part); });
     v.part(PartKind::kBridges, bridge > 0, [&](auto& part) { part.u8("bridge", bridge, 1, 255); });
+    v.part(PartKind::kFrames, !frames.none(), [&](auto& part) { frames.visit(part); });
     v.part(PartKind::kCutOut, alpha_bytes > 0, [&](auto& part) {
       part.varint("alpha_bytes", alpha_bytes, 1, UINT64_MAX >> 1);
       part.u8("hidden", hidden, 0, 1);

@@ -26,14 +26,14 @@ ShownSignificance::ShownSignificance(const Pyramid& pyramid, const View& view, s
       marks_(shown_.extent().samples()),
       quiet_(tracks, pyramid.levels() - view.level) {}
 
-void ShownSignificance::take(size_t track, const TrackState& state,
+void ShownSignificance::take(size_t track, std::span<const Band> bands,
                              std::span<const BandPart> parts) {
   const size_t subbands = pyramid_.subbandsOf(level_).size();
   for (size_t i = 0; i < parts.size(); ++i) {
     if (parts[i].subband >= subbands) continue;
     const Subband& subband = pyramid_.subbands()[parts[i].subband];
-    mark(state.bands[i], subband, parts[i]);
-    if (state.bands[i].nonzero() && subband.orientation != Orientation::kLL)
+    mark(bands[i], subband, parts[i]);
+    if (bands[i].nonzero() && subband.orientation != Orientation::kLL)
       quiet_[track] = std::min(quiet_[track], subband.level - 1 - level_);
   }
 }
@@ -120,7 +120,7 @@ DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords
         const std::vector<BandPart> parts = layout.parts(regions[i]);
         for (size_t k = 0; k < parts.size(); ++k)
           synthesis.put(state.bands[k], more_bits, parts[k]);
-        significance.take(i, state, parts);
+        significance.take(i, state.bands, parts);
       });
   // The layout holds these values, which get fraction bits like those of the synthesis.
   for (int32_t& height : area_heights) height <<= fraction_bits;

@@ -129,6 +129,7 @@ DecodedGeometry decodeSteps(const TakenLayers& taken, DecodedView& view,
                             const DecodeContext<HeightsMemory>& context) {
   const GeometryHeader& header = taken.header;
   const GeometryLayers& stated = taken.stated;
+  if (!header.frames.none()) return decodeFrame(taken, view.view, context);
   // Later calls may go on from here once all layers are there that coefficients depend on.
   HeightsMemory* const kept = taken.isOpened() ? context.memory : nullptr;
   HeightsMemory of_this_call;
@@ -208,14 +209,18 @@ uint64_t HeightsMemory::bytes() const {
   const auto bytesOf = [](const SharedBits& marks) {
     return marks != nullptr ? BitPlane::bytesOf(marks->extent()) : 0;
   };
-  return bytesOf(valid) + bytesOf(lifted) + flat.numbers.size() * sizeof(uint16_t) +
+  uint64_t of_frames = frames.bytes();
+  for (const SharedBits& mask : frame_masks) of_frames += bytesOf(mask);
+  return of_frames + bytesOf(valid) + bytesOf(lifted) + flat.numbers.size() * sizeof(uint16_t) +
          flat.heights.size() * sizeof(int32_t) + tracks.bytes() + parts.bytes();
 }
 
 std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const GeometryLayers& layers,
                                          const Codewords& codewords, const View& view) {
   const TakenLayers taken = takeApart(codewords, header, layers);
-  const SharedBits valid = validityOf(taken, layers.late_mask ? lateLifted(taken) : nullptr);
+  const SharedBits valid = header.frames.none()
+                               ? validityOf(taken, layers.late_mask ? lateLifted(taken) : nullptr)
+                               : frameMasksOf(taken)[view.frame];
   const ShownLines lines(header, view);
   return lines.shown(shownMarks(valid, lines.coded()));
 }

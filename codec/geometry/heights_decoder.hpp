@@ -18,6 +18,8 @@
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/track/track_decoder.hpp"
+#include "codec/frames/frame_masks.hpp"
+#include "codec/frames/frame_planes.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
 #include "codec/geometry/plane_corrections.hpp"
 #include "codec/geometry/steps/decoded_heights.hpp"
@@ -54,8 +56,8 @@ class ShownSignificance {
  public:
   ShownSignificance(const Pyramid& pyramid, const View& view, size_t tracks);
 
-  /// Takes the bands of a track. Called for different tracks at the same time.
-  void take(size_t track, const TrackState& state, std::span<const BandPart> parts);
+  /// Takes the bands of a track, one for each part. Called for different tracks at the same time.
+  void take(size_t track, std::span<const Band> bands, std::span<const BandPart> parts);
 
   /// Writes the marks of the vertices, and the number of finest levels without a mark, into the
   /// heights of the view.
@@ -94,6 +96,8 @@ struct HeightsMemory {
   FlatAreas flat;      ///< likewise
   TrackMemory tracks;  ///< likewise: what exists of them follows from those
   CorrectedParts parts = CorrectedParts(0);
+  FrameMasks frame_masks = {};  ///< of heights in frames, once they are whole
+  KeptFrames frames = {};       ///< likewise: all frames of the last view
   /// Of encoders, which have all of a drawing: the heights that its first bytes show behind the
   /// opening.
   std::function<DecodedGeometry(uint64_t bytes)> drawing = {};
@@ -120,6 +124,16 @@ DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers&
 /// right in the patch that owns them alone. codewords: of decodeHeights(), without corrections.
 DecodedHeights decodeUncorrected(const GeometryHeader& header, const GeometryLayers& layers,
                                  const Codewords& codewords);
+
+/// What heights in frames say of their planes.
+FrameLayout frameLayoutOf(const GeometryHeader& header);
+
+/// Decodes the masks of all frames; null: every sample is valid.
+FrameMasks frameMasksOf(const TakenLayers& taken, HeightsMemory* memory = nullptr);
+
+/// Decodes the heights of a view of heights in frames, in steps.
+DecodedGeometry decodeFrame(const TakenLayers& taken, const View& view,
+                            const DecodeContext<HeightsMemory>& context);
 
 /// Decodes which samples of a view are valid, and nothing else; empty: all are valid.
 std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const GeometryLayers& layers,

@@ -79,6 +79,9 @@ Tools toolsOf(std::span<const uint8_t> stream) {
   Tools tools;
   if (header.geometry) addHeights(*header.geometry, header.layers, tools);
   if (header.texture) addTexture(*header.texture, tools);
+  if (header.geometry && !header.geometry->frames.none()) tools.insert("frames of heights");
+  if (header.texture && !header.texture->frames.none()) tools.insert("frames of texels");
+  if (header.geometry && !header.geometry->frames.scales.empty()) tools.insert("scales of frames");
   if (header.geometry && header.geometry->wavelet.ring) tools.insert("cylinder of heights");
   if (header.texture && header.texture->wavelet.ring) tools.insert("cylinder of texels");
   if (header.geometry && header.geometry->wavelet.forest) tools.insert("forest of heights");
@@ -112,6 +115,8 @@ Tools allTools() {
           "forest of heights",
           "forest of texels",
           "fraction bits",
+          "frames of heights",
+          "frames of texels",
           "further colour",
           "georeference",
           "heights by wavelet",
@@ -130,6 +135,7 @@ Tools allTools() {
           "relative steps",
           "repeated lines",
           "repeated texels",
+          "scales of frames",
           "shears of coefficients",
           "stand-in knots",
           "stored heights",

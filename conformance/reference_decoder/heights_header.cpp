@@ -127,6 +127,7 @@ void readHeights(Reader& in, const Domain& domain, RegionHeader regions, Stream&
   readCoding(parts, g);
   stream.layers = readLayers(parts);
   parts.take(10, [&](Reader& p) { g.baseMesh = readBaseMesh(p); });
+  parts.take(11, [&](Reader& p) { g.frames = readFrames(p, true); });
   parts.take(64, [](Reader& p) {
     p.u8(0, 1);              // exact
     if (!p.ends()) p.f64();  // max_error
@@ -136,6 +137,23 @@ void readHeights(Reader& in, const Domain& domain, RegionHeader regions, Stream&
   const Forest& forest = domain.forest;
   if (g.baseMesh.bits > 0 && (forest.isGrid() || forest.depth() > 8)) stream.suits = false;
   if (!suits(g, stream.layers)) stream.suits = false;
+  const Layers& layers = stream.layers;
+  const bool others =
+      layers.lateMask || layers.tableBytes > 0 || layers.flatBytes > 0 || layers.corrections > 0;
+  if (g.frames.count > 1 && (others || !suitsFrames(g))) stream.suits = false;
+}
+
+FramesHeader readFrames(Reader& in, bool scaled) {
+  FramesHeader frames;
+  frames.count = in.u8(2, 32);
+  frames.filter = in.u8(0, 2);
+  if (!scaled || in.ends()) return frames;
+  for (int t = 0; t < frames.count; ++t) {
+    FrameScale& scale = frames.scales.emplace_back();
+    scale.offset = in.zigzag(1 << 26);
+    scale.shift = in.u8(0, 24);
+  }
+  return frames;
 }
 
 }  // namespace tetrakis::reference

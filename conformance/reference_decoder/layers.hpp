@@ -16,6 +16,10 @@ namespace tetrakis::reference {
 /// 1 valid, 0 void, row by row.
 std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, int width, int height);
 
+/// FORMAT 9.4, "Masks": of each frame.
+std::vector<std::vector<uint8_t>> decodeFrameMasks(std::span<const uint8_t> codeword, int width,
+                                                   int height, int frames);
+
 /// FORMAT 8.1, "Late mask". lifted: with the lifted samples as its valid ones.
 std::vector<uint8_t> decodeLateValidity(std::span<const uint8_t> codeword, const Plane& lifted);
 

@@ -122,6 +122,16 @@ void readCoding(Parts& parts, Header& c) {
   parts.take(2, [&](Reader& p) { c.priorities = readPriorities(p); });
 }
 
+/// FORMAT 2, frames. scaled: of heights.
+FramesHeader readFrames(Reader& in, bool scaled);
+
+/// FORMAT 2: whether heights and textures in frames may have what both may have.
+template <class Header>
+bool suitsFrames(const Header& c) {
+  return c.planes != kDrawnPlanes && c.wavelet.domain.forest.isGrid() && c.lines.columns.empty() &&
+         c.priorities.tileLog2 == 0;
+}
+
 /// FORMAT 2, Heights and Texture: what follows `region_log2` of such a component.
 void readHeights(Reader& in, const Domain& domain, RegionHeader regions, Stream& stream);
 void readTexture(Reader& in, const Domain& domain, RegionHeader regions, Stream& stream);

@@ -164,6 +164,9 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   if (stream.components.empty() && !stream.triangles) in.fail(Outcome::kCorrupt);
   if (!stream.geometry && !stream.texture && !stream.triangles) in.fail(Outcome::kUnsupported);
   if (stream.triangles && !suits(stream)) stream.suits = false;
+  if (stream.geometry && stream.texture &&
+      stream.geometry->frames.count != stream.texture->frames.count)
+    stream.suits = false;
   if (!stream.suits) in.fail(Outcome::kCorrupt);
   stream.outcome = in.outcome() == Outcome::kTruncated ? Outcome::kCorrupt : in.outcome();
   return payloadBytes;

@@ -69,6 +69,18 @@ struct BaseMeshHeader {
   std::vector<uint8_t> corners;
 };
 
+/// FORMAT 9.4.
+struct FrameScale {
+  int64_t offset = 0;
+  int shift = 0;
+};
+struct FramesHeader {
+  int count = 1, filter = 0;
+  std::vector<FrameScale> scales;  ///< of each frame; empty: all are 0
+
+  FrameScale scale(int t) const { return scales.empty() ? FrameScale() : scales[size_t(t)]; }
+};
+
 struct GeometryHeader {
   int width = 0, height = 0, sample = 0, planes = 0;  ///< width and height: of the coded lines
   bool drawn = false;
@@ -78,6 +90,7 @@ struct GeometryHeader {
   PriorityHeader priorities;
   RegionHeader regions;
   BaseMeshHeader baseMesh;
+  FramesHeader frames;
 
   int shownWidth() const { return lines.columns.empty() ? width : int(lines.columns.size()); }
   int shownHeight() const { return lines.rows.empty() ? height : int(lines.rows.size()); }
@@ -123,6 +136,7 @@ struct TextureHeader {
   WaveletHeader wavelet;
   PriorityHeader priorities;
   RegionHeader regions;
+  FramesHeader frames;
   std::array<int, 4> centre = {}, priority = {};
   /// [colour plane][level - 1][1 for HH], as many levels as the header tells.
   std::array<std::vector<std::array<int, 2>>, 4> bandPriority;
@@ -159,7 +173,7 @@ constexpr int32_t wrap(int64_t value) {
   return static_cast<int32_t>(static_cast<uint32_t>(value));
 }
 
-/// Samples of the header's type, little endian (FORMAT 8).
+/// Samples of the header's type, little endian (FORMAT 8); of frames (9.4) one behind the other.
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
                                    const Codewords& codewords, int level);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "conformance/reference_decoder/frames.hpp"
 #include "conformance/reference_decoder/layers.hpp"
 #include "conformance/reference_decoder/regions.hpp"
 #include "conformance/reference_decoder/stream.hpp"
@@ -217,6 +218,38 @@ std::array<int32_t, 4> texelAt(const TextureHeader& header, const Opening& openi
   return opening.overlay[opening.seen.index(x, y)].value_or(texel);
 }
 
+void append(const TextureHeader& header, const std::array<int32_t, 4>& texel,
+            std::vector<uint8_t>& samples) {
+  for (int c = 0; c < header.channels; ++c) {
+    samples.push_back(static_cast<uint8_t>(texel[c]));
+    if (header.sample == kU16) samples.push_back(static_cast<uint8_t>(texel[c] >> 8));
+  }
+}
+
+/// FORMAT 9.4: all frames, one behind the other.
+std::vector<uint8_t> decodeTextureFrames(const TextureHeader& header,
+                                         const std::vector<std::span<const uint8_t>>& coefficients,
+                                         int level) {
+  const auto colours = static_cast<size_t>(header.colourPlanes);
+  const FrameLayout layout{
+      header.wavelet,
+      header.regions,
+      header.frames,
+      header.planes,
+      {header.priority.begin(), header.priority.begin() + header.colourPlanes}};
+  const FramePlanes frames =
+      decodeFrames(layout, {header.width, header.height, {}, {}}, coefficients, level);
+  std::vector<uint8_t> samples;
+  for (size_t first = 0; first < frames.planes.size(); first += colours) {
+    for (size_t i = 0; i < frames.planes[first].values.size(); ++i) {
+      std::array<int32_t, 4> values = {};
+      for (size_t c = 0; c < colours; ++c) values[c] = frames.planes[first + c].values[i];
+      append(header, finish(header, values, frames.f), samples);
+    }
+  }
+  return samples;
+}
+
 }  // namespace
 
 std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords& codewords,
@@ -226,6 +259,7 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
     return decodeDrawn(header, coefficients[0], level);
   level = std::min(level, subbandsOf(header.width, header.height).front().level);
   if (header.stored) return decodeStored(header, coefficients[0], level);
+  if (header.frames.count > 1) return decodeTextureFrames(header, coefficients, level);
   const Opening opening = takeOpening(header, coefficients[0]);
   const Tracks tracks = decodeTracks(header, coefficients, opening.lifted, level);
   const int f = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);
@@ -235,11 +269,7 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
     for (int x = 0; x < planes[0].width; ++x) {
       std::array<int32_t, 4> values = {};
       for (size_t c = 0; c < planes.size(); ++c) values[c] = planes[c].at(x, y);
-      const auto texel = texelAt(header, opening, x << level, y << level, values, f);
-      for (int c = 0; c < header.channels; ++c) {
-        samples.push_back(static_cast<uint8_t>(texel[c]));
-        if (header.sample == kU16) samples.push_back(static_cast<uint8_t>(texel[c] >> 8));
-      }
+      append(header, texelAt(header, opening, x << level, y << level, values, f), samples);
     }
   }
   return samples;

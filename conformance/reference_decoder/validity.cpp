@@ -26,6 +26,15 @@ class ValidityDecoder {
 
   bool ended() const { return ended_; }
 
+  /// The same once more, with the models as they are but for that of roots.
+  std::vector<uint8_t> decodeAmong(const Plane& among) {
+    none_ = &among;
+    undecided_ = 0;
+    valid_.assign(valid_.size(), 0);
+    root_ = Model();
+    return decode();
+  }
+
   std::vector<uint8_t> decode() {
     forEachVertex(width_, height_, [&](const Vertex& v) {
       if (v.s == 0) at(v.x, v.y) = next(v, root_, 1);
@@ -92,6 +101,30 @@ class ValidityDecoder {
 std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, int width, int height) {
   RangeDecoder decoder(codeword);
   return ValidityDecoder(decoder, width, height).decode();
+}
+
+std::vector<std::vector<uint8_t>> decodeFrameMasks(std::span<const uint8_t> codeword, int width,
+                                                   int height, int frames) {
+  RangeDecoder decoder(codeword);
+  std::vector<std::vector<uint8_t>> masks = {ValidityDecoder(decoder, width, height).decode()};
+  std::array<ValidityDecoder, 2> changes = {ValidityDecoder(decoder, width, height),
+                                            ValidityDecoder(decoder, width, height)};
+  std::array<Model, 2> any;
+  const auto changed = [&](size_t k, const std::vector<uint8_t>& among) {
+    try {
+      if (any[k].decode(decoder)) return changes[k].decodeAmong({width, height, {}, among});
+    } catch (Undecided) {
+    }
+    return std::vector<uint8_t>(among.size());
+  };
+  while (masks.size() < static_cast<size_t>(frames)) {
+    std::vector<uint8_t> mask = masks.back(), others = mask;
+    for (uint8_t& valid : others) valid = !valid;
+    const std::vector<uint8_t> arrive = changed(0, others), go = changed(1, mask);
+    for (size_t i = 0; i < mask.size(); ++i) mask[i] = (mask[i] | arrive[i]) & !go[i];
+    masks.push_back(mask);
+  }
+  return masks;
 }
 
 std::vector<uint8_t> decodeLateValidity(std::span<const uint8_t> codeword, const Plane& lifted) {

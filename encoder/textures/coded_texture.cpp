@@ -21,9 +21,8 @@ namespace {
 /// regions cost; their windows then take the whole texture.
 constexpr uint64_t kOneRegionTexels = 2048 * 2048;
 
-// textureOptions() makes the options for coding a texture from the options of an encoding.
+}  // namespace
 
-/// inputs: with an image, which is `texels`.
 TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) {
   const tks_encode_options& options = inputs.options;
   const Extent extent = texels.extent();
@@ -43,8 +42,6 @@ TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) 
           .mean_square = to_psnr ? worstMeanSquare(texels.white(), options.psnr) / heaviest : 0,
           .priorities = some_first ? &priorities->texture : nullptr};
 }
-
-}  // namespace
 
 CodedLines texelLines(const EncodeInputs& inputs) {
   if (inputs.image == nullptr || inputs.image->domain == TKS_DOMAIN_FOREST) return {};

@@ -43,6 +43,9 @@ struct CodedTexture {
 
 std::shared_ptr<const TextureSource> quantiseTexture(const tks_image& image);
 
+/// The options for coding a texture. inputs: with an image, which is `texels`.
+TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels);
+
 /// Codes the texture by the coder that suits it. source: quantiseTexture() of the inputs' image.
 CodedTexture codeTexture(const EncodeInputs& inputs, std::shared_ptr<const TextureSource> source,
                          Purpose purpose);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tetrakis compare: how far a stream is from what was encoded, and whether it keeps its promise.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/commands/options.hpp"
 #include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/frame_files.hpp"
 #include "apps/tools/files/text.hpp"
 #include "apps/tools/output/json.hpp"
 #include "apps/tools/report/comparison.hpp"
@@ -194,7 +196,76 @@ Status compareMesh(const CompareArguments& arguments, Decoder& decoder, bool qui
   return printJson(arguments, json);
 }
 
+/// What the frames have in common.
+struct FrameTotals {
+  uint64_t frames = 0;
+  double squares = 0, largest = 0;  ///< of heights, in the unit
+  double texels = 0;                ///< mean squared error over the squared white level
+  bool heights = false, texture = false;
+
+  void add(const Measurement& one) {
+    ++frames;
+    if (one.heights) {
+      heights = true;
+      squares += one.heights->rmse * one.heights->rmse;
+      largest = std::max(largest, one.heights->max_error);
+    }
+    if (one.texture_psnr) {
+      texture = true;
+      texels += std::pow(10, -*one.texture_psnr / 10);
+    }
+  }
+  Json json(uint64_t bytes, Json of_frames) const {
+    const auto count = static_cast<double>(frames);
+    Json json = {{"bytes", bytes}, {"frames", frames}};
+    json["height_rmse"] = heights ? finiteOrNull(std::sqrt(squares / count)) : Json();
+    json["height_max_error"] = heights ? finiteOrNull(largest) : Json();
+    addPsnr(json, "texture",
+            texture ? std::optional(-10 * std::log10(texels / count)) : std::nullopt);
+    json["of_frames"] = std::move(of_frames);
+    return json;
+  }
+};
+
+/// Frame by frame, without pictures.
+Status compareFrames(const CompareArguments& arguments, bool quiet) {
+  if (arguments.triangles > 0 || !arguments.pictures.empty() || !arguments.cameras.isDefault())
+    return {TKS_USAGE, "frames are compared sample by sample; give one with --frame to look at it"};
+  const Result<FrameNames> names = frameNames(arguments.height, arguments.texture);
+  if (!names.ok()) return names.status();
+  CompareArguments one = arguments;
+  FrameTotals totals;
+  Json of_frames = Json::array();
+  uint64_t bytes = 0;
+  for (size_t t = 0; t < names->count(); ++t) {
+    one.height = names->height(t);
+    one.texture = names->texture(t);
+    one.source.frame = t;
+    const Result<OpenStream> stream = openStream(one.source);
+    if (!stream.ok()) return stream.status();
+    const tks_info& info = stream->decoder.info();
+    const Result<Reference> reference = readReference(one, info, quiet || t > 0);
+    if (!reference.ok()) return reference.status();
+    Result<Comparer> comparer = Comparer::create(*reference, info);
+    if (!comparer.ok()) return comparer.status();
+    const Result<Measurement> measured = comparer->measure(octets(stream->bytes), 0, info.frame);
+    if (!measured.ok()) return measured.status();
+    if (Status status = checkPromise(info, *measured); !status.ok()) return status;
+    totals.add(*measured);
+    Json json = {{"frame", t}};
+    json["height_rmse"] = measured->heights ? finiteOrNull(measured->heights->rmse) : Json();
+    json["height_max_error"] =
+        measured->heights ? finiteOrNull(measured->heights->max_error) : Json();
+    addPsnr(json, "texture", measured->texture_psnr);
+    of_frames.push_back(std::move(json));
+    bytes = stream->sequence ? stream->sequence->bytes : stream->bytes.size();
+  }
+  return printJson(arguments, totals.json(bytes, arguments.json ? of_frames : Json()));
+}
+
 Status compare(const CompareArguments& arguments, bool quiet) {
+  if (isPattern(arguments.height) || isPattern(arguments.texture))
+    return compareFrames(arguments, quiet);
   if (arguments.triangles > 0 && arguments.height.empty() && arguments.mesh.empty())
     return {TKS_USAGE, "--triangles is about a mesh: give --height or --mesh"};
   Result<OpenStream> stream = openStream(arguments.source);
@@ -216,7 +287,7 @@ Status compare(const CompareArguments& arguments, bool quiet) {
     pictures = std::move(*planned);
   }
   const Result<Measurement> measurement =
-      comparer->measure(octets(stream->bytes), arguments.triangles);
+      comparer->measure(octets(stream->bytes), arguments.triangles, info.frame);
   if (!measurement.ok()) return measurement.status();
   if (pictures)
     if (Status status = pictures->write(measurement->pictures, comparer->referencePictures());
@@ -235,6 +306,7 @@ void addCompare(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App& verb = *app.add_subcommand("compare", "Measure a stream against what was encoded");
   addSource(verb, arguments->source);
+  addFrame(verb, arguments->source);
   CLI::Option* const height =
       verb.add_option("--height", arguments->height, "The original heights")->type_name("REF");
   verb.add_option("--texture", arguments->texture, "The original texture")->type_name("REF");

@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "apps/tools/commands/command.hpp"
+#include "apps/tools/commands/encode_inputs.hpp"
 #include "apps/tools/commands/encode_memory.hpp"
 #include "apps/tools/commands/encode_notes.hpp"
+#include "apps/tools/commands/encode_sequence.hpp"
 #include "apps/tools/commands/encode_surface.hpp"
 #include "apps/tools/commands/explained_plans.hpp"
 #include "apps/tools/commands/notes.hpp"
@@ -72,6 +74,8 @@ tks_domain domainOf(const EncodeArguments& arguments, const ImageFile& image,
   return domainOf(arguments, place, image.width);
 }
 
+}  // namespace
+
 Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
   Reference inputs;
   if (!arguments.height.empty()) {
@@ -107,6 +111,8 @@ Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
   }
   return inputs;
 }
+
+namespace {
 
 /// Longitudes and latitudes for web pages, unless they take more than a 64th of the stream, or of
 /// a byte a sample where nothing says how long that is to be.
@@ -165,6 +171,8 @@ Result<double> boundOf(const EncodeArguments& arguments, const HeightFile& heigh
                                "--max-error");
 }
 
+}  // namespace
+
 Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
                                          const Reference& inputs) {
   tks_encode_options options = makeEncodeOptions();
@@ -188,6 +196,8 @@ Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
   return options;
 }
 
+namespace {}  // namespace
+
 /// The rows of a cube have no latitudes.
 tks_heights encodedHeights(const EncodeArguments& arguments, const HeightFile& file) {
   tks_heights heights = asHeights(file);
@@ -198,6 +208,8 @@ tks_heights encodedHeights(const EncodeArguments& arguments, const HeightFile& f
   heights.last_latitude = latitudes[1];
   return heights;
 }
+
+namespace {
 
 /// plans: are told, if they are asked for.
 Result<Buffer> encodeInputs(const EncodeArguments& arguments, const Reference& inputs, bool quiet,
@@ -296,6 +308,9 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
     const Status status = checkSurfaceArguments(arguments);
     return status.ok() ? encodeSurface(arguments, quiet) : status;
   }
+  if (isSequence(arguments)) return encodeSequence(arguments, quiet);
+  if (arguments.sequence.given())
+    return {TKS_USAGE, "frames are given by a pattern in quotes: 'frames/*.tif'"};
   if (arguments.kind != "auto")
     return {TKS_USAGE, "--class is about meshes of triangles, and the input is none"};
   Result<EncodeOutputs> outputs = planOutputs(arguments);

@@ -163,16 +163,39 @@ Json infoJson(const tks_info& info) {
           {"packets", info.packets},
           {"index", kIndexes.at(static_cast<size_t>(info.index))},
           {"lossless", info.lossless != 0},
+          {"frames", info.frames},
+          {"frame", info.frame},
           {"triangles", info.triangles > 0 ? Json(info.triangles) : Json()},
           {"object", objectJson(info)},
           {"heights", heightsJson(info)},
           {"texture", textureJson(info)}};
 }
 
+/// The time counts from the epoch.
+Json sequenceJson(const SequencePlace& place) {
+  const bool is_timed = place.tick_numerator > 0;
+  const double tick = is_timed ? static_cast<double>(place.tick_numerator) /
+                                     static_cast<double>(place.tick_denominator)
+                               : 0;
+  return {{"frames", place.frames},
+          {"groups", place.groups},
+          {"bytes", place.bytes},
+          {"epoch", textOrNull(place.epoch)},
+          {"calendar", textOrNull(place.calendar)},
+          {"tick_seconds", is_timed ? Json(tick) : Json()},
+          {"frame", place.frame},
+          {"ticks", place.time},
+          {"seconds", is_timed ? Json(tick * static_cast<double>(place.time)) : Json()},
+          {"group_first_frame", place.group.first_frame},
+          {"group_offset", place.group.offset},
+          {"group_bytes", place.group.bytes}};
+}
+
 Status info(const InfoArguments& arguments) {
   const Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
-  const Json json = infoJson(stream->decoder.info());
+  Json json = infoJson(stream->decoder.info());
+  if (stream->sequence) json["sequence"] = sequenceJson(*stream->sequence);
   return print(arguments.json ? dump(json) : table(json));
 }
 
@@ -182,6 +205,7 @@ void addInfo(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<InfoArguments>();
   CLI::App& verb = *app.add_subcommand("info", "Say what a stream holds");
   addSource(verb, arguments->source);
+  addFrame(verb, arguments->source);
   verb.add_flag("--json", arguments->json, "JSON instead of a table");
   verb.callback([arguments, &line] { line.action = [arguments] { return info(*arguments); }; });
 }

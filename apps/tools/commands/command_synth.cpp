@@ -14,6 +14,7 @@
 #include "apps/tools/commands/command.hpp"
 #include "apps/tools/commands/options.hpp"
 #include "apps/tools/output/output.hpp"
+#include "apps/tools/synth/frames.hpp"
 #include "apps/tools/synth/surfaces/synth_surface.hpp"
 #include "apps/tools/synth/synth.hpp"
 #include "base/parallel.hpp"
@@ -21,10 +22,12 @@
 namespace tetrakis::tools {
 namespace {
 
+constexpr uint32_t kUsualFrames = 16;
+
 struct SynthArguments {
   std::string output;
   std::string kind = kSynthKinds[0];
-  std::optional<uint32_t> size, triangles;
+  std::optional<uint32_t> size, triangles, frames;
   uint64_t seed = 1;
   bool force = false;
 };
@@ -77,6 +80,33 @@ Status synthSurface(const SynthArguments& arguments, SynthSurfaceKind kind) {
   return written.ok() ? output->commit() : written;
 }
 
+/// "frame-007.tif".
+std::string frameName(uint32_t frame, const char* extension) {
+  const std::string digits = std::to_string(frame);
+  return "frame-" + std::string(digits.size() < 3 ? 3 - digits.size() : 0, '0') + digits +
+         extension;
+}
+
+Status synthFrames(const SynthArguments& arguments, FrameKind kind) {
+  const Result<OutputFolder> folder = OutputFolder::create(arguments.output);
+  if (!folder.ok()) return folder.status();
+  SynthOptions options;
+  options.size = arguments.size.value_or(options.size);
+  options.seed = arguments.seed;
+  const auto write = [&](uint32_t frame, const HeightFile* heights,
+                         const ImageFile* texture) -> Status {
+    const char* const extension = heights != nullptr ? ".tif" : ".png";
+    Result<Output> output =
+        Output::plan(folder->file(frameName(frame, extension)), arguments.force, extension);
+    if (!output.ok()) return output.status();
+    const Status written = output->stage([&](const std::string& path) {
+      return heights != nullptr ? writeHeights(path, *heights) : writeImage(path, *texture);
+    });
+    return written.ok() ? output->commit() : written;
+  };
+  return synthesizeFrames(options, kind, arguments.frames.value_or(kUsualFrames), write);
+}
+
 /// Nothing if it is none of the names.
 template <class Kind, size_t kCount>
 std::optional<Kind> kindNamed(const std::string& name,
@@ -87,6 +117,12 @@ std::optional<Kind> kindNamed(const std::string& name,
 }
 
 Status synth(const SynthArguments& arguments) {
+  const auto frames = kindNamed<FrameKind>(arguments.kind, kFrameKinds);
+  if (!frames && arguments.frames)
+    return {TKS_USAGE, "--frames is of what changes over time: erosion, flood, clouds, rover"};
+  if (frames && arguments.triangles)
+    return {TKS_USAGE, "--triangles is of surfaces; frames have --size"};
+  if (frames) return synthFrames(arguments, *frames);
   const auto surface = kindNamed<SynthSurfaceKind>(arguments.kind, kSynthSurfaces);
   if (surface && arguments.size)
     return {TKS_USAGE, "--size is of terrain; a surface has --triangles"};
@@ -99,6 +135,7 @@ Status synth(const SynthArguments& arguments) {
 std::vector<std::string> allKinds() {
   std::vector<std::string> all(kSynthKinds.begin(), kSynthKinds.end());
   all.insert(all.end(), kSynthSurfaces.begin(), kSynthSurfaces.end());
+  all.insert(all.end(), kFrameKinds.begin(), kFrameKinds.end());
   return all;
 }
 
@@ -108,9 +145,10 @@ void addSynth(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<SynthArguments>();
   CLI::App& verb = *app.add_subcommand(
       "synth", "Make a sample terrain with its texture and map, or a sample surface");
-  verb.add_option("-o,--output", arguments->output,
-                  "Folder for height.tif, texture.png and map.png; of a surface, its .glb, .obj or "
-                  ".ply")
+  verb.add_option(
+          "-o,--output", arguments->output,
+          "Folder for height.tif, texture.png and map.png, or for frames; of a surface, its "
+          ".glb, .obj or .ply")
       ->required()
       ->type_name("OUT");
   verb.add_option("--size", arguments->size, "Samples along a side of a terrain (513)")
@@ -119,12 +157,16 @@ void addSynth(CLI::App& app, CommandLine& line) {
   verb.add_option("--triangles", arguments->triangles, "Of a surface, about (20000)")
       ->check(silent(CLI::Range(20u, 4000000u)))
       ->type_name("N");
+  verb.add_option("--frames", arguments->frames, "Of what changes over time, so many (16)")
+      ->check(silent(CLI::Range(1u, 10000u)))
+      ->type_name("N");
   verb.add_option("--seed", arguments->seed, "Another seed, another terrain or surface (1)")
       ->type_name("S");
   verb.add_option(
           "--kind", arguments->kind,
           "Of terrain: mountains (default), coast, lakes, steps, voids, plain, city, rescaled, "
-          "bands, geoid, mosaic, turned, facets, smooth; of surfaces: blob, knot, scan")
+          "bands, geoid, mosaic, turned, facets, smooth; of surfaces: blob, knot, scan; over time: "
+          "erosion, flood, clouds, rover")
       ->check(silent(CLI::IsMember(allKinds())))
       ->type_name("NAME");
   addForce(verb, arguments->force);

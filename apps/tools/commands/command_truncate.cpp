@@ -21,9 +21,9 @@ Status truncate(const TruncateArguments& arguments) {
   if (!stays.ok()) return stays;
   Result<Output> output = Output::plan(arguments.output, arguments.force, ".tks");
   if (!output.ok()) return output.status();
-  const Result<OpenStream> stream = openStream(arguments.source);
-  if (!stream.ok()) return stream.status();
-  if (Status status = output->stage(stream->bytes); !status.ok()) return status;
+  const Result<std::vector<std::byte>> bytes = readCut(arguments.source);
+  if (!bytes.ok()) return bytes.status();
+  if (Status status = output->stage(*bytes); !status.ok()) return status;
   return output->commit();
 }
 

@@ -38,6 +38,8 @@ void addTargets(CLI::App& verb, EncodeArguments& arguments) {
       ->type_name("dB");
   target.add_option("--max-error", arguments.max_error, "Every height within that: 0.5, 0.5m, 2ft")
       ->type_name("LENGTH");
+  addSize(target, "--rate", arguments.sequence.rate, "Of a sequence, so many bytes a second")
+      ->check(positive());
   target.add_flag("--lossless", arguments.lossless, "Everything comes back bit for bit");
   target.require_option(1);
 }
@@ -76,6 +78,24 @@ void addTuning(CLI::App& verb, EncodeArguments& arguments) {
       "--windows", arguments.windows,
       "With --lossless or --max-error: an index, and each region in one piece, for windows over "
       "a network");
+}
+
+void addSequence(CLI::App& verb, SequenceArguments& sequence) {
+  CLI::Option* const fps =
+      verb.add_option("--fps", sequence.fps, "Frames a second, where HEIGHT or IMAGE is a pattern")
+          ->check(positive())
+          ->type_name("X");
+  verb.add_option("--every", sequence.every, "Seconds from one frame to the next: 3600")
+      ->check(positive())
+      ->type_name("SECONDS")
+      ->excludes(fps);
+  verb.add_option("--epoch", sequence.epoch, "The time of the first frame: 2019-03-01T00:00:00Z")
+      ->type_name("TIME");
+  verb.add_option("--calendar", sequence.calendar, "Of the times, as CF has it: noleap, 360_day")
+      ->type_name("NAME");
+  verb.add_option("--group", sequence.group, "Frames that are coded together (16)")
+      ->check(silent(CLI::Range(1, TKS_MOST_FRAMES)))
+      ->type_name("N");
 }
 
 void addDescription(CLI::App& verb, EncodeArguments& arguments) {
@@ -158,6 +178,7 @@ void addArguments(CLI::App& verb, EncodeArguments& arguments) {
   addInputs(verb, arguments);
   addTargets(verb, arguments);
   addTuning(verb, arguments);
+  addSequence(verb, arguments.sequence);
   addDescription(verb, arguments);
 }
 

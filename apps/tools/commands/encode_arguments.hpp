@@ -11,6 +11,18 @@
 
 namespace tetrakis::tools {
 
+/// Of frames that patterns of file names give.
+struct SequenceArguments {
+  double fps = 0, every = 0;  ///< frames a second, or seconds a frame; 0: unknown
+  std::string epoch, calendar;
+  uint32_t group = 0;  ///< frames that are coded together; 0: chosen
+  uint64_t rate = 0;   ///< bytes a second; 0: another target
+
+  bool given() const {
+    return fps > 0 || every > 0 || group > 0 || rate > 0 || !epoch.empty() || !calendar.empty();
+  }
+};
+
 struct EncodeArguments {
   std::string height, texture, output, report;
   uint64_t bytes = 0;
@@ -29,6 +41,7 @@ struct EncodeArguments {
   CameraChoice cameras;
   bool index = false, windows = false, force = false;
   bool explain = false, json = false;
+  SequenceArguments sequence;
 };
 
 void addArguments(CLI::App& verb, EncodeArguments& arguments);

@@ -118,4 +118,15 @@ inline void addSource(CLI::App& app, StreamSource& source) {
   app.add_flag("--strict", source.strict, "Refuse a stream that ends early");
 }
 
+/// --frame N or --time SECONDS, of a sequence.
+inline void addFrame(CLI::App& app, StreamSource& source) {
+  CLI::Option* const frame =
+      app.add_option("--frame", source.frame, "Of a sequence, the frame of this number, from 0 on")
+          ->type_name("N");
+  app.add_option("--time", source.seconds, "The last frame that is not after that")
+      ->check(finite())
+      ->type_name("SECONDS")
+      ->excludes(frame);
+}
+
 }  // namespace tetrakis::tools

@@ -3,6 +3,8 @@
 #include "apps/tools/files/stream.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include "apps/tools/files/cube_heights.hpp"
@@ -50,7 +52,62 @@ Result<std::vector<std::byte>> gridSamples(Decoder& decoder,
   return gridOfCube(info, *surface, window);
 }
 
+/// The frame that is asked for.
+Result<uint64_t> frameOf(const Sequence& sequence, const StreamSource& source) {
+  const tks_sequence_info info = sequence.info();
+  if (info.end_frame == 0)
+    return Status(TKS_TRUNCATED, "the sequence ends before a frame of it can be decoded");
+  if (!source.seconds) return source.frame.value_or(info.first_frame);
+  if (info.clock.numerator == 0)
+    return Status(TKS_USAGE, "the sequence does not say how long its ticks are: give --frame");
+  const double ticks = *source.seconds * static_cast<double>(info.clock.denominator) /
+                       static_cast<double>(info.clock.numerator);
+  if (!(std::abs(ticks) < 4e18)) return Status(TKS_USAGE, "no sequence reaches to that time");
+  return sequence.find(static_cast<int64_t>(std::floor(ticks)));
+}
+
+Result<SequencePlace> placeOf(const Sequence& sequence, uint64_t frame) {
+  const Result<tks_group> group = sequence.group(frame);
+  if (!group) return group.status();
+  const tks_sequence_info info = sequence.info();
+  SequencePlace place{info.end_frame,
+                      info.groups,
+                      info.bytes,
+                      frame,
+                      *sequence.time(frame),
+                      info.clock.numerator,
+                      info.clock.denominator,
+                      info.clock.epoch,
+                      info.clock.calendar,
+                      *group};
+  return place;
+}
+
+/// Cuts bytes to the stream of the group that holds the frame.
+Result<SequencePlace> takeGroup(const StreamSource& source, std::vector<std::byte>& bytes) {
+  const Result<Sequence> sequence = Sequence::open(octets(bytes));
+  if (!sequence) return sequence.status();
+  if (source.strict && sequence->info().whole_bytes < bytes.size())
+    return Status(TKS_TRUNCATED, "the sequence ends inside a group");
+  const Result<uint64_t> frame = frameOf(*sequence, source);
+  if (!frame.ok()) return frame.status();
+  Result<SequencePlace> place = placeOf(*sequence, *frame);
+  if (!place.ok()) return place;
+  const tks_group& group = place->group;
+  const uint64_t end =
+      std::min(group.stream_offset + group.stream_bytes, group.offset + group.available_bytes);
+  bytes.resize(end);
+  bytes.erase(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(group.stream_offset));
+  return place;
+}
+
 }  // namespace
+
+bool isSequence(std::span<const std::byte> bytes) {
+  constexpr std::array<uint8_t, 4> kMagic = {'T', 'K', 'G', 0x1a};
+  return bytes.size() >= kMagic.size() &&
+         std::equal(kMagic.begin(), kMagic.end(), octets(bytes).begin());
+}
 
 std::span<const uint8_t> octets(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
@@ -63,17 +120,56 @@ Result<Decoder> openDecoder(std::span<const uint8_t> bytes) {
   return Decoder::open(bytes, limits);
 }
 
+namespace {
+
+/// bytes: of the whole file.
+Result<OpenStream> openCut(const StreamSource& source, std::vector<std::byte> bytes) {
+  const bool is_sequence = isSequence(bytes);
+  if (source.strict && !is_sequence)
+    if (Status status = checkWhole(octets(bytes)); !status.ok()) return status;
+  if (source.bytes && *source.bytes < bytes.size()) bytes.resize(*source.bytes);
+  std::optional<SequencePlace> sequence;
+  if (is_sequence) {
+    Result<SequencePlace> place = takeGroup(source, bytes);
+    if (!place.ok()) return place.status();
+    sequence = *std::move(place);
+  } else if (source.seconds) {
+    return Status(TKS_USAGE, quoted(source.path) + " is no sequence, so that no --time is in it");
+  }
+  Result<Decoder> decoder = openDecoder(octets(bytes));
+  if (!decoder) return decoder.status();
+  const uint64_t frame =
+      sequence ? sequence->frame - sequence->group.first_frame : source.frame.value_or(0);
+  if (frame > 0) {
+    const auto asked = static_cast<uint32_t>(std::min<uint64_t>(frame, UINT32_MAX));
+    if (Status status = decoder->setFrame(asked); !status.ok()) return status;
+  }
+  const bool whole = bytes.size() == decoder->info().stream_bytes;
+  if (const auto sound = whole ? decoder->verify() : Status(); !sound.ok()) return sound;
+  return OpenStream{std::move(bytes), std::move(*decoder), std::move(sequence)};
+}
+
+}  // namespace
+
 Result<OpenStream> openStream(const StreamSource& source) {
   Result<std::vector<std::byte>> bytes = readBytes(source.path);
   if (!bytes.ok()) return bytes.status();
-  if (source.strict)
-    if (Status status = checkWhole(octets(*bytes)); !status.ok()) return status;
+  return openCut(source, *std::move(bytes));
+}
+
+Result<std::vector<std::byte>> readCut(const StreamSource& source) {
+  Result<std::vector<std::byte>> bytes = readBytes(source.path);
+  if (!bytes.ok()) return bytes;
+  if (!isSequence(*bytes)) {
+    Result<OpenStream> stream = openCut(source, *std::move(bytes));
+    if (!stream.ok()) return stream.status();
+    return std::move(stream->bytes);
+  }
   if (source.bytes && *source.bytes < bytes->size()) bytes->resize(*source.bytes);
-  Result<Decoder> decoder = openDecoder(octets(*bytes));
-  if (!decoder) return decoder.status();
-  const bool whole = bytes->size() == decoder->info().stream_bytes;
-  if (const auto sound = whole ? decoder->verify() : Status(); !sound.ok()) return sound;
-  return OpenStream{std::move(*bytes), std::move(*decoder)};
+  std::vector<std::byte> group = *bytes;
+  const Result<SequencePlace> first = takeGroup(source, group);
+  if (!first.ok()) return first.status();
+  return bytes;
 }
 
 Result<OpenStream> openTerrain(const StreamSource& source) {

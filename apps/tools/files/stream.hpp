@@ -22,12 +22,26 @@ struct StreamSource {
   std::string path;               ///< "-": standard input
   std::optional<uint64_t> bytes;  ///< cut after that many; nothing: all of it
   bool strict = false;            ///< refuse a file that ends early or breaks the syntax anywhere
+  std::optional<uint64_t> frame = {};  ///< of a sequence, or a group of one; nothing: the first
+  std::optional<double> seconds = {};  ///< of a sequence: behind its epoch, in the place of that
+};
+
+/// Where a stream lies that is a group of a sequence.
+struct SequencePlace {
+  uint64_t frames = 0, groups = 0;                    ///< of the sequence, as far as it is there
+  uint64_t bytes = 0;                                 ///< of the sequence, as far as it is there
+  uint64_t frame = 0;                                 ///< that is shown
+  int64_t time = 0;                                   ///< of it, in ticks
+  uint64_t tick_numerator = 0, tick_denominator = 0;  ///< seconds in a tick; 0: unknown
+  std::string epoch, calendar;
+  tks_group group = {};
 };
 
 /// A stream in memory and its decoder. Move only.
 struct OpenStream {
-  std::vector<std::byte> bytes;
+  std::vector<std::byte> bytes;  ///< of a sequence those of the group that holds the frame
   Decoder decoder;
+  std::optional<SequencePlace> sequence = {};
 };
 
 /// The same bytes under the type that the library takes.
@@ -37,13 +51,21 @@ std::span<const uint8_t> octets(std::span<const std::byte> bytes);
 /// (memory_limit.hpp).
 Result<Decoder> openDecoder(std::span<const uint8_t> bytes);
 
-/// Reads, checks (strict), cuts and opens. A cut that leaves no whole header gives TKS_TRUNCATED.
+/// Whether the bytes begin as a sequence does, and not as a stream.
+bool isSequence(std::span<const std::byte> bytes);
+
+/// Reads, checks (strict), cuts and opens. Of a sequence it opens the group of a frame. A cut
+/// that leaves no whole header gives TKS_TRUNCATED.
 Result<OpenStream> openStream(const StreamSource& source);
 
 /// Whether a stream holds an object: heights over a base mesh, or triangles as they are.
 inline bool isObject(const tks_info& info) {
   return info.base_mesh.position_bits > 0 || info.object_triangles > 0;
 }
+
+/// The first bytes of a stream, or of a sequence, that openStream() opens: of a sequence, so many
+/// whole groups and a part of the next one.
+Result<std::vector<std::byte>> readCut(const StreamSource& source);
 
 /// openStream() for what takes heights over ground: TKS_USAGE if the stream holds an object.
 Result<OpenStream> openTerrain(const StreamSource& source);

@@ -212,9 +212,11 @@ Result<std::vector<double>> Comparer::psnrWithEach(Decoder& stream, uint32_t tri
   return psnr;
 }
 
-Result<Measurement> Comparer::measure(std::span<const uint8_t> stream, uint32_t triangles) {
+Result<Measurement> Comparer::measure(std::span<const uint8_t> stream, uint32_t triangles,
+                                      uint32_t frame) {
   Result<Decoder> decoder = openDecoder(stream);
   if (!decoder) return decoder.status();
+  if (Status status = decoder->setFrame(frame); !status.ok()) return status;
   Measurement result;
   result.bytes = stream.size();
   result.geometry_bytes = decoder->info().geometry_bytes;

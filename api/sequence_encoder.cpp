@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tks_sequence_encoder keeps the frames of a group until it is whole, encodes it, and hands over
+// its bytes.
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "api/encode_arguments.hpp"
+#include "api/encoded_stream.hpp"
+#include "api/guarded.hpp"
+#include "bitstream/sequence/group_head.hpp"
+#include "bitstream/sequence/group_index.hpp"
+
+namespace tetrakis::inline api {
+
+/// A frame with its own samples and texts.
+class KeptFrame {
+ public:
+  KeptFrame(const tks_heights* heights, const tks_image* image) {
+    if (heights != nullptr) {
+      const size_t samples = size_t{heights->width} * heights->height;
+      keep(heights->data, samples * tks_sample_bytes(heights->sample), heights_);
+    }
+    if (image != nullptr) {
+      const size_t texels = size_t{image->width} * image->height * image->channels;
+      keep(image->data, texels * tks_sample_bytes(image->sample), texels_);
+    }
+  }
+  const void* heights() const { return heights_.data(); }
+  const void* texels() const { return texels_.data(); }
+
+ private:
+  static void keep(const void* data, size_t bytes, std::vector<std::byte>& to) {
+    const auto* first = static_cast<const std::byte*>(data);
+    to.assign(first, first + bytes);
+  }
+  std::vector<std::byte> heights_, texels_;
+};
+
+/// The texts and positions of the first frame, which outlive the caller's.
+class KeptTexts {
+ public:
+  void take(FrameArguments& first) {
+    for (tks_heights& h : first.heights) {
+      for (const char** text : {&h.unit, &h.vertical_datum, &h.crs, &h.description, &h.geo_keys})
+        keep(*text);
+      keepPositions(h);
+    }
+    for (tks_image& i : first.images) {
+      for (const char** text : {&i.crs, &i.geo_keys}) keep(*text);
+      keepPositions(i);
+    }
+  }
+
+ private:
+  void keep(const char*& text) {
+    if (text != nullptr) text = texts_.emplace_back(std::make_unique<std::string>(text))->c_str();
+  }
+  void keepPositions(auto& raster) {
+    if (raster.positions == nullptr) return;
+    const auto* first = reinterpret_cast<const char*>(raster.positions);
+    texts_.push_back(std::make_unique<std::string>(first, raster.positions_size));
+    raster.positions = reinterpret_cast<const uint8_t*>(texts_.back()->data());
+  }
+  std::vector<std::unique_ptr<std::string>> texts_;
+};
+
+/// A group before its head and index are written.
+struct PendingGroup {
+  std::vector<KeptFrame> frames;
+  std::vector<int64_t> times;
+};
+
+}  // namespace tetrakis::inline api
+
+struct tks_sequence_encoder {
+  tks_encode_options options = {};
+  uint32_t group = 0;
+  bool has_index = true;
+  tetrakis::Clock clock;
+  tetrakis::FrameArguments like;  ///< the first frame of all, without samples; none so far: empty
+  tetrakis::KeptTexts texts;
+  tetrakis::PendingGroup pending;
+  tetrakis::GroupIndex index;
+  bool has_time = false;
+  int64_t last_time = 0;
+  std::vector<uint8_t> ready;
+};
+
+namespace tetrakis::inline api {
+
+namespace {
+
+constexpr uint32_t kUsualGroup = 16;
+
+Status takeClock(const tks_clock& given, Clock& clock) {
+  if (given.size == 0) return {};
+  tks_clock known;
+  if (Status status = takeSized("the clock", given, sizeof given.size, known); !status.ok())
+    return status;
+  if ((known.numerator == 0) != (known.denominator == 0))
+    return misuse("A tick lasts numerator / denominator seconds: both are above 0, or none is.");
+  clock = {known.numerator, known.denominator, known.epoch != nullptr ? known.epoch : "",
+           known.calendar != nullptr ? known.calendar : ""};
+  if (clock.epoch.size() > 255 || clock.calendar.size() > 255)
+    return misuse("The epoch and the calendar of a sequence take at most 255 bytes each.");
+  if (clock.none() && !(clock.epoch.empty() && clock.calendar.empty()))
+    return misuse("A sequence with an epoch or a calendar has ticks of a known length.");
+  return {};
+}
+
+Status open(const tks_sequence_options& given, tks_sequence_encoder& encoder) {
+  tks_sequence_options known;
+  const Status status =
+      takeSized("the sequence options", given, offsetof(tks_sequence_options, clock), known);
+  if (!status.ok()) return status;
+  if (known.group > TKS_MOST_FRAMES) return misuse("A group has 1 to 32 frames.");
+  if (known.encode == nullptr) return misuse("The encoding options are missing.");
+  const Status options = takeSized("the encoding options", *known.encode,
+                                   offsetof(tks_encode_options, threads), encoder.options);
+  if (!options.ok()) return options;
+  encoder.group = known.group > 0 ? known.group : kUsualGroup;
+  encoder.has_index = known.no_index == 0;
+  return takeClock(known.clock, encoder.clock);
+}
+
+/// The frames of the pending group from `first` on.
+FrameArguments framesOf(const tks_sequence_encoder& encoder, size_t first, size_t count) {
+  FrameArguments frames;
+  frames.options = encoder.options;
+  for (size_t t = first; t < first + count; ++t) {
+    for (tks_heights heights : encoder.like.heights) {
+      heights.data = encoder.pending.frames[t].heights();
+      frames.heights.push_back(heights);
+    }
+    for (tks_image image : encoder.like.images) {
+      image.data = encoder.pending.frames[t].texels();
+      frames.images.push_back(image);
+    }
+  }
+  return frames;
+}
+
+GroupHead headOf(const tks_sequence_encoder& encoder, size_t first, size_t count) {
+  GroupHead head;
+  head.number = encoder.index.groups();
+  head.first_frame = encoder.index.frames();
+  const auto begin = encoder.pending.times.begin() + static_cast<ptrdiff_t>(first);
+  head.times.assign(begin, begin + static_cast<ptrdiff_t>(count));
+  head.clock = encoder.clock;
+  return head;
+}
+
+std::vector<uint8_t> indexOf(const tks_sequence_encoder& encoder, const GroupHead& head,
+                             uint64_t bytes_before) {
+  if (!encoder.has_index) return {};
+  return encoder.index.next(bytes_before, head.frames(), head.times.front());
+}
+
+/// The most bytes that head and index take beside a stream of so many.
+uint64_t bytesBeside(const tks_sequence_encoder& encoder, GroupHead head, uint64_t most) {
+  head.stream_bytes = head.index_bytes = most;
+  const std::vector<uint8_t> index = indexOf(encoder, head, most);
+  head.index_bytes = std::max<uint64_t>(index.size(), 1);
+  return writeHead(head).size() + index.size();
+}
+
+void append(std::span<const uint8_t> bytes, std::vector<uint8_t>& to) {
+  to.insert(to.end(), bytes.begin(), bytes.end());
+}
+
+/// Encodes some of the pending frames as a group.
+Status encodeGroupOf(tks_sequence_encoder& encoder, size_t first, size_t count) {
+  FrameArguments frames = framesOf(encoder, first, count);
+  GroupHead head = headOf(encoder, first, count);
+  if (frames.options.bytes > 0) {
+    const uint64_t budget = frames.options.bytes * count;
+    const uint64_t beside = bytesBeside(encoder, head, std::min<uint64_t>(budget, 1u << 29));
+    if (budget <= beside)
+      return misuse("A budget of " + std::to_string(budget) + " bytes for a group is too small: " +
+                    std::to_string(beside) + " take its head and index alone.");
+    frames.options.bytes = budget - beside;
+  }
+  const Result<std::vector<uint8_t>> stream = encodeFrames(frames);
+  if (!stream.ok()) return stream.status();
+  head.stream_bytes = stream->size();
+  // The index says how many bytes come before it, head included, whose length depends on its own.
+  std::vector<uint8_t> head_bytes, index;
+  for (int round = 0; round < 3; ++round) {
+    head.index_bytes = index.size();
+    head_bytes = writeHead(head);
+    index = indexOf(encoder, head, head_bytes.size() + stream->size());
+  }
+  append(head_bytes, encoder.ready);
+  append(*stream, encoder.ready);
+  append(index, encoder.ready);
+  encoder.index.add({1, head_bytes.size() + stream->size() + index.size(), count,
+                     head.times.front(), index.size()});
+  return {};
+}
+
+/// Encodes all pending frames: together, or each by itself where they cannot be.
+Status encodePending(tks_sequence_encoder& encoder) {
+  const size_t count = encoder.pending.frames.size();
+  if (count == 0) return {};
+  Status status = encodeGroupOf(encoder, 0, count);
+  if (status.code() == TKS_UNSUPPORTED && count > 1) {
+    status = {};
+    for (size_t t = 0; t < count && status.ok(); ++t) status = encodeGroupOf(encoder, t, 1);
+  }
+  encoder.pending = {};
+  return status;
+}
+
+Status push(tks_sequence_encoder& encoder, const tks_heights* heights, const tks_image* image,
+            int64_t time) {
+  if (time < -kMostTime || time > kMostTime) return misuse("A time lies within +-2^61 ticks.");
+  if (encoder.has_time && time <= encoder.last_time)
+    return misuse("A frame at tick " + std::to_string(time) +
+                  " is not later than the one before, " + std::to_string(encoder.last_time) + ".");
+  FrameArguments taken = encoder.like;
+  Status status = takeFrame(heights, image, encoder.options, taken);
+  if (!status.ok()) return status;
+  if (encoder.like.frames() == 0) {
+    encoder.like = taken;
+    encoder.texts.take(encoder.like);
+    encoder.options = taken.options;
+  }
+  const bool has_heights = !taken.heights.empty(), has_image = !taken.images.empty();
+  encoder.pending.frames.emplace_back(has_heights ? &taken.heights.back() : nullptr,
+                                      has_image ? &taken.images.back() : nullptr);
+  encoder.pending.times.push_back(time);
+  encoder.has_time = true;
+  encoder.last_time = time;
+  return encoder.pending.frames.size() < encoder.group ? Status() : encodePending(encoder);
+}
+
+}  // namespace
+
+}  // namespace tetrakis::inline api
+
+tks_status tks_sequence_encoder_open(const tks_sequence_options* options,
+                                     tks_sequence_encoder** out, char* message,
+                                     size_t message_size) {
+  if (out != nullptr) *out = nullptr;
+  return tetrakis::reporting(message, message_size, [&]() -> tetrakis::Status {
+    if (out == nullptr) return tetrakis::outputMissing();
+    if (options == nullptr) return tetrakis::misuse("The sequence options are missing.");
+    auto encoder = std::make_unique<tks_sequence_encoder>();
+    tetrakis::Status status = tetrakis::open(*options, *encoder);
+    if (status.ok()) *out = encoder.release();
+    return status;
+  });
+}
+
+void tks_sequence_encoder_close(tks_sequence_encoder* encoder) {
+  delete encoder;
+}
+
+tks_status tks_sequence_push(tks_sequence_encoder* encoder, const tks_heights* heights,
+                             const tks_image* image, int64_t time, char* message,
+                             size_t message_size) {
+  if (encoder == nullptr) return TKS_USAGE;
+  return tetrakis::reporting(message, message_size,
+                             [&] { return tetrakis::push(*encoder, heights, image, time); });
+}
+
+tks_status tks_sequence_flush(tks_sequence_encoder* encoder, char* message, size_t message_size) {
+  if (encoder == nullptr) return TKS_USAGE;
+  return tetrakis::reporting(message, message_size,
+                             [&] { return tetrakis::encodePending(*encoder); });
+}
+
+tks_status tks_sequence_take(tks_sequence_encoder* encoder, tks_buffer* out) {
+  if (out != nullptr) *out = {nullptr, 0};
+  if (encoder == nullptr || out == nullptr) return TKS_USAGE;
+  return tetrakis::answering([&]() -> tetrakis::Status {
+    if (encoder->ready.empty()) return {};
+    tetrakis::giveBytes(encoder->ready, *out);
+    encoder->ready = {};
+    return {};
+  });
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "codec/frames/frames_encoder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "base/parallel.hpp"
+#include "base/portable_math.hpp"
+#include "codec/frames/frame_lifting.hpp"
+#include "codec/wavelet/wavelet.hpp"
+
+namespace tetrakis::inline frames {
+
+namespace {
+
+/// The planes of colour c of all frames.
+FrameViews framesOf(Planes& planes, uint32_t c, uint32_t colours) {
+  FrameViews frames;
+  for (size_t p = c; p < planes.size(); p += colours) frames.emplace_back(planes[p]);
+  return frames;
+}
+
+Planes lifted(FramesHeader header, TimeFilter filter, uint32_t colours, Planes planes) {
+  header.filter = filter;
+  for (uint32_t c = 0; c < colours; ++c) forwardFrames(header, 0, framesOf(planes, c, colours));
+  return planes;
+}
+
+/// Bits of the values of the planes, sign included.
+int bitsOf(const Planes& planes) {
+  uint32_t most = 0;
+  for (const std::vector<int32_t>& plane : planes)
+    for (const int32_t value : plane) most |= static_cast<uint32_t>(value < 0 ? ~value : value);
+  return static_cast<int>(std::bit_width(most)) + 1;
+}
+
+/// The planes of the first colour one below the other, as a plane of its own: some stand for all.
+struct Stack {
+  std::vector<int32_t> values;
+  std::vector<uint8_t> marks;
+  Extent extent;
+
+  /// The mean over time has few of the samples of a group, and counts as one plane of `every`.
+  Stack(const Planes& planes, const FrameSource& source, size_t every) {
+    const FrameLayout& layout = source.layout;
+    const size_t frames = layout.frames.count;
+    extent = {layout.extent.width, 0};
+    for (size_t t = 0; t < frames; t += every) append(planes[t * layout.colours()], source);
+    for (size_t t = 1; every > 1 && t < frames; t += 2 * every)
+      append(planes[t * layout.colours()], source);
+  }
+  PlaneView<const int32_t> view() const { return {values, extent, marks}; }
+
+ private:
+  void append(const std::vector<int32_t>& plane, const FrameSource& source) {
+    values.insert(values.end(), plane.begin(), plane.end());
+    extent.height += source.layout.extent.height;
+    if (source.lifted == nullptr) return;
+    const std::vector<uint8_t> more = source.lifted->bytes();
+    marks.insert(marks.end(), more.begin(), more.end());
+  }
+};
+
+/// Bits of lifted values: wider ones have no room for what the wavelet in space adds to 30.
+constexpr int kMostBits = 26;
+/// Every how manyth frame the choice of filters looks at.
+constexpr size_t kLookedAt = 4;
+
+}  // namespace
+
+FrameCoding chooseFrameCoding(const FrameSource& source, int bits, Purpose purpose) {
+  constexpr std::array kFilters = {TimeFilter::kNone, TimeFilter::kHaar, TimeFilter::kFiveThree};
+  const uint32_t colours = source.layout.colours();
+  const int most = std::max(kMostBits, bitsOf(source.planes));
+  FrameCoding best;
+  double least = 0;
+  Planes left;
+  for (const TimeFilter filter : kFilters) {
+    Planes planes = lifted(source.layout.frames, filter, colours, source.planes);
+    if (bitsOf(planes) > most) continue;
+    const double cost = losslessBits(Stack(planes, source, 1).view(), bits);
+    if (filter != TimeFilter::kNone && cost >= least) continue;
+    least = cost;
+    best.filter = filter;
+    left = std::move(planes);
+  }
+  const size_t every = source.layout.frames.count > 2 * kLookedAt ? kLookedAt : 1;
+  best.wavelet =
+      chooseWavelet(Stack(left, source, every).view(), std::max(bits, bitsOf(left)), purpose);
+  return best;
+}
+
+namespace {
+
+/// Planes of coefficients, and what tracks are made of them with.
+struct TransformedFrames {
+  const FramePlan& plan;
+  const FrameSource& source;
+
+  TrackSource trackOf(size_t region) const {
+    const std::vector<BandPart> parts = plan.parts(region);
+    const double unit = source.share * portable::exp2(-2 * source.layout.wavelet.fraction_bits);
+    TrackSource track{plan.bands(parts), {}};
+    for (uint32_t p = 0; p < source.layout.planes(); ++p) {
+      const double weight = unit * source.squares[p % source.layout.colours()];
+      for (const BandPart& part : parts) {
+        track.bands.push_back(
+            {plan.layout().gather(source.planes[p], part), weight * plan.energy(p, part.subband)});
+        clearAbsent(track.plan[track.bands.size() - 1], track.bands.back().values);
+      }
+    }
+    return track;
+  }
+};
+
+void transform(const FrameLayout& layout, const FramePlan& plan, const SharedBits& marks,
+               Planes& planes, uint32_t threads) {
+  for (uint32_t c = 0; c < layout.colours(); ++c)
+    forwardFrames(layout.frames, layout.wavelet.fraction_bits,
+                  framesOf(planes, c, layout.colours()));
+  const std::vector<uint8_t> bytes = shownMarks(marks, {});
+  parallelFor(threads, planes.size(), [&](size_t p) {
+    clearUnmarked(std::span(planes[p]), bytes);
+    forwardWavelet(specOf(layout.wavelet), plan.layout().pyramid(), planes[p], 1);
+  });
+}
+
+}  // namespace
+
+std::vector<EncodedTrack> encodeFramePlanes(FrameSource source, const TrackOptions& options) {
+  const FrameLayout& layout = source.layout;
+  assert(source.planes.size() == layout.planes() && source.squares.size() == layout.colours());
+  const int fraction_bits = layout.wavelet.fraction_bits;
+  for (std::vector<int32_t>& plane : source.planes) plane = withFractions(plane, fraction_bits);
+  const FramePlan plan(layout, source.lifted);
+  transform(layout, plan, source.lifted, source.planes, options.threads);
+  const TransformedFrames frames{plan, source};
+  const size_t regions = plan.regions().size();
+  const auto source_of = [&](size_t region) { return frames.trackOf(region); };
+  if (regions > 1 && options.toTheEnd())
+    return encodeWholeTracks(regions, source_of, options.threads);
+  std::vector<TrackSource> sources(regions);
+  parallelFor(options.threads, regions, [&](size_t i) { sources[i] = source_of(i); });
+  return encodeTracks(sources, options);
+}
+
+}  // namespace tetrakis::inline frames

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// encodeFramePlanes() lifts the planes of the frames of a group over time, transforms and codes
+// them. chooseFrameCoding() chooses the filters over time and in space before. Encoder only.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/bit_plane.hpp"
+#include "bitstream/stream/coding_headers.hpp"
+#include "bitstream/track/track_encoder.hpp"
+#include "codec/frames/frame_planes.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
+
+namespace tetrakis::inline frames {
+
+using Planes = std::vector<std::vector<int32_t>>;
+
+/// The planes of a group, as FrameLayout numbers them.
+struct FrameSource {
+  FrameLayout layout;  ///< without `bit_planes`
+  SharedBits lifted;   ///< samples that have coefficients; null: all
+  Planes planes;       ///< whole steps; others than the lifted samples may be anything
+  std::vector<double> squares = {1};  ///< errors of the samples by those of each colour
+  double share = 1;                   ///< of the lifted samples, those whose errors count
+};
+
+/// The filters of a group.
+struct FrameCoding {
+  TimeFilter filter = TimeFilter::kNone;
+  WaveletHeader wavelet;
+};
+
+/// Chooses the filter over time that leaves the fewest bits, and the wavelet that suits what it
+/// leaves. bits: of the samples. The layout need not have filters yet.
+FrameCoding chooseFrameCoding(const FrameSource& source, int bits, Purpose purpose);
+
+/// One track for each region. Distortion is in squared units of the samples, summed over the lifted
+/// ones of all frames and multiplied by the share.
+std::vector<EncodedTrack> encodeFramePlanes(FrameSource source, const TrackOptions& options);
+
+}  // namespace tetrakis::inline frames

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/groups/coded_frames.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/portable_math.hpp"
+#include "codec/geometry/heights_decoder.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
+#include "texture_wavelet/texture_decoder.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
+
+namespace tetrakis::inline groups {
+
+namespace {
+
+/// log2 of the squared error of a sample of unknown validity over the squared range.
+constexpr double kValidityLog2 = -4;
+
+double validityWorth(const FrameSteps& steps) {
+  return portable::exp2(2.0 * steps.range_bits + kValidityLog2);
+}
+
+GeometryLayers layersOf(const tks_heights& first, uint64_t validity_bytes) {
+  const bool infinite_integer = first.sample != TKS_F32 && !std::isfinite(first.nodata);
+  const bool has_nodata = first.has_nodata != 0 && !std::isnan(first.nodata) && !infinite_integer;
+  return {.validity_bytes = validity_bytes,
+          .has_nodata = has_nodata,
+          .nodata = has_nodata ? first.nodata + 0.0 : 0};
+}
+
+GeometryHeader headerOf(const tks_heights& first, const FrameSteps& steps) {
+  GeometryHeader header;
+  header.width = first.width;
+  header.height = first.height;
+  header.sample = static_cast<uint8_t>(first.sample);
+  header.exact = steps.exact;
+  header.base = steps.base;
+  header.step = steps.step;
+  header.frames.count = static_cast<uint8_t>(steps.steps.size());
+  header.frames.scales = steps.scales;
+  header.wavelet.ring = first.domain == TKS_DOMAIN_CYLINDER;
+  return header;
+}
+
+/// The first track with the masks ahead of its coefficients.
+void prepend(std::span<const uint8_t> masks, double worth, EncodedTrack& track) {
+  if (masks.empty()) return;
+  track.codeword.insert(track.codeword.begin(), masks.begin(), masks.end());
+  for (RatePoint& point : track.points) point.bytes += masks.size();
+  track.points.insert(track.points.begin(), {0, track.points.front().distortion + worth});
+}
+
+uint64_t samplesOf(const Planes& planes) {
+  return planes.size() * planes.front().size();
+}
+
+}  // namespace
+
+double HeightFrames::counted() const {
+  return static_cast<double>(std::max<uint64_t>(truth.validSamples(), 1));
+}
+
+double HeightFrames::squaresOf(const Codewords& prefix, uint32_t threads,
+                               HeightsMemory* memory) const {
+  HeightsMemory of_this_call;
+  HeightsMemory& kept = memory != nullptr ? *memory : of_this_call;
+  double squares = 0;
+  for (uint32_t t = 0; t < truth.steps.size(); ++t) {
+    const View view{0, {}, t};
+    const DecodedGeometry shown =
+        decodeHeights(coded->header, coded->layers, prefix, view, {threads, &kept}).geometry;
+    const std::vector<uint8_t> valid = shownMarks(truth.masks[t], {});
+    const double own = portable::exp2(truth.scale(t).shift);
+    const double unit = portable::exp2(-shown.fraction_bits);
+    for (size_t i = 0; i < shown.heights.size(); ++i) {
+      const bool is_valid = valid.empty() || valid[i] != 0;
+      const bool is_shown = shown.valid.empty() || shown.valid[i] != 0;
+      if (is_valid != is_shown) {
+        squares += validityWorth(truth);
+      } else if (is_valid) {
+        const double error = own * (shown.heights[i] * unit - truth.steps[t][i]);
+        squares += error * error;
+      }
+    }
+  }
+  return squares;
+}
+
+Result<HeightFrames> codeHeightFrames(const GroupInputs& inputs) {
+  const tks_encode_options& options = inputs.options;
+  Result<FrameSteps> found = stepsOfFrames(inputs.heights, options);
+  if (!found.ok()) return found.status();
+  HeightFrames frames{*std::move(found), nullptr};
+  const tks_heights& first = inputs.heights.front();
+  CodedHeights coded;
+  coded.header = headerOf(first, frames.truth);
+  FrameSource source;
+  source.planes = filled(frames.truth).steps;
+  source.layout = frameLayoutOf(coded.header);
+  const std::vector<uint8_t> masks = encodeFrameMasks(frames.truth.masks, source.layout.extent);
+  if (!masks.empty()) source.lifted = everValid(frames.truth.masks);
+  source.share = frames.counted() / static_cast<double>(samplesOf(source.planes));
+  // A largest error is kept by the steps alone, so that all of them have to come back.
+  const bool whole = options.lossless != 0 || options.max_error > 0;
+  const Purpose purpose = whole ? Purpose::kLossless : Purpose::kLossy;
+  const FrameCoding coding = chooseFrameCoding(source, frames.truth.range_bits + 1, purpose);
+  const CoefficientOptions given = heightOptions(inputs.first());
+  coded.header.frames.filter = coding.filter;
+  coded.header.wavelet = given.windows ? withShortReach(coding.wavelet) : coding.wavelet;
+  coded.header.wavelet.ring = first.domain == TKS_DOMAIN_CYLINDER;
+  coded.header.regions.side_log2 = static_cast<uint8_t>(given.region_log2);
+  source.layout = frameLayoutOf(coded.header);
+  coded.layers = layersOf(first, masks.size());
+  coded.tracks = encodeFramePlanes(std::move(source), {given.limit, options.threads});
+  coded.header.planes = static_cast<uint8_t>(coded.tracks.front().planes);
+  if (coding.wavelet.fraction_bits == 0)
+    coded.header.wavelet.rounded_bytes = roundedBytes(coded.tracks, 0);
+  prepend(masks, validityWorth(frames.truth) * frames.counted(), coded.tracks.front());
+  frames.coded = std::make_shared<const CodedHeights>(std::move(coded));
+  return frames;
+}
+
+double TextureFrames::counted() const {
+  return static_cast<double>(truth.size() * truth.front().samples.size());
+}
+
+double TextureFrames::squaresOf(const Codewords& prefix, uint32_t threads,
+                                TextureMemory* memory) const {
+  TextureMemory of_this_call;
+  TextureMemory& kept = memory != nullptr ? *memory : of_this_call;
+  double squares = 0;
+  for (uint32_t t = 0; t < truth.size(); ++t) {
+    const Texels shown = decodeTexture(coded->header, prefix, {0, {}, t}, {threads, &kept});
+    for (size_t i = 0; i < shown.samples.size(); ++i) {
+      const double error = double{0} + shown.samples[i] - truth[t].samples[i];
+      squares += error * error;
+    }
+  }
+  return squares;
+}
+
+TextureFrames codeTextureFrames(const GroupInputs& inputs) {
+  TextureFrames frames;
+  std::shared_ptr<const TextureSource> first;
+  for (const tks_image& image : inputs.images) {
+    std::shared_ptr<const TextureSource> source = quantiseTexture(image);
+    frames.truth.push_back(source->texels);
+    if (first == nullptr) first = std::move(source);
+  }
+  const EncodeInputs like_first = inputs.first();
+  EncodedTexture encoded = encodeTextureFrames(frames.truth, first->ring, purposeOf(like_first),
+                                               textureOptions(like_first, first->texels));
+  frames.coded = std::make_shared<const CodedTexture>(
+      CodedTexture{std::move(first), std::move(encoded.header), std::move(encoded.tracks)});
+  return frames;
+}
+
+}  // namespace tetrakis::inline groups

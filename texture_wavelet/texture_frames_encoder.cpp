@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frames of a texture share one colour transform, which is fitted to the first one.
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "codec/frames/frames_encoder.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
+#include "texture_wavelet/colour/colour_fit.hpp"
+#include "texture_wavelet/texture_decoder.hpp"
+#include "texture_wavelet/texture_encoder.hpp"
+
+namespace tetrakis::inline texture {
+
+namespace {
+
+std::vector<std::vector<int32_t>> channelsOf(const Texels& texels) {
+  const size_t count = texels.extent().samples();
+  std::vector<std::vector<int32_t>> channels(texels.channels, std::vector<int32_t>(count));
+  for (size_t i = 0; i < count; ++i)
+    for (size_t c = 0; c < channels.size(); ++c)
+      channels[c][i] = texels.samples[i * texels.channels + c];
+  return channels;
+}
+
+/// Frames have no shears of coefficients: those of samples go at all levels.
+ColourTransform colourOfFrames(const Texels& first, Purpose purpose) {
+  const std::vector<std::vector<int32_t>> channels = channelsOf(first);
+  std::vector<const int32_t*> pointers;
+  for (const std::vector<int32_t>& channel : channels) pointers.push_back(channel.data());
+  ColourTransform colour = purpose == Purpose::kLossy
+                               ? fitColour(pointers, first.extent())
+                               : chooseLosslessColour(pointers, first.extent());
+  colour.level_shears.clear();
+  if (channels.size() % 2 == 0 && first.opaque)
+    colour.further_shears = fitFurtherColour(colour, pointers, first.extent(), purpose);
+  return colour;
+}
+
+TextureHeader headerOfFrames(const Texels& first, const ColourTransform& colour) {
+  TextureHeader header;
+  header.width = first.width;
+  header.height = first.height;
+  header.channels = static_cast<uint8_t>(first.channels);
+  header.opaque = first.opaque;
+  header.white_level = first.white_level;
+  header.sample = first.bits == 8 ? TKS_U8 : TKS_U16;
+  describeColour(colour, header);
+  header.priority = prioritiesOf(first.channels, colour, {1, 1, 1, 1});
+  return header;
+}
+
+FrameSource sourceOf(const std::vector<Texels>& frames, const ColourTransform& colour,
+                     const TextureHeader& header) {
+  FrameSource source;
+  source.layout = frameLayoutOf(header);
+  source.squares = energiesOf(header.channels, colour, 1, {1, 1, 1, 1});
+  for (const Texels& frame : frames) {
+    std::vector<std::vector<int32_t>> planes = channelsOf(frame);
+    std::vector<int32_t*> pointers;
+    for (std::vector<int32_t>& plane : planes) pointers.push_back(plane.data());
+    forwardColour(colour, pointers, frame.extent().samples(), 0);
+    std::move(planes.begin(), planes.end(), std::back_inserter(source.planes));
+  }
+  return source;
+}
+
+}  // namespace
+
+EncodedTexture encodeTextureFrames(const std::vector<Texels>& frames, bool ring, Purpose purpose,
+                                   const TextureOptions& options) {
+  assert(frames.size() >= 2 && frames.size() <= FramesHeader::kMost);
+  const Texels& first = frames.front();
+  const ColourTransform colour = colourOfFrames(first, purpose);
+  EncodedTexture encoded{headerOfFrames(first, colour), {}};
+  TextureHeader& header = encoded.header;
+  header.frames.count = static_cast<uint8_t>(frames.size());
+  header.regions.side_log2 = static_cast<uint8_t>(options.region_log2);
+  FrameSource source = sourceOf(frames, colour, header);
+  const FrameCoding coding = chooseFrameCoding(source, first.bits, purpose);
+  header.frames.filter = coding.filter;
+  header.wavelet = options.windows ? withShortReach(coding.wavelet) : coding.wavelet;
+  header.wavelet.ring = ring;
+  source.layout = frameLayoutOf(header);
+  const bool whole = header.wavelet.fraction_bits == 0;
+  encoded.tracks = encodeFramePlanes(std::move(source), {options.limit, options.threads});
+  header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
+  if (whole) header.wavelet.rounded_bytes = roundedBytes(encoded.tracks, 0);
+  return encoded;
+}
+
+}  // namespace tetrakis::inline texture
