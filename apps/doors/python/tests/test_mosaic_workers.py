@@ -7,7 +7,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 
 import numpy as np
 import pytest
@@ -16,14 +15,14 @@ from conftest import terrain
 import tetrakis
 from tetrakis import mosaic
 
-SMALL = dict(regions=64, tile=128, lossless=True)
+SMALL = dict(regions=64, tile=256, lossless=True)
 
 ONE_RUN = """
 import sys
 import numpy as np, tetrakis
 source, out, work = sys.argv[1:]
 heights = np.load(source, mmap_mode="r")
-tetrakis.mosaic.encode(heights, out, workdir=work, workers=2, lossless=True, regions=64, tile=128)
+tetrakis.mosaic.encode(heights, out, workdir=work, workers=2, lossless=True, regions=64, tile=256)
 """
 
 
@@ -37,7 +36,7 @@ def ground(tmp_path_factory):
     return folder / "a.npy", (folder / "a.tks").read_bytes()
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def cluster():
     """Of two processes. Workers of this test die more often than a scheduler expects."""
     distributed = pytest.importorskip("distributed")
@@ -49,7 +48,7 @@ def cluster():
         "logging.distributed": "critical",
     }
     with dask.config.set(settings), distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0"
     ) as cluster, distributed.Client(cluster) as client:
         yield client
 
@@ -73,13 +72,16 @@ def test_dask_arrays_are_read_by_workers(tmp_path, ground, cluster):
 
 
 class Broken:
-    """A source of which one window cannot be read by any worker."""
+    """A source of which no worker can read the southern windows."""
 
     shape, dtype = (1100, 1300), np.dtype("i2")
 
+    def __init__(self):
+        self.home = os.getpid()
+
     def __getitem__(self, window):
         rows, columns = window
-        if rows.start > 700 and columns.stop < 700 and rows.stop - rows.start < 400:
+        if rows.start > 500 and os.getpid() != self.home:
             raise LookupError("the storage is away")
         return np.zeros((rows.stop - rows.start, columns.stop - columns.start), "i2")
 
@@ -97,9 +99,11 @@ def test_workers_of_dask_may_be_killed(tmp_path, ground, cluster):
     def kill():
         chosen = random.Random(1)
         while len(killed) < 4 and not ended.wait(chosen.uniform(0.1, 0.5)):
-            workers = [worker["pid"] for worker in cluster.run(facts).values()]
-            os.kill(chosen.choice(workers), signal.SIGKILL)
-            killed.append(time.monotonic())
+            pids = [nanny.pid for nanny in cluster.cluster.workers.values()]
+            pid = chosen.choice(pids)
+            if pid:
+                os.kill(pid, signal.SIGKILL)
+                killed.append(pid)
 
     killer = threading.Thread(target=kill)
     killer.start()
@@ -113,10 +117,6 @@ def test_workers_of_dask_may_be_killed(tmp_path, ground, cluster):
     assert (tmp_path / "a.tks").read_bytes() == expected
 
 
-def facts():
-    return dict(pid=os.getpid())
-
-
 def test_runs_may_be_killed(tmp_path, ground):
     """At any time; what each has done counts for the next one."""
     path, expected = ground
@@ -125,13 +125,13 @@ def test_runs_may_be_killed(tmp_path, ground):
     for _ in range(20):
         run = subprocess.Popen(command)
         try:
-            assert run.wait(chosen.uniform(0.3, 0.9)) == 0
+            assert run.wait(chosen.uniform(0.2, 0.6)) == 0
             break
         except subprocess.TimeoutExpired:
             run.kill()
             run.wait()
             done.append(len(list((tmp_path / "work").glob("*.part"))))
-    assert len(done) >= 2 and done == sorted(done)
+    assert done and done == sorted(done)
     assert subprocess.run(command, timeout=100).returncode == 0
     assert (tmp_path / "a.tks").read_bytes() == expected
     np.testing.assert_array_equal(tetrakis.open(expected).heights(), np.load(path))

@@ -135,7 +135,8 @@ def test_rasters_keep_their_place(tmp_path, ground, package, monkeypatch):
 def test_osgeo_and_rasterio_say_the_same(tmp_path, ground, monkeypatch):
     rasterio = pytest.importorskip("rasterio")
     pytest.importorskip("osgeo")
-    path = raster(tmp_path / "a.tif", ground, nodata=-32768, crs="+proj=laea +lat_0=50 +units=us-ft")
+    crs = "+proj=laea +lat_0=50 +units=us-ft"
+    path = raster(tmp_path / "a.tif", ground, nodata=-32768, crs=crs)
     with rasterio.open(path, "r+") as dataset:
         dataset.units, dataset.scales, dataset.offsets = ("m",), (0.5,), (-3.0,)
         dataset.set_band_description(1, "ground")
@@ -223,7 +224,8 @@ def test_missing_parts_are_named(tmp_path, ground):
 def test_windows_have_an_index(tmp_path, ground):
     stream = tetrakis.open(streamed(tmp_path, ground, index="windows"))
     assert stream.info.index == "windows"
-    np.testing.assert_array_equal(stream.heights(window=np.s_[9:70, 200:333]), ground[9:70, 200:333])
+    window = np.s_[9:70, 200:333]
+    np.testing.assert_array_equal(stream.heights(window=window), ground[window])
     with pytest.raises(tetrakis.TksUsageError, match="windows"):
         streamed(tmp_path, ground, bytes=9000, index="windows")
 

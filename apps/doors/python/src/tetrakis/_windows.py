@@ -54,8 +54,10 @@ class ArraySource(WindowSource):
     def read(self, rows: slice, columns: slice) -> Any:
         part = self._array[(*self._front, rows, columns)]
         if hasattr(part, "__dask_graph__"):
+            import dask
+
             # A task of a cluster that waits for others would take the place that they need.
-            part = part.compute(scheduler="synchronous")
+            part = part.compute(scheduler=dask.get)
         return part if isinstance(part, np.ma.MaskedArray) else np.asarray(part)
 
     def for_others(self, folder: Path) -> WindowSource:

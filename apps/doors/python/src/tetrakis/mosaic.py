@@ -113,7 +113,8 @@ class Mosaic:
         index: "windows" lays the stream out region by region, with an index, for windows over a
             network: of mosaics that are lossless or within a largest error.
         """
-        kind = c.INDEXES.index((False, "windows")[values.choice(index, (False, "windows"), "index")])
+        windows = values.choice(index, (False, "windows"), "index") == 1
+        kind = c.INDEXES.index("windows" if windows else False)
         guard = Guard()
         files = WorkFolder(self._folder, guard)
         with appearing(Path(out)) as file:
