@@ -23,8 +23,8 @@
 namespace tetrakis::gdal {
 namespace {
 
-/// Shares of the progress: doubles that are read to know how they are rounded; the plan; all but the
-/// merge.
+/// Shares of the progress: doubles that are read to know how they are rounded; the plan; all but
+/// the merge.
 constexpr double kNarrowed = 0.1, kPlanned = 0.2, kCoded = 0.97;
 
 /// What coding takes for a sample, of a tile or of all heights (docs/MEASUREMENTS.md).
