@@ -92,18 +92,22 @@ def test_what_a_source_raises_comes_from_dask(tmp_path, cluster):
     assert not list(tmp_path.iterdir())
 
 
+def is_at_work(process):
+    return process is not None and process.status.name == "running"
+
+
 def test_workers_of_dask_may_be_killed(tmp_path, ground, cluster):
     path, expected = ground
     killed, ended = [], threading.Event()
+    # The other one stays: Dask does not replace a worker that is killed as soon as it has started.
+    chosen_one = next(iter(cluster.cluster.workers.values()))
 
     def kill():
         chosen = random.Random(1)
-        while len(killed) < 4 and not ended.wait(chosen.uniform(0.1, 0.5)):
-            pids = [nanny.pid for nanny in cluster.cluster.workers.values()]
-            pid = chosen.choice(pids)
-            if pid:
-                os.kill(pid, signal.SIGKILL)
-                killed.append(pid)
+        while len(killed) < 4 and not ended.wait(chosen.uniform(0.05, 0.3)):
+            if is_at_work(chosen_one.process):
+                killed.append(chosen_one.pid)
+                os.kill(killed[-1], signal.SIGKILL)
 
     killer = threading.Thread(target=kill)
     killer.start()
@@ -121,7 +125,7 @@ def test_runs_may_be_killed(tmp_path, ground):
     """At any time; what each has done counts for the next one."""
     path, expected = ground
     command = [sys.executable, "-c", ONE_RUN, path, tmp_path / "a.tks", tmp_path / "work"]
-    chosen, done = random.Random(2), []
+    chosen, done = random.Random(1), []
     for _ in range(20):
         run = subprocess.Popen(command)
         try:

@@ -214,7 +214,7 @@ def encode(
 
     The bytes depend on the source and the options alone: not on the engine, nor on how many work.
     """
-    threads = values.unsigned(workers, "workers", 16) or len(os.sched_getaffinity(0))
+    threads = values.unsigned(workers, "workers", 16) or os.cpu_count() or 1
     if client is not None and workers is not None:
         raise TksUsageError("workers counts threads of this process: a cluster knows its own.")
     target = dict(bytes=bytes, psnr=psnr, max_error=max_error, lossless=lossless)
