@@ -77,8 +77,7 @@ tks_domain domainOf(const Place& place, const OGRSpatialReference* system, uint3
              : TKS_DOMAIN_PLANE;
 }
 
-std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset& dataset,
-                                           bool strict, const ProgressPart& progress) {
+std::unique_ptr<CopiedHeights> describeHeights(const std::string& name, GDALDataset& dataset) {
   if (dataset.GetRasterCount() != 1) {
     const std::string why = whyNoTexture(dataset);
     reportFailure(TKS_USAGE, name,
@@ -102,11 +101,19 @@ std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset&
   heights.width = static_cast<uint32_t>(band.GetXSize());
   heights.height = static_cast<uint32_t>(band.GetYSize());
   heights.sample = *sample;
+  takeFacts(name, dataset, *copy);
+  return copy;
+}
+
+std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset& dataset,
+                                           bool strict, const ProgressPart& progress) {
+  std::unique_ptr<CopiedHeights> copy = describeHeights(name, dataset);
+  if (!copy) return nullptr;
+  GDALRasterBand& band = *dataset.GetRasterBand(1);
   if (!readSamples(name, band, strict, *copy, progress)) return nullptr;
   takeNodata(name, band, *copy);
   if (!applyMask(name, band, *copy)) return nullptr;
-  takeFacts(name, dataset, *copy);
-  heights.data = copy->samples.data();
+  copy->heights.data = copy->samples.data();
   takeFill(name, strict, *copy);
   return copy;
 }

@@ -57,8 +57,11 @@ struct CopiedTexture {
   std::vector<uint8_t> positions;
 };
 
-/// strict: doubles that no float holds are refused; else a warning tells that they are rounded.
-/// Null after a reported error.
+/// Heights without their samples, and without what they say of voids. Null after a reported error.
+std::unique_ptr<CopiedHeights> describeHeights(const std::string& name, GDALDataset& dataset);
+
+/// With all. strict: doubles that no float holds are refused; else a warning tells that they are
+/// rounded. Null after a reported error.
 std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset& dataset,
                                            bool strict, const ProgressPart& progress);
 

@@ -1,85 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/doors/gdal/copied_samples.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <span>
-#include <vector>
 
-#include "apps/doors/gdal/copied_voids.hpp"
 #include "apps/doors/gdal/source.hpp"
-#include "base/nodata.hpp"
 
 namespace tetrakis::gdal {
 namespace {
 
-/// Doubles by rows, so that the copy is the only large array. Voids are told as doubles: -DBL_MAX,
-/// a common one, is beyond the floats. What stands for them: base/nodata.hpp.
-class DoubleRows {
- public:
-  DoubleRows(GDALRasterBand& band, std::span<float> out)
-      : band_(band), out_(out), nodata_(nodataOf(band)) {}
-
-  bool read(const ProgressPart& progress) {
-    const size_t width = band_.GetXSize(), height = band_.GetYSize();
-    const int columns = band_.GetXSize();
-    std::vector<double> row(width);
-    std::vector<GByte> mask(width, 255);
-    const bool masked = hasMask(band_);
-    for (size_t y = 0; y < height; ++y) {
-      const int line = static_cast<int>(y);
-      if (band_.RasterIO(GF_Read, 0, line, columns, 1, row.data(), columns, 1, GDT_Float64, 0, 0,
-                         nullptr) != CE_None ||
-          (masked &&
-           band_.GetMaskBand()->RasterIO(GF_Read, 0, line, columns, 1, mask.data(), columns, 1,
-                                         GDT_Byte, 0, 0, nullptr) != CE_None) ||
-          !progress.report(double(y + 1) / double(height)))
-        return false;
-      for (size_t x = 0; x < width; ++x) out_[y * width + x] = narrowed(row[x], mask[x] != 0);
-    }
-    if (nodata_ && !merged_)
-      std::replace_if(
-          out_.begin(), out_.end(), [](float sample) { return std::isnan(sample); }, mark_);
-    return true;
+/// By rows, so that the copy is the only large array.
+bool readDoubles(NarrowedBand& band, uint32_t width, uint32_t height, std::span<float> out,
+                 const ProgressPart& progress) {
+  for (uint32_t y = 0; y < height; ++y) {
+    if (!band.read({0, y, width, 1}, out.subspan(size_t{y} * width, width)) ||
+        !progress.report(double(y + 1) / double(height)))
+      return false;
   }
-  /// The largest of any sample that is not void.
-  double rounding() const { return rounding_; }
-  /// What stands for voids, if any value does.
-  std::optional<double> nodata() const {
-    if (!nodata_) return std::nullopt;
-    return double{merged_ ? kNaN : mark_};
-  }
+  band.mark(out);
+  return true;
+}
 
- private:
-  static constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+}  // namespace
 
-  /// NaN for voids, until all samples are known.
-  float narrowed(double value, bool valid) {
-    if (nodata_ && meetsNodata(value, *nodata_)) return kNaN;
-    const float rounded = toFloat(value);  // an infinity is refused by tks_encode with its place
-    if (!valid || !std::isfinite(rounded)) return rounded;
-    merged_ = merged_ || meetsNodata(rounded, mark_);
-    rounding_ = std::max(rounding_, std::abs(value - static_cast<double>(rounded)));
-    return rounded;
-  }
-
-  GDALRasterBand& band_;
-  std::span<float> out_;
-  std::optional<double> nodata_;
-  float mark_ = nodata_ ? narrowedNodata(*nodata_) : kNaN;
-  bool merged_ = false;  ///< a sample that is not void has become what meets the mark
-  double rounding_ = 0;
-};
-
-/// A failure that GDAL has not reported is the user's who stops.
 bool reportStop(const std::string& name) {
   if (CPLGetLastErrorType() < CE_Failure)
     CPLError(CE_Failure, CPLE_UserInterrupt, "%s: Stopped by the user.", name.c_str());
   return false;
 }
-
-}  // namespace
 
 std::optional<tks_sample> sampleOf(GDALRasterBand& band) {
   switch (band.GetRasterDataType()) {
@@ -121,12 +69,19 @@ bool readSamples(const std::string& name, GDALRasterBand& band, bool strict, Cop
                          band.GetRasterDataType(), 0, 0, &extra) == CE_None ||
            reportStop(name);
   }
-  DoubleRows rows(
-      band, {reinterpret_cast<float*>(copy.samples.data()), copy.samples.size() / sizeof(float)});
-  if (!rows.read(progress)) return reportStop(name);
-  copy.heights.has_nodata = rows.nodata().has_value();
-  copy.heights.nodata = rows.nodata().value_or(0);
-  copy.rounding = rows.rounding();
+  NarrowedBand doubles(band);
+  const std::span<float> floats(reinterpret_cast<float*>(copy.samples.data()),
+                                copy.samples.size() / sizeof(float));
+  if (!readDoubles(doubles, copy.heights.width, copy.heights.height, floats, progress))
+    return reportStop(name);
+  return takeNarrowed(name, doubles, strict, copy);
+}
+
+bool takeNarrowed(const std::string& name, const NarrowedBand& doubles, bool strict,
+                  CopiedHeights& copy) {
+  copy.heights.has_nodata = doubles.nodata().has_value();
+  copy.heights.nodata = doubles.nodata().value_or(0);
+  copy.rounding = doubles.rounding();
   if (copy.rounding == 0) return true;
   if (strict) {
     reportFailure(TKS_USAGE, name,
@@ -138,6 +93,21 @@ bool readSamples(const std::string& name, GDALRasterBand& band, bool strict, Cop
            "%s: Float64 samples are rounded to Float32, by up to %.2g.", name.c_str(),
            copy.rounding);
   return true;
+}
+
+std::optional<double> boundOf(const std::string& name, const CopiedHeights* heights,
+                              double max_z_error) {
+  if (max_z_error == 0 || heights == nullptr) return 0;
+  const double left = max_z_error - heights->rounding;
+  if (!(left > 0)) {
+    reportFailure(TKS_USAGE, name,
+                  CPLSPrintf("The samples are Float64, and Float32 holds them within %.2g only, "
+                             "which MAX_Z_ERROR=%.12g does not allow.",
+                             heights->rounding, max_z_error));
+    return std::nullopt;
+  }
+  // GDAL counts in samples.
+  return left * std::abs(heights->heights.scale);
 }
 
 }  // namespace tetrakis::gdal

@@ -17,12 +17,11 @@ namespace tetrakis::gdal {
 namespace {
 
 template <class Visitor>
-auto visit(CopiedHeights& copy, const Visitor& visitor) {
+auto visit(tks_sample type, std::span<std::byte> samples, const Visitor& visitor) {
   const auto as = [&]<class T>(T) {
-    return visitor(
-        std::span(reinterpret_cast<T*>(copy.samples.data()), copy.samples.size() / sizeof(T)));
+    return visitor(std::span(reinterpret_cast<T*>(samples.data()), samples.size() / sizeof(T)));
   };
-  switch (copy.heights.sample) {
+  switch (type) {
     case TKS_U8:
       return as(uint8_t{});
     case TKS_I8:
@@ -41,23 +40,27 @@ auto visit(CopiedHeights& copy, const Visitor& visitor) {
   return as(float{});
 }
 
-/// The outermost value that no valid sample has, of the 65536 at the end of the type's range where
-/// heights are least likely.
+/// Of floats NaN. The outermost value that no valid sample has, of the 65536 at the end of the
+/// type's range where heights are least likely.
 template <class T>
 std::optional<double> freeValue(std::span<T> samples, const std::vector<GByte>& mask) {
   using Limits = std::numeric_limits<T>;
-  const auto rank = [](T value) {
-    return std::is_signed_v<T> ? static_cast<uint64_t>(int64_t{value} - int64_t{Limits::min()})
-                               : static_cast<uint64_t>(Limits::max() - value);
-  };
-  const uint64_t range = rank(std::is_signed_v<T> ? Limits::max() : Limits::min()) + 1;
-  std::vector<bool> taken(std::min<uint64_t>(range, 65536));
-  for (size_t i = 0; i < samples.size(); ++i)
-    if (mask[i] != 0 && rank(samples[i]) < taken.size()) taken[rank(samples[i])] = true;
-  const auto found = std::find(taken.begin(), taken.end(), false);
-  if (found == taken.end()) return std::nullopt;
-  const auto free = static_cast<double>(found - taken.begin());
-  return std::is_signed_v<T> ? double{Limits::min()} + free : double{Limits::max()} - free;
+  if constexpr (!std::is_integral_v<T>) {
+    return Limits::quiet_NaN();
+  } else {
+    const auto rank = [](T value) {
+      return std::is_signed_v<T> ? static_cast<uint64_t>(int64_t{value} - int64_t{Limits::min()})
+                                 : static_cast<uint64_t>(Limits::max() - value);
+    };
+    const uint64_t range = rank(std::is_signed_v<T> ? Limits::max() : Limits::min()) + 1;
+    std::vector<bool> taken(std::min<uint64_t>(range, 65536));
+    for (size_t i = 0; i < samples.size(); ++i)
+      if (mask[i] != 0 && rank(samples[i]) < taken.size()) taken[rank(samples[i])] = true;
+    const auto found = std::find(taken.begin(), taken.end(), false);
+    if (found == taken.end()) return std::nullopt;
+    const auto free = static_cast<double>(found - taken.begin());
+    return std::is_signed_v<T> ? double{Limits::min()} + free : double{Limits::max()} - free;
+  }
 }
 
 template <class T>
@@ -95,21 +98,39 @@ bool hasMask(GDALRasterBand& band) {
   return (band.GetMaskFlags() & (GMF_ALL_VALID | GMF_NODATA)) == 0;
 }
 
+bool canHaveNodata(const tks_heights& heights) {
+  return heights.has_nodata &&
+         visit(heights.sample, {}, [&]<class T>(std::span<T>) { return holds<T>(heights.nodata); });
+}
+
+void hide(tks_sample type, std::span<std::byte> samples, std::span<const GByte> mask,
+          double value) {
+  visit(type, samples, [&]<class T>(std::span<T> values) {
+    for (size_t i = 0; i < values.size(); ++i)
+      if (mask[i] == 0) values[i] = static_cast<T>(value);
+  });
+}
+
+void settleNodata(std::span<float> samples, double nodata) {
+  const auto value = static_cast<float>(nodata);
+  for (float& sample : samples)
+    if (!std::isnan(sample) && meetsNodata(sample, value)) sample = value;
+}
+
 void takeNodata(const std::string& name, GDALRasterBand& band, CopiedHeights& copy) {
   const std::optional<double> nodata = nodataOf(band);
   if (!nodata) return;
   tks_heights& heights = copy.heights;
   if (heights.sample != TKS_F32) {
+    heights.has_nodata = 1;
     heights.nodata = *nodata;
-    const bool can = visit(copy, [&]<class T>(std::span<T>) { return holds<T>(*nodata); });
-    if (!can)
+    if (!canHaveNodata(heights))
       warn(name, "No sample of its type can have the nodata value " + textOf(*nodata) +
                      ", which makes nothing void");
   } else if (!heights.has_nodata) {
     const float value = floatNodata(*nodata);
     heights.nodata = value;
-    for (float& sample : floatsOf(copy))
-      if (!std::isnan(sample) && meetsNodata(sample, value)) sample = value;
+    settleNodata(floatsOf(copy), value);
   }
   heights.has_nodata = 1;
   if (band.GetRasterDataType() == GDT_Float64 && !meetsNodata(*nodata, heights.nodata))
@@ -126,26 +147,23 @@ bool applyMask(const std::string& name, GDALRasterBand& band, CopiedHeights& cop
     return false;
   if (std::find(mask.begin(), mask.end(), 0) == mask.end()) return true;
   tks_heights& heights = copy.heights;
-  const bool applied = visit(copy, [&]<class T>(std::span<T> samples) {
-    std::optional<double> value;
-    if (heights.has_nodata && holds<T>(heights.nodata)) value = heights.nodata;
-    if constexpr (std::is_integral_v<T>) {
-      if (!value) value = freeValue(samples, mask);
-    } else if (!value) {
-      value = std::numeric_limits<double>::quiet_NaN();
-    }
-    if (!value) return false;
-    for (size_t i = 0; i < samples.size(); ++i)
-      if (mask[i] == 0) samples[i] = static_cast<T>(*value);
-    heights.has_nodata = 1;
-    heights.nodata = *value;
-    return true;
-  });
-  if (!applied)
+  std::optional<double> value;
+  if (canHaveNodata(heights)) {
+    value = heights.nodata;
+  } else {
+    value = visit(heights.sample, copy.samples,
+                  [&]<class T>(std::span<T> samples) { return freeValue(samples, mask); });
+  }
+  if (!value) {
     reportFailure(TKS_USAGE, name,
                   "The mask needs a nodata value, and the samples take all of "
                   "them; convert them to a wider type.");
-  return applied;
+    return false;
+  }
+  hide(heights.sample, copy.samples, mask, *value);
+  heights.has_nodata = 1;
+  heights.nodata = *value;
+  return true;
 }
 
 void takeFill(const std::string& name, bool strict, CopiedHeights& copy) {
@@ -165,6 +183,27 @@ void takeFill(const std::string& name, bool strict, CopiedHeights& copy) {
   heights.nodata = found.value;
   warn(name, count + " samples are " + value +
                  ", far from all others: declared as nodata (not by a strict copy)");
+}
+
+std::optional<double> fillIn(const tks_heights& part) {
+  tks_outliers found{sizeof found, 0, 0, 0};
+  if (part.has_nodata || tks_find_outliers(&part, &found) != TKS_OK || !found.is_fill)
+    return std::nullopt;
+  return found.value;
+}
+
+void declareFill(const std::string& name, bool strict, double fill, CopiedHeights& copy) {
+  const bool floats = copy.heights.sample == TKS_F32;
+  const std::string value = floats ? textOf(static_cast<float>(fill)) : textOf(fill);
+  if (strict) {
+    warn(name, "Samples are " + value + ", far from all others: if void, declare them" +
+                   " (gdal_translate -a_nodata " + value + ")");
+    return;
+  }
+  copy.heights.has_nodata = 1;
+  copy.heights.nodata = fill;
+  warn(name,
+       "Samples are " + value + ", far from all others: declared as nodata (not by a strict copy)");
 }
 
 }  // namespace tetrakis::gdal

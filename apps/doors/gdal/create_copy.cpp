@@ -13,9 +13,11 @@
 
 #include <gdal_pam.h>
 #include "apps/doors/gdal/copied_raster.hpp"
+#include "apps/doors/gdal/copied_samples.hpp"
 #include "apps/doors/gdal/cube.hpp"
 #include "apps/doors/gdal/dataset.hpp"
 #include "apps/doors/gdal/ground_positions.hpp"
+#include "apps/doors/gdal/mosaic_copy.hpp"
 #include "apps/doors/gdal/output_file.hpp"
 
 namespace tetrakis::gdal {
@@ -53,10 +55,10 @@ struct Parts {
 
   const tks_heights* heightsOrNull() const { return heights ? &heights->heights : nullptr; }
   const tks_image* textureOrNull() const { return texture ? &texture->image : nullptr; }
-  /// Of the heights before they came here, in samples.
-  double rounding() const { return heights ? heights->rounding : 0; }
-  /// Of the unit of the heights, which the library counts errors in; GDAL counts in samples.
-  double scale() const { return heights ? std::abs(heights->heights.scale) : 1; }
+  /// Of the heights before they came here, in their unit.
+  double rounding() const {
+    return heights ? heights->rounding * std::abs(heights->heights.scale) : 0;
+  }
 };
 
 /// Whether a plane lies in several regions (docs/FORMAT.md, section 5.1). `most`: samples of those
@@ -81,31 +83,10 @@ tks_index indexOf(const Parts& parts, const CopySettings& settings) {
   return options.lossless && options.regions != 1 && !whole ? TKS_INDEX_WINDOWS : TKS_INDEX_NONE;
 }
 
-/// Longitudes and latitudes for web pages, unless they take more than a 64th of the stream, or of a
-/// byte a sample where nothing says how long that is to be.
+/// Longitudes and latitudes for web pages.
 void addPlaces(const std::string& name, Parts& parts, const tks_encode_options& options) {
-  constexpr uint64_t kShare = 64;
-  const tks_heights* const heights = parts.heightsOrNull();
-  const tks_image* const image = parts.textureOrNull();
-  const uint64_t samples = (heights ? uint64_t{heights->width} * heights->height : 0) +
-                           (image ? uint64_t{image->width} * image->height : 0);
-  const uint64_t expected = options.bytes > 0 ? options.bytes : samples;
-  addPositions(name, parts.heights.get(), parts.texture.get(), expected / kShare);
-}
-
-/// What rounding leaves of a largest error, in samples, to the stream, in the unit of the heights.
-/// Nothing after a reported error.
-std::optional<double> boundOf(const std::string& name, const Parts& parts, double max_z_error) {
-  if (max_z_error == 0) return 0;
-  const double left = max_z_error - parts.rounding();
-  if (!(left > 0)) {
-    reportFailure(TKS_USAGE, name,
-                  CPLSPrintf("The samples are Float64, and Float32 holds them within %.2g only, "
-                             "which MAX_Z_ERROR=%.12g does not allow.",
-                             parts.rounding(), max_z_error));
-    return std::nullopt;
-  }
-  return left * parts.scale();
+  const uint64_t most = positionBytes(parts.heightsOrNull(), parts.textureOrNull(), options);
+  addPositions(name, parts.heights.get(), parts.texture.get(), most);
 }
 
 /// With the level that was asked for. Nothing after a reported error.
@@ -175,7 +156,7 @@ bool resampled(const std::string& name, GDALDataset& source, const CopySettings&
 bool encode(const std::string& name, const Parts& parts, CopySettings settings, Watch watch,
             Stream& out) {
   tks_encode_options& options = settings.encode;
-  const std::optional<double> bound = boundOf(name, parts, settings.max_z_error);
+  const std::optional<double> bound = boundOf(name, parts.heights.get(), settings.max_z_error);
   if (!bound) return false;
   options.max_error = *bound;
   options.index = indexOf(parts, settings);
@@ -236,8 +217,16 @@ GDALDataset* openPassedOn(const Stream& stream) {
   return copy;
 }
 
-GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
-                    const CopySettings& settings, const Progress& progress) {
+/// False, and no file, if the user stops.
+bool reportEnd(const std::string& name, const Progress& progress) {
+  if (ProgressPart(progress, 0, 1).report(1)) return true;
+  discard(name);
+  CPLError(CE_Failure, CPLE_UserInterrupt, "%s: Stopped by the user.", name.c_str());
+  return false;
+}
+
+GDALDataset* copyInMemory(const std::string& name, GDALDataset& source, bool strict,
+                          const CopySettings& settings, const Progress& progress) {
   Stream stream;
   double rounding = 0;
   {
@@ -247,15 +236,26 @@ GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
     if (!parts || !resampled(name, source, settings, *parts) ||
         !encode(name, *parts, settings, {{progress, kReadShare, 1}}, stream))
       return nullptr;
-    rounding = parts->rounding() * parts->scale();
+    rounding = parts->rounding();
   }
-  if (!writeFile(name, stream.bytes())) return nullptr;
-  if (!ProgressPart(progress, 0, 1).report(1)) {
-    discard(name);
-    CPLError(CE_Failure, CPLE_UserInterrupt, "%s: Stopped by the user.", name.c_str());
+  if (!writeFile(name, stream.bytes()) || !reportEnd(name, progress)) return nullptr;
+  return isFile(name) ? openCopy(name, source, rounding) : openPassedOn(stream);
+}
+
+GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
+                    const CopySettings& settings, const Progress& progress) {
+  if (!wantsMosaic(source, settings)) return copyInMemory(name, source, strict, settings, progress);
+  const MosaicCopy mosaic = writeMosaic(name, source, strict, settings, progress);
+  if (mosaic.written)
+    return reportEnd(name, progress) ? openCopy(name, source, mosaic.rounding) : nullptr;
+  if (mosaic.why_not.empty()) return nullptr;
+  if (settings.tiles) {
+    reportFailure(TKS_USAGE, name, "TILES does not go with the rest: " + mosaic.why_not);
     return nullptr;
   }
-  return isFile(name) ? openCopy(name, source, rounding) : openPassedOn(stream);
+  CPLError(CE_Warning, CPLE_AppDefined, "%s: All heights are held in memory: %s", name.c_str(),
+           mosaic.why_not.c_str());
+  return copyInMemory(name, source, strict, settings, progress);
 }
 
 }  // namespace

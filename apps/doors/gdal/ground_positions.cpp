@@ -98,4 +98,12 @@ void addPositions(const std::string& name, CopiedHeights* heights, CopiedTexture
         name.c_str(), TKS_MOST_POSITION_BYTES);
 }
 
+uint64_t positionBytes(const tks_heights* heights, const tks_image* texture,
+                       const tks_encode_options& options) {
+  constexpr uint64_t kShare = 64;
+  const uint64_t samples = (heights ? uint64_t{heights->width} * heights->height : 0) +
+                           (texture ? uint64_t{texture->width} * texture->height : 0);
+  return (options.bytes > 0 ? options.bytes : samples) / kShare;
+}
+
 }  // namespace tetrakis::gdal

@@ -8,6 +8,7 @@
 #include <string>
 
 #include <gdal_priv.h>
+#include "tetrakis/tetrakis.h"
 
 namespace tetrakis::gdal {
 
@@ -34,5 +35,10 @@ class WebGround {
 /// them; either may be null. A warning about `name` tells which cannot be fitted.
 void addPositions(const std::string& name, CopiedHeights* heights, CopiedTexture* texture,
                   uint64_t most_bytes);
+
+/// What they may take: a 64th of the stream, or of a byte a sample where nothing says how long that
+/// is to be. Either may be null.
+uint64_t positionBytes(const tks_heights* heights, const tks_image* texture,
+                       const tks_encode_options& options);
 
 }  // namespace tetrakis::gdal

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/doors/gdal/output_file.hpp"
 
+#include <utility>
+
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
@@ -10,30 +12,33 @@
 namespace tetrakis::gdal {
 namespace {
 
-/// Other file systems of GDAL show a file when it is closed, or pass on what is written.
-bool canBeRenamed(const std::string& name) {
-  return !STARTS_WITH(name.c_str(), "/vsi") || STARTS_WITH(name.c_str(), "/vsimem/");
-}
-
 /// A device, a pipe or a folder.
 bool isNoFile(const std::string& name) {
   VSIStatBufL stat;
   return VSIStatL(name.c_str(), &stat) == 0 && !VSI_ISREG(stat.st_mode);
 }
 
-bool writeTo(const std::string& file, const std::string& name, std::span<const uint8_t> bytes) {
+VSILFILE* openToWrite(const std::string& file, const std::string& name) {
   VSILFILE* const out = VSIFOpenExL(file.c_str(), "wb", TRUE);
-  if (out == nullptr) {
-    const std::string why = VSIGetLastErrorMsg();
-    reportFailure(TKS_IO, name,
-                  "The file cannot be written" + (why.empty() ? "." : " (" + why + ")."));
-    return false;
-  }
-  const bool written = VSIFWriteL(bytes.data(), 1, bytes.size(), out) == bytes.size();
-  if (VSIFCloseL(out) == 0 && written) return true;
-  discard(file);
+  if (out != nullptr) return out;
+  const std::string why = VSIGetLastErrorMsg();
+  reportFailure(TKS_IO, name,
+                "The file cannot be written" + (why.empty() ? "." : " (" + why + ")."));
+  return nullptr;
+}
+
+bool failToWrite(const std::string& name) {
   reportFailure(TKS_IO, name, "The file cannot be written whole: is the disk full?");
   return false;
+}
+
+bool writeDirectly(const std::string& name, std::span<const uint8_t> bytes) {
+  VSILFILE* const out = openToWrite(name, name);
+  if (out == nullptr) return false;
+  const bool written = VSIFWriteL(bytes.data(), 1, bytes.size(), out) == bytes.size();
+  if (VSIFCloseL(out) == 0 && written) return true;
+  discard(name);
+  return failToWrite(name);
 }
 
 }  // namespace
@@ -45,6 +50,10 @@ std::string temporaryNameFor(const std::string& name) {
   return CPLFormFilename(folder.c_str(), CPLGetFilename(unique.c_str()), nullptr);
 }
 
+bool canBeRenamed(const std::string& name) {
+  return !STARTS_WITH(name.c_str(), "/vsi") || STARTS_WITH(name.c_str(), "/vsimem/");
+}
+
 bool isFile(const std::string& name) {
   VSIStatBufL stat;
   return VSIStatL(name.c_str(), &stat) == 0 && VSI_ISREG(stat.st_mode);
@@ -54,14 +63,40 @@ void discard(const std::string& name) {
   if (isFile(name)) VSIUnlink(name.c_str());
 }
 
-bool writeFile(const std::string& name, std::span<const uint8_t> bytes) {
-  if (!canBeRenamed(name) || isNoFile(name)) return writeTo(name, name, bytes);
-  const std::string staged = temporaryNameFor(name);
-  if (!writeTo(staged, name, bytes)) return false;
-  if (VSIRename(staged.c_str(), name.c_str()) == 0) return true;
-  VSIUnlink(staged.c_str());
-  reportFailure(TKS_IO, name, "The file cannot be written: it cannot be given its name.");
+StagedFile::StagedFile(std::string name)
+    : name_(std::move(name)), staged_(temporaryNameFor(name_)) {}
+
+StagedFile::~StagedFile() {
+  if (file_ == nullptr) return;
+  VSIFCloseL(file_);
+  VSIUnlink(staged_.c_str());
+}
+
+bool StagedFile::open() {
+  file_ = openToWrite(staged_, name_);
+  return file_ != nullptr;
+}
+
+bool StagedFile::write(uint64_t offset, std::span<const uint8_t> bytes) {
+  if (VSIFSeekL(file_, offset, SEEK_SET) == 0 &&
+      VSIFWriteL(bytes.data(), 1, bytes.size(), file_) == bytes.size())
+    return true;
+  return failToWrite(name_);
+}
+
+bool StagedFile::finish() {
+  const bool closed = VSIFCloseL(std::exchange(file_, nullptr)) == 0;
+  if (closed && VSIRename(staged_.c_str(), name_.c_str()) == 0) return true;
+  VSIUnlink(staged_.c_str());
+  if (!closed) return failToWrite(name_);
+  reportFailure(TKS_IO, name_, "The file cannot be written: it cannot be given its name.");
   return false;
+}
+
+bool writeFile(const std::string& name, std::span<const uint8_t> bytes) {
+  if (!canBeRenamed(name) || isNoFile(name)) return writeDirectly(name, bytes);
+  StagedFile file(name);
+  return file.open() && file.write(0, bytes) && file.finish();
 }
 
 }  // namespace tetrakis::gdal

@@ -36,6 +36,9 @@ const char* const kCreationOptions =
     "white; found if not given'/>"
     "<Option name='BLOCKSIZE' type='string' description='Side of the regions that can be read by "
     "themselves: a power of two from 16 to 1048576, or NONE; chosen if not given'/>"
+    "<Option name='TILES' type='string' default='AUTO' description='Heights are read, coded and "
+    "written tile by tile, in the memory of one: the side of the tiles, a power of two from 16 to "
+    "16384, or NONE; AUTO: where they would take more than a quarter of the memory'/>"
     "<Option name='INDEX' type='string-select' description='Write the byte ranges of all packets "
     "into the header; WINDOWS, for lossless files and MAX_Z_ERROR: also lay each region out in one "
     "piece, for windows; regions are of 256, unless BLOCKSIZE is given. Default: WINDOWS for "
@@ -151,17 +154,29 @@ class Options {
 
 constexpr uint32_t kNoRegions = 1;  ///< of tks_encode_options
 
+/// A power of two from 16 to `most`; 0 after a refusal.
+uint32_t sideGiven(Options& options, const char* key, uint32_t most) {
+  const uint64_t side = options.count(key, "side");
+  if (side >= 16 && side <= most && (side & (side - 1)) == 0) return static_cast<uint32_t>(side);
+  options.refuse(std::string(key) + "=" + options.text(key) + " is neither a power of two from 16" +
+                 " to " + std::to_string(most) + " nor NONE.");
+  return 0;
+}
+
 /// What BLOCKSIZE says of regions.
 uint32_t regions(Options& options) {
   const char* const given = options.text("BLOCKSIZE");
   if (given == nullptr) return 0;
   if (EQUAL(given, "NONE")) return kNoRegions;
-  const uint64_t side = options.count("BLOCKSIZE", "side of blocks");
-  if (side >= 16 && side <= uint64_t{1} << 20 && (side & (side - 1)) == 0)
-    return static_cast<uint32_t>(side);
-  options.refuse(std::string("BLOCKSIZE=") + given +
-                 " is neither a power of two from 16 to 1048576 nor NONE.");
-  return 0;
+  return sideGiven(options, "BLOCKSIZE", 1 << 20);
+}
+
+/// Nothing if it is to be chosen, or after a refusal.
+std::optional<uint32_t> tilesGiven(Options& options) {
+  const char* const given = options.text("TILES");
+  if (given == nullptr || EQUAL(given, "AUTO")) return std::nullopt;
+  if (EQUAL(given, "NONE")) return 0;
+  return sideGiven(options, "TILES", 1 << 14);
 }
 
 /// Nothing if none is given, or after a refusal.
@@ -257,6 +272,7 @@ std::optional<CopySettings> copySettings(const std::string& name, CSLConstList o
   encode.size = sizeof encode;
   takeTarget(given, settings);
   encode.regions = regions(given);
+  settings.tiles = tilesGiven(given);
   settings.index = indexKind(given);
   if (settings.index == TKS_INDEX_WINDOWS && encode.regions == kNoRegions)
     given.refuse("INDEX=WINDOWS lays out regions, and BLOCKSIZE=NONE says that there are none.");

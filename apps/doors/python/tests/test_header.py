@@ -12,13 +12,17 @@ from conftest import REPOSITORY
 import tetrakis
 from tetrakis import _errors, _values
 from tetrakis import _library as c
+from tetrakis import _mosaic_library as m
 
-HEADER = REPOSITORY / "include" / "tetrakis" / "tetrakis.h"
+HEADERS = [REPOSITORY / "include" / "tetrakis" / name for name in ("tetrakis.h", "mosaic.h")]
+STRUCTS = {**c.STRUCTS, **m.STRUCTS}
+PROTOTYPES = {**c.PROTOTYPES, **m.PROTOTYPES}
 
 
 @pytest.fixture(scope="module")
 def header():
-    return re.sub(r"/\*.*?\*/", "", HEADER.read_text(), flags=re.S)
+    text = "".join(header.read_text() for header in HEADERS)
+    return re.sub(r"/\*.*?\*/", "", text, flags=re.S)
 
 
 def fields_of(header):
@@ -34,10 +38,10 @@ def compiled(folder, lines):
     source, program = folder / "probe.c", folder / "probe"
     body = "\n".join(lines)
     source.write_text(
-        "#include <stdio.h>\n#include <tetrakis/tetrakis.h>\n"
+        "#include <stdio.h>\n#include <tetrakis/mosaic.h>\n"
         f"int main(void) {{\n{body}\nreturn 0; }}\n"
     )
-    include = HEADER.parents[1]
+    include = HEADERS[0].parents[1]
     subprocess.run(["cc", "-std=c99", "-I", include, source, "-o", program], check=True)
     printed = subprocess.run([program], check=True, capture_output=True, text=True).stdout
     return [tuple(line.split()) for line in printed.splitlines()]
@@ -71,7 +75,7 @@ def layout(header, tmp_path_factory):
 
 
 def test_structs_lie_as_in_c(layout):
-    assert layout_of(c.STRUCTS) == layout
+    assert layout_of(STRUCTS) == layout
 
 
 def test_a_wrong_struct_is_noticed(layout):
@@ -81,8 +85,8 @@ def test_a_wrong_struct_is_noticed(layout):
     class Short(ctypes.Structure):
         _fields_ = c.StreamInfo._fields_[:-1]
 
-    assert layout_of({**c.STRUCTS, "tks_heights": Swapped}) != layout
-    assert layout_of({**c.STRUCTS, "tks_info": Short}) != layout
+    assert layout_of({**STRUCTS, "tks_heights": Swapped}) != layout
+    assert layout_of({**STRUCTS, "tks_info": Short}) != layout
 
 
 def test_numbers_are_those_of_c(header, tmp_path):
@@ -108,8 +112,8 @@ def test_functions_take_as_many_arguments(header):
     declared = {}
     for name, arguments in re.findall(r"\b(tks_\w+)\(([^()]*)\);", header):
         declared[name] = 0 if arguments == "void" else arguments.count(",") + 1
-    assert {name: len(taken) for name, (_, taken) in c.PROTOTYPES.items()} == {
-        name: declared.get(name) for name in c.PROTOTYPES
+    assert {name: len(taken) for name, (_, taken) in PROTOTYPES.items()} == {
+        name: declared.get(name) for name in PROTOTYPES
     }
 
 

@@ -11,14 +11,18 @@ Surfaces of scans and other triangle meshes likewise:
     stream = tetrakis.encode_object(points, triangles, bytes=20000)
     with tetrakis.open(stream) as thing:
         points, triangles, *_ = thing.object(triangles=5000)
+
+Terrain that no machine holds, by windows of its source: `tetrakis.mosaic`.
 """
 
+from . import mosaic
 from ._encode import encode
 from ._encode_object import EncodedObject, ObjectReport, encode_object
 from ._errors import (
     Status,
     TksCorruptError,
     TksError,
+    TksIOError,
     TksLimitError,
     TksMemoryError,
     TksMismatchError,
@@ -46,6 +50,7 @@ __all__ = [
     "Stream",
     "TksCorruptError",
     "TksError",
+    "TksIOError",
     "TksLimitError",
     "TksMemoryError",
     "TksMismatchError",
@@ -57,6 +62,7 @@ __all__ = [
     "encode_object",
     "from_rasterio",
     "from_xarray",
+    "mosaic",
     "open",
     "tks_check",
     "tks_decode",

@@ -81,15 +81,25 @@ def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
     data = values.exact(array, "Heights")
     if data.ndim != 2:
         raise TksUsageError(f"Heights are (rows, columns), not an array of shape {data.shape}.")
+    struct = described_heights(data.shape, data.dtype, nodata, place)
+    struct.data = data.ctypes.data
+    if searched:
+        _declare_fill(struct)
+    return struct, data
+
+
+def described_heights(
+    shape: Tuple[int, ...], dtype: np.dtype, nodata: Optional[float], place: dict
+) -> c.Heights:
+    """The struct of heights, but for their samples."""
     spacing_x, spacing_y = values.spacing(place["spacing"])
     transform, has_transform = values.geotransform(place["geotransform"], "geotransform")
     first_latitude, last_latitude = values.latitudes(place["latitudes"])
-    struct = c.Heights(
+    return c.Heights(
         size=ctypes.sizeof(c.Heights),
-        width=values.unsigned(data.shape[1], "The width"),
-        height=values.unsigned(data.shape[0], "The height"),
-        sample=values.SAMPLES.index(data.dtype),
-        data=data.ctypes.data,
+        width=values.unsigned(shape[1], "The width"),
+        height=values.unsigned(shape[0], "The height"),
+        sample=values.SAMPLES.index(dtype),
         scale=values.real(place["scale"], "scale"),
         offset=values.real(place["offset"], "offset"),
         step=values.real(0 if place["step"] is None else place["step"], "step"),
@@ -109,9 +119,6 @@ def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
         first_latitude=first_latitude,
         last_latitude=last_latitude,
     )
-    if searched:
-        _declare_fill(struct)
-    return struct, data
 
 
 def _declare_fill(heights: c.Heights) -> None:
@@ -157,7 +164,7 @@ def image_struct(array: Any, place: dict) -> Tuple[c.Image, NDArray[Any]]:
     ), data
 
 
-def set_target(options: c.EncodeOptions, target: dict) -> None:
+def set_target(options: Any, target: dict) -> None:
     """Exactly one target; lossless where none is named."""
     named = [name for name, value in target.items() if value is not None and value is not False]
     if len(named) > 1:

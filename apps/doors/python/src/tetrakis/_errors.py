@@ -33,6 +33,12 @@ class TksUsageError(TksError, ValueError):
     code = Status.USAGE
 
 
+class TksIOError(TksError, OSError):
+    """Samples or files cannot be read or written."""
+
+    code = Status.IO
+
+
 class TksCorruptError(TksError):
     """The bytes are not a Tetrakis stream, or break its syntax."""
 
@@ -71,6 +77,7 @@ _CLASSES: dict[Status, Type[TksError]] = {
     kind.code: kind
     for kind in (
         TksUsageError,
+        TksIOError,
         TksCorruptError,
         TksTruncatedError,
         TksUnsupportedError,

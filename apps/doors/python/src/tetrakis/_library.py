@@ -607,14 +607,19 @@ PROTOTYPES = {
 }
 
 
+def declare(library: ctypes.CDLL, prototypes: dict) -> None:
+    """Says what the functions of the library take and return."""
+    for name, (result, arguments) in prototypes.items():
+        function = getattr(library, name)
+        function.restype = result
+        function.argtypes = arguments
+
+
 def _load() -> ctypes.CDLL:
     """The library inside the wheel; packages of a distribution have the system's instead."""
     inside = Path(__file__).with_name("libtetrakis.so")
     library = ctypes.CDLL(str(inside) if inside.exists() else "libtetrakis.so.0")
-    for name, (result, arguments) in PROTOTYPES.items():
-        function = getattr(library, name)
-        function.restype = result
-        function.argtypes = arguments
+    declare(library, PROTOTYPES)
     return library
 
 

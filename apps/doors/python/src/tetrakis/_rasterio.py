@@ -135,13 +135,19 @@ def _opened(raster: Any) -> Iterator[Any]:
 
 
 def _heights_of(dataset: Any, band: int) -> Tuple[NDArray[Any], dict[str, Any]]:
+    said, hidden = heights_facts(dataset, band)
+    return dataset.read(band, masked=hidden), said
+
+
+def heights_facts(dataset: Any, band: int) -> Tuple[dict[str, Any], bool]:
+    """What a raster says of its heights as options of `encode`, and whether a mask that is more
+    than the nodata value hides some of them."""
     if not 1 <= values.unsigned(band, "band") <= dataset.count:
         raise TksUsageError(f"The raster has bands 1 to {dataset.count}, not {band}.")
     nodata, dtype = dataset.nodatavals[band - 1], np.dtype(dataset.dtypes[band - 1])
     # A nodata value that the stream's type cannot hold, and masks of other kinds, hide samples.
     declared = nodata is not None and _holds(dtype, nodata)
     hidden = not declared and "all_valid" not in _flags(dataset, band)
-    samples = dataset.read(band, masked=hidden)
     said = dict(
         nodata=nodata if declared else None,
         unit=dataset.units[band - 1] or None,
@@ -151,7 +157,7 @@ def _heights_of(dataset: Any, band: int) -> Tuple[NDArray[Any], dict[str, Any]]:
         spacing=_spacing(dataset),
         **_place(dataset),
     )
-    return samples, said
+    return said, hidden
 
 
 def _flags(dataset: Any, band: int) -> set[str]:

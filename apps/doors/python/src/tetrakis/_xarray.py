@@ -31,9 +31,9 @@ def from_xarray(heights: Any = None, texture: Any = None, **options: Any) -> bui
     """
     samples = texels = None
     if heights is not None:
-        heights = _layer(heights)
+        heights = layer(heights)
         samples = heights.values
-        options = {**_described(heights), **_place(heights, heights.dims), **options}
+        options = {**heights_facts(heights), **options}
     if texture is not None:
         axes = _texture_axes(texture)
         texels = texture.transpose(*axes).values
@@ -42,7 +42,13 @@ def from_xarray(heights: Any = None, texture: Any = None, **options: Any) -> bui
     return encode(samples, texels, **options)
 
 
-def _layer(array: Any) -> Any:
+def heights_facts(array: Any) -> dict[str, Any]:
+    """What a layer says of its heights as options of `encode`."""
+    return {**_described(array), **_place(array, array.dims)}
+
+
+def layer(array: Any) -> Any:
+    """Without the axes of length 1 in front of (y, x)."""
     while array.ndim > 2 and array.shape[0] == 1:
         array = array[0]
     if array.ndim != 2:

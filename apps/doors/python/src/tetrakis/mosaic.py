@@ -1,0 +1,339 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Terrain that no machine holds becomes one stream, tile by tile.
+
+    tetrakis.mosaic.encode("country.vrt", "country.tks", lossless=True)
+
+The stream is one plane: there are no borders between tiles. Tasks code one tile each, and share a
+folder and nothing else, so that any number of workers on any machines may run them, and die at any
+time; a run that begins again in the same folder does what is missing. The bytes depend on the
+source and the options alone.
+"""
+
+from __future__ import annotations
+
+import builtins
+import ctypes
+import json
+import os
+from pathlib import Path
+from typing import Any, Dict, List, NamedTuple, Optional, Union
+
+from . import _library as c
+from . import _mosaic_engines as engines
+from . import _mosaic_library as m
+from . import _values as values
+from ._encode import described_heights, set_target
+from ._errors import Status, TksUsageError, error
+from ._stoppable import Progress
+from ._windows import Samples, WindowSource, source_of
+from ._work_folder import Guard, WorkFolder, appearing, folder_for, tiles_of
+
+__all__ = ["Mosaic", "Tile", "encode", "plan"]
+
+PathLike = Union[str, "os.PathLike[str]"]
+
+# Shares of the progress of `encode`: of the plan, and of all but the merge.
+_PLANNED, _CODED = 0.1, 0.97
+
+# What `tetrakis.encode` takes of heights, and its defaults. A mosaic is a plane.
+_PLACE: Dict[str, Any] = dict(
+    nodata=None,
+    unit=None,
+    spacing=None,
+    scale=1.0,
+    offset=0.0,
+    step=None,
+    crs=None,
+    geotransform=None,
+    registration=None,
+    vertical_datum=None,
+    description=None,
+    geo_keys=None,
+)
+_PLANE = dict(domain="plane", latitudes=None)
+
+
+class Tile(NamedTuple):
+    """What one task codes: a column and row of a group of levels. Group 0 reads the source; each
+    further group, with a 64th of the tiles or less, what the one before has left."""
+
+    group: int
+    column: int
+    row: int
+
+
+class Mosaic:
+    """A plan, the folder that its tasks share, and the source. It can be pickled."""
+
+    def __init__(
+        self, folder: Path, plan: builtins.bytes, samples: Samples, place: Dict[str, Any]
+    ) -> None:
+        self._folder, self._plan = folder, plan
+        self._samples, self._place = samples, place
+
+    @property
+    def tiles(self) -> List[Tile]:
+        """All tiles, each behind those that it needs."""
+        return _named(tiles_of(c.lib.tks_mosaic_tiles, self._plan, len(self._plan)))
+
+    @property
+    def groups(self) -> List[List[Tile]]:
+        """The tiles of each group. Those of one need only tiles of the group before."""
+        tiles = self.tiles
+        return [[t for t in tiles if t.group == g] for g in range(tiles[-1].group + 1)]
+
+    def needs(self, tile: Tile) -> List[Tile]:
+        """The tiles whose parts the task of a tile reads."""
+        given = self._plan, len(self._plan), m.MosaicTile(*tile)
+        return _named(tiles_of(c.lib.tks_mosaic_needs, *given))
+
+    def is_done(self, tile: Tile) -> bool:
+        """Whether the parts of a tile are in the folder, whole and of this plan."""
+        done, files = ctypes.c_int(), WorkFolder(self._folder, Guard())
+        given = self._plan, len(self._plan), m.MosaicTile(*tile)
+        status = c.lib.tks_mosaic_is_done(*given, files.struct, done)
+        if status != Status.OK:
+            raise error(status, "There is no such tile.")
+        return bool(done.value)
+
+    def code(self, tile: Tile, threads: int = 1) -> None:
+        """Runs the task of a tile. It takes about 16 bytes for each sample of the tile and of the
+        128 around it. Raises what the source raises; :class:`TksIOError` if parts that it needs
+        are missing."""
+        guard = Guard()
+        source = _source_struct(self._samples, self._place, guard)
+        files = WorkFolder(self._folder, guard)
+        count = values.unsigned(threads, "threads")
+        given = self._plan, len(self._plan), m.MosaicTile(*tile), source, files.struct, count
+        _run(guard, c.lib.tks_mosaic_code, *given)
+
+    def merge(self, out: PathLike, *, index: Union[bool, str] = False) -> None:
+        """Joins the parts of all tiles into a file, which appears when it is whole.
+
+        index: "windows" lays the stream out region by region, with an index, for windows over a
+            network: of mosaics that are lossless or within a largest error.
+        """
+        windows = values.choice(index, (False, "windows"), "index") == 1
+        kind = c.INDEXES.index("windows" if windows else False)
+        guard = Guard()
+        files = WorkFolder(self._folder, guard)
+        with appearing(Path(out)) as file:
+
+            def write(_user: Any, offset: int, data: int, size: int) -> int:
+                def at() -> None:
+                    file.seek(offset)
+                    file.write((ctypes.c_char * size).from_address(data))
+
+                return guard.run(at)
+
+            given = self._plan, len(self._plan), files.struct, kind, m.WRITE_AT(write), None
+            _run(guard, c.lib.tks_mosaic_merge, *given)
+
+    def name_of(self, tile: Tile) -> str:
+        """That of its parts, without their endings."""
+        return f"g{tile.group}-x{tile.column}-y{tile.row}"
+
+    def _for_others(self) -> "Mosaic":
+        """For other processes, which see the folder."""
+        source = self._samples.source.for_others(self._folder)
+        samples = Samples(source, self._place["nodata"])
+        return Mosaic(self._folder.absolute(), self._plan, samples, self._place)
+
+
+def plan(
+    source: Any,
+    *,
+    workdir: PathLike,
+    bytes: Optional[int] = None,
+    psnr: Optional[float] = None,
+    max_error: Optional[float] = None,
+    lossless: Optional[bool] = None,
+    regions: Optional[int] = None,
+    tile: Optional[int] = None,
+    band: int = 1,
+    progress: Optional[Progress] = None,
+    **place: Any,
+) -> Mosaic:
+    """Makes the plan of a mosaic in a folder, or takes the one that is there.
+
+    source: a path of a raster that osgeo or rasterio opens (`band` of it), or an array of any
+        library, (rows, columns), with a shape, a dtype, and slices: of NumPy (np.memmap too),
+        Dask, Zarr, xarray, h5py, netCDF4, or a class of your own. It is read window by window: once
+        for the plan, and once for the tiles. float64, int64 and uint64 are taken if float32 and
+        int32 hold every value exactly.
+    workdir: the folder that tasks share. A plan of the same options, shape, type and, of a raster,
+        files of the same size and time is taken; another one is an error. An array whose samples
+        have changed needs a new folder.
+    bytes, psnr, max_error, lossless: as for :func:`tetrakis.encode`; floats without a common step
+        cannot be lossless.
+    regions: side of the regions by which windows decode: a power of two from 16; 512. tile: side
+        of the tiles, likewise, from a region to 16384; 4096.
+    progress: called with a number from 0 to 1.
+    place: what the samples are, as for :func:`tetrakis.encode`: nodata (a number), unit, spacing,
+        scale, offset, step, crs, geotransform, registration, vertical_datum, description, geo_keys.
+        They replace what a raster or an array of xarray says itself.
+    """
+    folder = Path(workdir)
+    folder.mkdir(parents=True, exist_ok=True)
+    target = dict(bytes=bytes, psnr=psnr, max_error=max_error, lossless=lossless)
+    options = _options(target, regions, tile)
+    return _planned(source_of(source, band), folder, options, place, progress)
+
+
+def encode(
+    source: Any,
+    out: PathLike,
+    *,
+    bytes: Optional[int] = None,
+    psnr: Optional[float] = None,
+    max_error: Optional[float] = None,
+    lossless: Optional[bool] = None,
+    regions: Optional[int] = None,
+    tile: Optional[int] = None,
+    band: int = 1,
+    workdir: Optional[PathLike] = None,
+    client: Any = None,
+    workers: Optional[int] = None,
+    index: Union[bool, str] = False,
+    progress: Optional[Progress] = None,
+    **place: Any,
+) -> None:
+    """Codes heights that need not fit into memory, and writes them as the stream `out`.
+
+    source, bytes, psnr, max_error, lossless, regions, tile, band, place: as for :func:`plan`.
+    workdir: the folder that tasks share. It stays, and a further run goes on in it; remove it when
+        the stream is there. Without one there is a folder beside `out`, which is removed.
+    client: of dask.distributed. Workers have to see `workdir` (or the folder of `out`) and the
+        source; arrays in memory are written into the folder for them. Tasks that fail are tried
+        again three times.
+    workers: threads without a client; as many as there are cores, unless given. Each codes a tile,
+        and takes its memory.
+    index: as for :meth:`Mosaic.merge`.
+    progress: called with a number from 0 to 1, in the thread that called `encode`. What it raises
+        ends the run, as Ctrl-C does, once the tiles in work are done.
+
+    The bytes depend on the source and the options alone: not on the engine, nor on how many work.
+    """
+    threads = values.unsigned(workers, "workers", 16) or os.cpu_count() or 1
+    if client is not None and workers is not None:
+        raise TksUsageError("workers counts threads of this process: a cluster knows its own.")
+    target = dict(bytes=bytes, psnr=psnr, max_error=max_error, lossless=lossless)
+    options = _options(target, regions, tile)
+    report = progress or (lambda done: None)
+    path = Path(out)
+    with folder_for(workdir, path) as folder:
+        opened = source_of(source, band)
+        made = _planned(opened, folder, options, place, lambda done: report(_PLANNED * done))
+        tiles = made.tiles
+        missing = [each for each in tiles if not made.is_done(each)]
+
+        def told(done: int) -> None:
+            share = (len(tiles) - len(missing) + done) / len(tiles)
+            report(_PLANNED + (_CODED - _PLANNED) * share)
+
+        told(0)
+        if client is None:
+            engines.run_by_threads(made, missing, threads, told)
+        elif missing:
+            engines.run_by_dask(made._for_others(), missing, client, told)
+        made.merge(path, index=index)
+        report(1.0)
+
+
+def _named(tiles: List[m.MosaicTile]) -> List[Tile]:
+    return [Tile(tile.group, tile.column, tile.row) for tile in tiles]
+
+
+def _options(target: Dict[str, Any], regions: Any, tile: Any) -> m.MosaicOptions:
+    options = m.MosaicOptions(
+        size=ctypes.sizeof(m.MosaicOptions),
+        regions=values.unsigned(regions, "regions"),
+        tile=values.unsigned(tile, "tile"),
+    )
+    set_target(options, target)
+    return options
+
+
+def _planned(
+    source: WindowSource,
+    folder: Path,
+    options: m.MosaicOptions,
+    given: Dict[str, Any],
+    progress: Optional[Progress],
+) -> Mosaic:
+    unknown = set(given) - set(_PLACE)
+    if unknown:
+        raise TypeError(f"A mosaic takes no {', '.join(sorted(unknown))}.")
+    place = {**_PLACE, **source.said, **given, **_PLANE}
+    if place["nodata"] is not None:
+        place["nodata"] = values.real(place["nodata"], "nodata")
+    samples = Samples(source, place["nodata"])
+    asked = _asked(source, options, place)
+    if not _is_planned(folder, asked):
+        with appearing(folder / "plan") as file:
+            file.write(_new_plan(samples, options, place, progress))
+        with appearing(folder / "asked.json") as file:
+            file.write(asked.encode())
+    return Mosaic(folder, (folder / "plan").read_bytes(), samples, place)
+
+
+def _asked(source: WindowSource, options: m.MosaicOptions, place: Dict[str, Any]) -> str:
+    """All that a plan depends on, as far as it can be known without reading samples."""
+    wanted = {name: getattr(options, name) for name, _ in options._fields_}
+    facts = dict(shape=source.shape, type=source.dtype.str, files=source.fingerprint)
+    return json.dumps([facts, wanted, place], sort_keys=True, default=str)
+
+
+def _is_planned(folder: Path, asked: str) -> bool:
+    """The plan is written first, so that one that was cut off is made again."""
+    known = folder / "asked.json"
+    if not known.exists():
+        return False
+    if known.read_text() == asked:
+        return True
+    raise TksUsageError(
+        f"The folder {folder} holds a mosaic of another source, or with other options: give a "
+        "folder of its own."
+    )
+
+
+def _new_plan(
+    samples: Samples, options: m.MosaicOptions, place: Dict[str, Any], progress: Optional[Progress]
+) -> builtins.bytes:
+    guard, buffer = Guard(), c.Buffer()
+    source = _source_struct(samples, place, guard, progress)
+    _run(guard, c.lib.tks_mosaic_plan, source, options, buffer)
+    try:
+        return ctypes.string_at(buffer.data, buffer.size)
+    finally:
+        c.lib.tks_free_buffer(buffer)
+
+
+def _source_struct(
+    samples: Samples, place: Dict[str, Any], guard: Guard, progress: Optional[Progress] = None
+) -> m.MosaicSource:
+    whole, done = samples.shape[0] * samples.shape[1], [0]
+
+    def read(_user: Any, window: Any, out: int) -> int:
+        def into() -> None:
+            at = window[0]
+            part = samples.window(at.x, at.y, at.width, at.height)
+            ctypes.memmove(out, part.ctypes.data, part.nbytes)
+            done[0] += part.size
+            if progress is not None:
+                progress(min(1.0, done[0] / whole))
+
+        return guard.run(into)
+
+    heights = described_heights(samples.shape, samples.dtype, samples.nodata, place)
+    return m.MosaicSource(
+        ctypes.sizeof(m.MosaicSource), ctypes.pointer(heights), m.READ_WINDOW(read)
+    )
+
+
+def _run(guard: Guard, call: Any, *arguments: Any) -> None:
+    message = ctypes.create_string_buffer(1024)
+    status = call(*arguments, message, len(message))
+    guard.raise_noted()
+    if status != Status.OK:
+        raise error(status, message.value.decode("utf-8", "replace"))
