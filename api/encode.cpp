@@ -216,10 +216,14 @@ Status checkOnForests(const tks_heights* heights, const tks_image* image,
   return misuse("Heights and texture on a forest have patches that are glued alike.");
 }
 
-Status takeHeights(const tks_heights& given, tks_heights& out) {
+}  // namespace
+
+Status checkedHeights(const tks_heights& given, tks_heights& out) {
   const Status status = takeSized("the heights", given, offsetof(tks_heights, step), out);
   return status.ok() ? checkHeights(out) : status;
 }
+
+namespace {
 
 Status takeImage(const tks_image& given, tks_image& out) {
   const Status status = takeSized("the texture", given, offsetof(tks_image, geotransform), out);
@@ -237,7 +241,7 @@ Status takeArguments(const tks_heights* heights, const tks_image* image,
   Status status = takeSized("the encoding options", *options, kTargets, out.options);
   if (status.ok()) status = checkOptions(out.options, heights != nullptr);
   if (status.ok()) status = checkWindows(out.options, image != nullptr);
-  if (status.ok() && heights != nullptr) status = takeHeights(*heights, out.heights);
+  if (status.ok() && heights != nullptr) status = checkedHeights(*heights, out.heights);
   if (status.ok() && image != nullptr) status = takeImage(*image, out.image);
   if (status.ok())
     status = checkOnForests(heights != nullptr ? &out.heights : nullptr,
@@ -314,7 +318,7 @@ tks_status tks_find_outliers(const tks_heights* heights, tks_outliers* out) {
     return TKS_USAGE;
   return tetrakis::answering([&] {
     tks_heights known;
-    tetrakis::Status status = tetrakis::takeHeights(*heights, known);
+    tetrakis::Status status = tetrakis::checkedHeights(*heights, known);
     if (status.ok()) tetrakis::giveSized(tetrakis::findOutliers(known), *out);
     return status;
   });

@@ -13,6 +13,10 @@
 
 namespace tetrakis::inline api {
 
+/// Copies the caller's heights as this library knows them. TKS_USAGE: they break a rule of
+/// tetrakis.h.
+Status checkedHeights(const tks_heights& given, tks_heights& out);
+
 // giveBytes() copies bytes into a buffer that the caller releases.
 
 /// Copies bytes to where tks_free_buffer() finds them. out: has none. Throws std::bad_alloc.

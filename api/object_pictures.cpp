@@ -17,7 +17,7 @@
 namespace tetrakis::inline api {
 namespace {
 
-using Place = std::array<double, 2>;  ///< on an image, from (0, 0) to (1, 1)
+using ImageSpot = std::array<double, 2>;  ///< on an image, from (0, 0) to (1, 1)
 
 /// A sample of a picture on an image: a place, and the level of detail.
 struct ImagePlace {
@@ -25,7 +25,8 @@ struct ImagePlace {
 };
 
 /// Where a sample of a picture lies, from the places of the corners of its triangle on the image.
-ImagePlace placeOn(Extent image, const std::array<Place, 3>& corners, const SeenTriangle& seen) {
+ImagePlace placeOn(Extent image, const std::array<ImageSpot, 3>& corners,
+                   const SeenTriangle& seen) {
   const auto along = [&](size_t axis) {
     const double from = corners[0][axis];
     return from + double{seen.second} * (corners[1][axis] - from) +
@@ -55,11 +56,11 @@ Status unsound() {
 struct DecodedObject {
   std::vector<Vec3> points;
   std::vector<std::array<uint32_t, 3>> triangles;
-  std::vector<Place> places;  ///< of the points on the texture
+  std::vector<ImageSpot> places;  ///< of the points on the texture
   Texels texels;
   int patch_depth = -1;  ///< of the texture; -1: it is no raster of patches
 
-  std::array<Place, 3> placesOf(uint32_t triangle) const {
+  std::array<ImageSpot, 3> placesOf(uint32_t triangle) const {
     const auto& [a, b, c] = triangles[triangle];
     return {places[a], places[b], places[c]};
   }
@@ -141,7 +142,7 @@ Result<ObjectPictures> ObjectPictures::of(const GivenObject& given) {
   pictures.colours_ = pictures.pictures_.coloursOf(pictures.seen_, [&](size_t sample) {
     const SeenTriangle& seen = pictures.seen_[sample];
     const TriangleSource& source = sources[seen.triangle];
-    std::array<Place, 3> corners;
+    std::array<ImageSpot, 3> corners;
     for (size_t k = 0; k < 3; ++k) {
       const float* const at =
           given.mesh.texcoords + 2 * (3 * size_t{source.triangle} + source.corners[k]);

@@ -141,9 +141,17 @@ Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes);
 Status checkMeaning(const StreamHeader& header);
 
 // crc32() computes the checksum of headers, and of the payloads of streams that promise exact
-// samples or a largest error.
+// samples or a largest error; Crc32 that of bytes which come piece by piece.
 
 /// CRC-32 as in PNG and zip: polynomial EDB88320 reflected, initial and final xor FFFFFFFF.
+class Crc32 {
+ public:
+  void add(std::span<const uint8_t> bytes);
+  uint32_t value() const { return ~crc_; }
+
+ private:
+  uint32_t crc_ = 0xffffffff;
+};
 uint32_t crc32(std::span<const uint8_t> bytes);
 
 }  // namespace tetrakis::inline stream

@@ -25,11 +25,15 @@ std::array<uint32_t, 256> stepsOfBytes() {
 
 }  // namespace
 
-uint32_t crc32(std::span<const uint8_t> bytes) {
+void Crc32::add(std::span<const uint8_t> bytes) {
   const std::array<uint32_t, 256> steps = stepsOfBytes();
-  uint32_t crc = 0xffffffff;
-  for (const uint8_t byte : bytes) crc = (crc >> 8) ^ steps[(crc ^ byte) & 0xff];
-  return ~crc;
+  for (const uint8_t byte : bytes) crc_ = (crc_ >> 8) ^ steps[(crc_ ^ byte) & 0xff];
+}
+
+uint32_t crc32(std::span<const uint8_t> bytes) {
+  Crc32 crc;
+  crc.add(bytes);
+  return crc.value();
 }
 
 namespace {

@@ -55,14 +55,6 @@ std::vector<std::vector<Occupancy>> occupancyOf(const TrackSource& track) {
   return occupancy;
 }
 
-/// Bit-planes of its largest coefficient. Those that do not exist are 0.
-int planesOf(const TrackSource& track) {
-  uint32_t all = 0;
-  for (const BandSource& band : track.bands)
-    for (const int32_t value : band.values) all |= magnitudeOf(value);
-  return std::bit_width(all);
-}
-
 /// Drops what is no improvement: a later point with no more bytes or no less distortion wins or
 /// loses.
 void append(std::vector<RatePoint>& points, RatePoint point) {
@@ -184,6 +176,13 @@ void runTogether(std::vector<std::optional<TrackCoder>>& coders, const TrackOpti
 
 }  // namespace
 
+int planesOf(const TrackSource& track) {
+  uint32_t all = 0;
+  for (const BandSource& band : track.bands)
+    for (const int32_t value : band.values) all |= magnitudeOf(value);
+  return std::bit_width(all);
+}
+
 uint64_t bytesOf(std::span<const EncodedTrack> tracks) {
   uint64_t bytes = 0;
   for (const EncodedTrack& track : tracks) bytes += track.codeword.size();
@@ -214,18 +213,20 @@ std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
   return tracks;
 }
 
+EncodedTrack encodeTrack(const TrackSource& source, int planes) {
+  assert(planesOf(source) <= planes);
+  TrackCoder coder(source, planes);
+  coder.run(TrackCoder::kNoKey, UINT64_MAX, TrackOptions::kNever);
+  return coder.finish();
+}
+
 std::vector<EncodedTrack> encodeWholeTracks(size_t count,
                                             const std::function<TrackSource(size_t)>& source_of,
                                             uint32_t threads) {
   assert(count > 0);
   const int planes = mostOf(threads, count, [&](size_t i) { return planesOf(source_of(i)); });
   std::vector<EncodedTrack> tracks(count);
-  parallelFor(threads, count, [&](size_t i) {
-    const TrackSource source = source_of(i);
-    TrackCoder coder(source, planes);
-    coder.run(TrackCoder::kNoKey, UINT64_MAX, TrackOptions::kNever);
-    tracks[i] = coder.finish();
-  });
+  parallelFor(threads, count, [&](size_t i) { tracks[i] = encodeTrack(source_of(i), planes); });
   return tracks;
 }
 

@@ -76,8 +76,15 @@ struct TrackOptions {
 std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
                                        const TrackOptions& options);
 
-/// The same to the end, where each track is coded by itself: only those that are being coded take
-/// memory. source_of: is asked for every track twice, by several threads at a time.
+/// Bit-planes of the largest coefficient of a track.
+int planesOf(const TrackSource& track);
+
+/// One of the tracks of a component to the end. planes: those of the component's largest
+/// coefficient, or more.
+EncodedTrack encodeTrack(const TrackSource& source, int planes);
+
+/// The same of all of them, where each track is coded by itself: only those that are being coded
+/// take memory. source_of: is asked for every track twice, by several threads at a time.
 std::vector<EncodedTrack> encodeWholeTracks(size_t count,
                                             const std::function<TrackSource(size_t)>& source_of,
                                             uint32_t threads);

@@ -209,6 +209,9 @@ BitPlane decodeLateValidity(std::span<const uint8_t> codeword, Extent plane,
 /// where it is void. The whole codeword gives the mask back whatever bytes follow it.
 std::vector<uint8_t> encodeValidity(const PlaneView<const uint8_t>& valid);
 
+/// The same of a plane of which nobody holds a byte for each sample.
+std::vector<uint8_t> encodeValidityBits(const BitPlane& valid);
+
 /// The same of a mask that comes late. lifted: marks at least the valid samples.
 std::vector<uint8_t> encodeLateValidity(const PlaneView<const uint8_t>& valid, Mask lifted);
 

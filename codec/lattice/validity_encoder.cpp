@@ -9,14 +9,31 @@ namespace tetrakis::inline lattice {
 
 namespace {
 
+/// Marks of samples by their number.
+struct ByteMarks {
+  std::span<const uint8_t> valid;
+  bool operator[](size_t sample) const {
+    assert(valid[sample] <= 1);
+    return valid[sample] != 0;
+  }
+};
+struct BitMarks {
+  const BitPlane& valid;
+  bool operator[](size_t sample) const {
+    const uint32_t width = valid.extent().width;
+    return valid.at(static_cast<uint32_t>(sample % width), static_cast<uint32_t>(sample / width));
+  }
+};
+
+template <class Marks>
 class EncodingIo {
  public:
-  explicit EncodingIo(std::span<const uint8_t> valid) : valid_(valid) {}
+  explicit EncodingIo(Marks valid) : valid_(valid) {}
   uint64_t asked(const SampleLine& line) const { return lowBits(line.count); }
   bool bit(AdaptiveBit& model, size_t sample) {
-    assert(valid_[sample] <= 1);
-    encoder_.encode(model, valid_[sample] != 0);
-    return valid_[sample] != 0;
+    const bool valid = valid_[sample];
+    encoder_.encode(model, valid);
+    return valid;
   }
   uint32_t run(AdaptiveBit&, bool, uint32_t) { return 0; }
   bool stopped() const { return false; }
@@ -24,30 +41,40 @@ class EncodingIo {
   std::vector<uint8_t> finish() { return encoder_.finish(); }
 
  private:
-  std::span<const uint8_t> valid_;
+  Marks valid_;
   RangeEncoder encoder_;
 };
 
 /// As a decoder reads it, one byte or more.
-std::vector<uint8_t> finished(EncodingIo& io) {
+template <class Io>
+std::vector<uint8_t> finished(Io& io) {
   std::vector<uint8_t> codeword = io.finish();
   if (codeword.empty()) codeword.push_back(0);
   return codeword;
 }
 
-}  // namespace
-
-std::vector<uint8_t> encodeValidity(const PlaneView<const uint8_t>& valid) {
-  EncodingIo io(valid.values());
-  ValidityPass<EncodingIo>(valid.extent(), io).run();
+template <class Marks>
+std::vector<uint8_t> encode(Extent plane, Marks valid) {
+  EncodingIo<Marks> io(valid);
+  ValidityPass<EncodingIo<Marks>>(plane, io).run();
   return finished(io);
 }
 
+}  // namespace
+
+std::vector<uint8_t> encodeValidity(const PlaneView<const uint8_t>& valid) {
+  return encode(valid.extent(), ByteMarks{valid.values()});
+}
+
+std::vector<uint8_t> encodeValidityBits(const BitPlane& valid) {
+  return encode(valid.extent(), BitMarks{valid});
+}
+
 std::vector<uint8_t> encodeLateValidity(const PlaneView<const uint8_t>& valid, Mask lifted) {
-  EncodingIo encoding(valid.values());
+  EncodingIo<ByteMarks> encoding({valid.values()});
   const SharedBits bits = sharedBits(lifted, valid.extent());
-  LateMaskIo<EncodingIo> io(encoding, bits.get());
-  ValidityPass<LateMaskIo<EncodingIo>>(valid.extent(), io).run();
+  LateMaskIo<EncodingIo<ByteMarks>> io(encoding, bits.get());
+  ValidityPass<LateMaskIo<EncodingIo<ByteMarks>>>(valid.extent(), io).run();
   return finished(encoding);
 }
 

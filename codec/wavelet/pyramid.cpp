@@ -24,12 +24,12 @@ LowBand split(const LowBand& whole) {
 
 }  // namespace
 
-Pyramid::Pyramid(SharedBits valid, Extent plane, HeldSamples held)
+Pyramid::Pyramid(SharedBits valid, Extent plane, HeldSamples held, int most_levels)
     : valid_(std::move(valid)), held_(held), lows_{{plane, plane.height, 0, 0}} {
   assert(plane.samples() > 0);
   assert(allExist() || valid_->extent() == plane);
   assert(held.none() || held.numbers.size() == plane.samples());
-  splitAll();
+  splitAll(most_levels);
   addSubbands();
   assert(subbands_.size() == kBandsPerLevel * static_cast<size_t>(levels()) + 1);
 }
@@ -38,7 +38,7 @@ Pyramid::Pyramid(const Forest& forest, HeldSamples held)
     : valid_(shared(ownedSamples(forest))),
       held_(held),
       lows_{{{forest.side(), forest.side()}, forest.side(), 0, 0}} {
-  splitAll();
+  splitAll(kMaxLevels);
   addSubbands();
   const size_t of_patch = subbands_.size();
   subbands_.reserve(forest.patches() * of_patch);
@@ -57,8 +57,9 @@ uint64_t Pyramid::bytesOf(const Forest& forest) {
   return BitPlane::bytesOf(forest.raster()) + forest.patches() * of_patch * sizeof(Subband);
 }
 
-void Pyramid::splitAll() {
-  while (std::max(lows_.back().extent.width, lows_.back().extent.height) > kSmallestSide)
+void Pyramid::splitAll(int most_levels) {
+  while (levels() < most_levels &&
+         std::max(lows_.back().extent.width, lows_.back().extent.height) > kSmallestSide)
     lows_.push_back(split(lows_.back()));
   assert(levels() <= kMaxLevels);
 }

@@ -85,8 +85,8 @@ class Pyramid {
   /// The mask marks the samples of the plane that exist. What is held outlives the pyramid.
   explicit Pyramid(Extent plane, Mask valid = {}, HeldSamples held = {})
       : Pyramid(sharedBits(valid, plane), plane, held) {}
-  /// The same, of marks that are there as bits.
-  Pyramid(SharedBits valid, Extent plane, HeldSamples held = {});
+  /// The same, of marks that are there as bits. most_levels: coarser ones are not split.
+  Pyramid(SharedBits valid, Extent plane, HeldSamples held = {}, int most_levels = kMaxLevels);
   /// The raster of a forest: each patch has a pyramid of its own, in which the samples exist that
   /// it owns. What is held outlives the pyramid.
   explicit Pyramid(const Forest& forest, HeldSamples held = {});
@@ -129,7 +129,7 @@ class Pyramid {
   std::vector<uint8_t> splitMask(int level, const Window& block) const;
 
  private:
-  void splitAll();
+  void splitAll(int most_levels);
   void addSubbands();
   void addSubbands(int level);
 

@@ -31,6 +31,7 @@ struct WaveletSpec {
   int first_doubled = 3;  ///< the low band is doubled after this level and the next two; 0: never
   bool ring = false;      ///< the last column of the plane lies beside its first one
   SharedForest forest = {};  ///< the plane is the raster of a forest; every level is lifted jointly
+  int finer = 0;             ///< levels of a larger plane below, whose low band this plane is
 
   static constexpr int kDoubled = 3;  ///< levels that double their low bands
   static constexpr int kNarrowLevels = 3;
@@ -39,20 +40,27 @@ struct WaveletSpec {
   /// Sums of this level are of 64 bits. Coarse low bands are larger than samples: they are doubled,
   /// and kQuiet and kOrthogonal multiply their mean by 1.71 and 1.60 at every level.
   bool wide(int level) const {
-    return level > kNarrowLevels || bits > widestSamples(filter(level));
+    return finer + level > kNarrowLevels || bits > widestSamples(filter(level));
   }
   FilterId filter(int level) const {
-    return filters[std::min(static_cast<size_t>(level), kChoices) - 1];
+    return filters[std::min(static_cast<size_t>(finer + level), kChoices) - 1];
   }
   /// The low band is doubled after this level.
   bool doubles(int level) const {
-    return whole && first_doubled > 0 && level >= first_doubled && level < first_doubled + kDoubled;
+    const int doubled = finer + level - first_doubled;
+    return whole && first_doubled > 0 && doubled >= 0 && doubled < kDoubled;
   }
   /// The level lifts rows and columns jointly where it splits both and every sample exists.
   bool joint(int level) const { return whole && bits <= kJointBits && liftsJointly(filter(level)); }
   /// Joint sums of this level are of 64 bits: they have kJointPlaces binary places.
   bool jointlyWide(int level) const {
-    return level > kNarrowLevels || bits + kJointPlaces >= widestSamples(filter(level));
+    return finer + level > kNarrowLevels || bits + kJointPlaces >= widestSamples(filter(level));
+  }
+  /// The transform of the low band of a level, as a plane.
+  WaveletSpec above(int level) const {
+    WaveletSpec coarser = *this;
+    coarser.finer += level;
+    return coarser;
   }
 };
 

@@ -84,6 +84,17 @@ Metadata metadataOf(const tks_heights& heights) {
           text(heights.crs)};
 }
 
+}  // namespace
+
+void describePlace(const tks_heights* heights, const tks_image* image, StreamHeader& header) {
+  header.georeference = georeferenceOf(heights, image);
+  header.height_positions = positionsOf(heights);
+  header.texture_positions = positionsOf(image);
+  if (heights == nullptr) return;
+  header.metadata = metadataOf(*heights);
+  header.grid = {heights->grid_width, heights->grid_height};
+}
+
 std::vector<IndexEntry> indexOf(const std::vector<Packet>& packets, const TrackCounts& counts) {
   double steepest = 0;
   for (const Packet& packet : packets) steepest = std::max(steepest, packet.slope);
@@ -92,6 +103,8 @@ std::vector<IndexEntry> indexOf(const std::vector<Packet>& packets, const TrackC
     index.push_back({headOf(packet, counts), slopeByte(packet.slope, steepest)});
   return index;
 }
+
+namespace {
 
 StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
                         uint64_t payload_bytes, bool lossless) {
@@ -106,7 +119,6 @@ StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
     header.geometry->max_error = options.max_error > 0 ? options.max_error : lossless ? 0 : -1;
     header.layers = selection.heights->layers;
     if (inputs.lines != nullptr) header.geometry->repeats = inputs.lines->repeats;
-    header.metadata = metadataOf(*inputs.allHeights());
     if (inputs.allHeights()->base_mesh.position_bits > 0)
       header.geometry->base_mesh = encodeBaseMesh(baseMeshOf(*inputs.allHeights()));
   }
@@ -114,11 +126,8 @@ StreamHeader makeHeader(const EncodeInputs& inputs, const Selection& selection,
     header.texture = selection.texture->header;
     if (inputs.texel_lines != nullptr) header.texture->repeats = inputs.texel_lines->repeats;
   }
-  header.georeference = georeferenceOf(inputs.allHeights(), inputs.allTexels());
-  if (inputs.heights != nullptr)
-    header.grid = {inputs.allHeights()->grid_width, inputs.allHeights()->grid_height};
-  header.height_positions = positionsOf(inputs.allHeights());
-  header.texture_positions = positionsOf(inputs.allTexels());
+  describePlace(inputs.heights != nullptr ? inputs.allHeights() : nullptr, inputs.allTexels(),
+                header);
   if (options.index != 0) header.index = indexOf(selection.packets, trackCounts(header));
   return header;
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bitstream/stream/georeference.hpp"
+#include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
 #include "encoder/heights/coded_heights.hpp"
 #include "encoder/inputs/encode_inputs.hpp"
@@ -29,6 +30,13 @@ std::string positionsOf(const Raster* raster) {
   if (raster == nullptr || raster->positions == nullptr) return {};
   return {reinterpret_cast<const char*>(raster->positions), raster->positions_size};
 }
+
+/// The parts of a header that say what the samples mean and where they lie: metadata, places,
+/// positions. Either may be null.
+void describePlace(const tks_heights* heights, const tks_image* image, StreamHeader& header);
+
+/// The front index of packets.
+std::vector<IndexEntry> indexOf(const std::vector<Packet>& packets, const TrackCounts& counts);
 
 // A Selection is the content of a stream before it is written: both coded components, and the
 // packets of both in one order.

@@ -28,6 +28,7 @@ void addCompare(CLI::App& app, CommandLine& line);
 void addVerify(CLI::App& app, CommandLine& line);
 void addPlan(CLI::App& app, CommandLine& line);
 void addReorder(CLI::App& app, CommandLine& line);
+void addMosaic(CLI::App& app, CommandLine& line);
 void addProfile(CLI::App& app, CommandLine& line);
 void addSynth(CLI::App& app, CommandLine& line);
 void addView(CLI::App& app, CommandLine& line);

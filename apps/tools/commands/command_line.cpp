@@ -59,6 +59,7 @@ void addVerbs(CLI::App& app, CommandLine& line) {
   addVerify(app, line);
   addReorder(app, line);
   addPlan(app, line);
+  addMosaic(app, line);
   addProfile(app, line);
   addSynth(app, line);
   addView(app, line);

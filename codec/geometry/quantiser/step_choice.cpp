@@ -23,10 +23,6 @@ namespace tetrakis::inline quantiser {
 
 namespace {
 
-constexpr double kMostSteps = 1 << 26;
-/// Parts of the range that the steps of lossy streams divide it into: finer than any of them
-/// resolves. With a larger number heights are too wide for the filter kOrthogonal.
-constexpr double kLossySteps = 1 << 20;
 /// The step of a largest error is at most this part of it. A larger number takes bits that are cut
 /// anyway; with a smaller one the rounding of samples takes more of the bound.
 constexpr double kErrorPart = 64;
@@ -43,9 +39,6 @@ constexpr double kFarMean = 0.25, kFewSteps = 1 << 24;
 /// Distances of floats in the step of floats that have no other step. Coding the last bits as
 /// corrections takes 1 to 2 % less than lifting them; more of them make prefixes coarser.
 constexpr double kFloatsInStep = 16;
-/// The decimal steps that are tried, in units of the samples. More of them take the time of a pass
-/// over the samples each.
-constexpr std::array<double, 4> kDecimalSteps = {1.0, 0.1, 0.01, 0.001};
 /// A step with exceptions has to be this many times as coarse as the exact one. A smaller factor
 /// takes corrections for steps that hardly gain.
 constexpr double kWorthCoarser = 2;

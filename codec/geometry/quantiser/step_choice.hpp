@@ -4,6 +4,7 @@
 // samples nearly, or some of them, in fewer bits. Encoder only.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -57,6 +58,15 @@ std::optional<double> nearGrid(const tks_heights& heights, Mask valid, double er
 // the base and the step of all samples. A few samples off that grid (a negative zero, one
 // interpolated height, an undeclared void of 3.4e38) are left to corrections, so that they do not
 // make every step finer.
+
+/// The most steps that the range of heights is divided into.
+inline constexpr double kMostSteps = 1 << 26;
+/// Parts of the range that the steps of lossy streams divide it into: finer than any of them
+/// resolves. With a larger number heights are too wide for the filter kOrthogonal.
+inline constexpr double kLossySteps = 1 << 20;
+/// The decimal steps that are tried, in units of the samples. More of them take the time of a pass
+/// over the samples each.
+inline constexpr std::array<double, 4> kDecimalSteps = {1.0, 0.1, 0.01, 0.001};
 
 /// The demands of the target on the steps that are chosen.
 struct StepNeeds {

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: Apache-2.0
+ *
+ * Tetrakis: mosaics. C interface.
+ *
+ * A mosaic is a plane of heights that no machine holds, coded tile by tile by tasks. The plane has
+ * one transform: there are no borders between tiles in the stream, and its codewords are those of
+ * an encoder that holds the plane. Tasks share nothing but files: they may run on any machines, in
+ * any order in which each comes behind those that it needs, and die at any time. The stream does
+ * not depend on who ran them.
+ *
+ *   tks_mosaic_plan   once: reads the source, and makes the plan that all tasks agree on
+ *   tks_mosaic_code   for each tile: reads its samples with 128 around them, leaves its parts
+ *   tks_mosaic_merge  once: joins the parts into a stream, without ever holding it
+ *
+ * The trust contract is that of tetrakis.h, which also says what the structs' sizes mean. Parts and
+ * plans are checked: damaged ones are missing ones. The library that only decodes lacks all of
+ * these functions. C99 or any C++.
+ */
+#ifndef TETRAKIS_MOSAIC_H
+#define TETRAKIS_MOSAIC_H
+
+#include "tetrakis/tetrakis.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default)
+#endif
+
+/* Writes the samples of a window, row by row, in the type of the heights. Returns 0, or anything
+ * else if they cannot be read (TKS_IO). */
+typedef int (*tks_read_window)(void* user, const tks_window* window, void* samples);
+
+/* The source of a mosaic: as of tks_encode, but its samples come by windows. `data` counts for
+ * nothing. The domain is a plane. tks_heights.step: that of the samples; 0: it is found. */
+typedef struct tks_mosaic_source {
+  size_t size; /* sizeof(tks_mosaic_source) */
+  const tks_heights* heights;
+  tks_read_window read;
+  void* user;
+} tks_mosaic_source;
+
+/* Exactly one of the first four is set. */
+typedef struct tks_mosaic_options {
+  size_t size;      /* sizeof(tks_mosaic_options) */
+  uint64_t bytes;   /* of the stream, at most */
+  double psnr;      /* of the samples, by their range */
+  double max_error; /* of every sample, in the unit of the heights */
+  int lossless;
+  uint32_t regions; /* side of the regions that tracks hold, in samples: a power of two from 16 on;
+                       0: 512 */
+  uint32_t tile;    /* side of the tiles, likewise: at least a region, at most 16384; 0: 4096. A task
+                       takes 8 to 11 bytes for each sample of its tile and of the 128 around it */
+} tks_mosaic_options;
+
+/* Makes the plan: some kilobytes that every task is given. It reads the source once, window by
+ * window, for the range, the voids and the step of the samples; then nine small windows, by which
+ * the filters are chosen. message: as of tks_encode. TKS_USAGE: the target cannot be promised;
+ * floats without a common step cannot be restored to the last bit. */
+tks_status tks_mosaic_plan(const tks_mosaic_source* source, const tks_mosaic_options* options,
+                           tks_buffer* plan, char* message, size_t message_size);
+
+/* What one task codes: the tile in a column and row of a group of levels. Group 0 holds the finest
+ * levels, and reads samples; each further group reads what the group before has left, and has a
+ * 64th of its tiles or less. The last one has one tile, the base. */
+typedef struct tks_tile {
+  uint32_t group, column, row;
+} tks_tile;
+
+/* Lists all tiles, each behind those that it needs. At most `room` are written; `count` says how
+ * many there are. TKS_CORRUPT: `plan` is no plan. TKS_UNSUPPORTED: it is one of another version. */
+tks_status tks_mosaic_tiles(const uint8_t* plan, size_t plan_size, tks_tile* tiles, size_t room,
+                            size_t* count);
+
+/* Lists the tiles whose parts the task of a tile reads. TKS_USAGE: there is no such tile. */
+tks_status tks_mosaic_needs(const uint8_t* plan, size_t plan_size, tks_tile tile, tks_tile* tiles,
+                            size_t room, size_t* count);
+
+/* Writes which samples the task of a tile reads: of the heights in group 0; in further ones of the
+ * low band of 3 * group levels. */
+tks_status tks_mosaic_block(const uint8_t* plan, size_t plan_size, tks_tile tile,
+                            tks_window* block);
+
+/* Reads `bytes` bytes of a file from an offset on, or as many as there are, and writes how many
+ * that were. Returns 0, or anything else if the file is missing or cannot be read. */
+typedef int (*tks_read_file)(void* user, const char* name, uint64_t offset, uint64_t bytes,
+                             void* out, uint64_t* read);
+/* Writes how long a file is. Returns 0, or anything else if it is missing. */
+typedef int (*tks_file_size)(void* user, const char* name, uint64_t* size);
+/* Makes a file of these bytes, in the place of one that is there. Whoever reads it meets all of the
+ * bytes or none: on a disk write another file and rename it. Returns 0, or anything else. */
+typedef int (*tks_write_file)(void* user, const char* name, const void* data, size_t size);
+
+/* The storage that tasks share, such as a folder on a disk of all machines. Names are of letters,
+ * digits, '-' and '.'. */
+typedef struct tks_mosaic_files {
+  size_t size; /* sizeof(tks_mosaic_files) */
+  tks_read_file read;
+  tks_file_size length;
+  tks_write_file write;
+  void* user;
+} tks_mosaic_files;
+
+/* Codes a tile, proves that its codewords decode to what was coded, and leaves the parts
+ * "gG-xX-yY.part" and, but of the base, "gG-xX-yY.low". source: NULL for groups above 0. threads:
+ * nothing depends on them; 0 counts as 1. TKS_IO: samples or parts that it needs cannot be read, or
+ * its own not be written. TKS_USAGE: a sample that the plan does not allow. TKS_MISMATCH: a fault
+ * of the encoder. */
+tks_status tks_mosaic_code(const uint8_t* plan, size_t plan_size, tks_tile tile,
+                           const tks_mosaic_source* source, const tks_mosaic_files* files,
+                           uint32_t threads, char* message, size_t message_size);
+
+/* Writes 1 if the parts of a tile are there, whole and of this plan, else 0: then its task has to
+ * run. */
+tks_status tks_mosaic_is_done(const uint8_t* plan, size_t plan_size, tks_tile tile,
+                              const tks_mosaic_files* files, int* done);
+
+/* Takes bytes of the stream at an offset, the first ones last. Returns 0, or anything else if they
+ * cannot be written (TKS_IO). */
+typedef int (*tks_write_at)(void* user, uint64_t offset, const void* data, size_t size);
+
+/* Joins the parts of all tiles into the stream of the plan's target. It holds a kilobyte for each
+ * region and a bit for each sample of heights with voids, never codewords. index:
+ * TKS_INDEX_NONE orders all packets by what their bytes are worth; TKS_INDEX_WINDOWS lays the
+ * stream out region by region for windows, with an index in front; only where every packet is
+ * there. TKS_IO: a part is missing or damaged; the message names it. */
+tks_status tks_mosaic_merge(const uint8_t* plan, size_t plan_size, const tks_mosaic_files* files,
+                            tks_index index, tks_write_at write, void* user, char* message,
+                            size_t message_size);
+
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
+#ifdef __cplusplus
+}
+#endif
+#endif /* TETRAKIS_MOSAIC_H */

@@ -1,0 +1,488 @@
+// SPDX-License-Identifier: Apache-2.0
+// Mosaics through the C interface: the streams of their targets, restarts, damaged parts.
+#include <algorithm>
+#include <map>
+#include <random>
+
+#include "conformance/samples/void_masks.hpp"
+#include "tests/support/stream_fixture.hpp"
+#include "tetrakis/mosaic.h"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::make;
+using samples::Pattern;
+using samples::Raster;
+
+/// Heights that are read window by window.
+struct Source {
+  explicit Source(Raster from) : raster(std::move(from)), heights(raster.heights()) { point(); }
+  Source(const Source&) = delete;
+
+  void point() {
+    heights.data = nullptr;
+    source = {sizeof source, &heights, &Source::read, this};
+  }
+  static int read(void* user, const tks_window* window, void* samples) {
+    auto& self = *static_cast<Source*>(user);
+    self.largest = std::max(self.largest, uint64_t{window->width} * window->height);
+    if (self.fails) return 1;
+    const size_t bytes = tks_sample_bytes(self.heights.sample);
+    auto* out = static_cast<std::byte*>(samples);
+    for (uint32_t y = 0; y < window->height; ++y) {
+      const size_t from = size_t{window->y + y} * self.raster.width + window->x;
+      std::copy_n(self.raster.data.data() + from * bytes, window->width * bytes, out);
+      out += window->width * bytes;
+    }
+    return 0;
+  }
+
+  Raster raster;
+  tks_heights heights;
+  tks_mosaic_source source{};
+  uint64_t largest = 0;
+  bool fails = false;
+};
+
+/// Parts in memory.
+struct Files {
+  std::map<std::string, Bytes> all;
+  size_t writes = 0;
+
+  tks_mosaic_files files() { return {sizeof(tks_mosaic_files), &read, &length, &write, this}; }
+
+  static int read(void* user, const char* name, uint64_t offset, uint64_t bytes, void* out,
+                  uint64_t* done) {
+    const auto& all = static_cast<Files*>(user)->all;
+    const auto found = all.find(name);
+    if (found == all.end() || offset > found->second.size()) return 1;
+    *done = std::min<uint64_t>(bytes, found->second.size() - offset);
+    std::copy_n(found->second.data() + offset, *done, static_cast<uint8_t*>(out));
+    return 0;
+  }
+  static int length(void* user, const char* name, uint64_t* size) {
+    const auto& all = static_cast<Files*>(user)->all;
+    const auto found = all.find(name);
+    if (found == all.end()) return 1;
+    *size = found->second.size();
+    return 0;
+  }
+  static int write(void* user, const char* name, const void* data, size_t size) {
+    auto& self = *static_cast<Files*>(user);
+    const auto* bytes = static_cast<const uint8_t*>(data);
+    self.all[name].assign(bytes, bytes + size);
+    ++self.writes;
+    return 0;
+  }
+};
+
+tks_mosaic_options mosaicOptions() {
+  tks_mosaic_options options = {};
+  options.size = sizeof options;
+  options.regions = 32;
+  options.tile = 64;
+  return options;
+}
+
+Bytes planOf(Source& source, const tks_mosaic_options& options, tks_status expected = TKS_OK) {
+  tks_buffer buffer = {};
+  char message[256] = "";
+  EXPECT_EQ(tks_mosaic_plan(&source.source, &options, &buffer, message, sizeof message), expected)
+      << message;
+  const Bytes plan(buffer.data, buffer.data + buffer.size);
+  tks_free_buffer(&buffer);
+  return plan;
+}
+
+std::vector<tks_tile> tilesOf(const Bytes& plan) {
+  size_t count = 0;
+  EXPECT_EQ(tks_mosaic_tiles(plan.data(), plan.size(), nullptr, 0, &count), TKS_OK);
+  std::vector<tks_tile> tiles(count);
+  EXPECT_EQ(tks_mosaic_tiles(plan.data(), plan.size(), tiles.data(), count, &count), TKS_OK);
+  return tiles;
+}
+
+bool isDone(const Bytes& plan, const tks_tile& tile, Files& files) {
+  int done = -1;
+  const tks_mosaic_files storage = files.files();
+  EXPECT_EQ(tks_mosaic_is_done(plan.data(), plan.size(), tile, &storage, &done), TKS_OK);
+  return done == 1;
+}
+
+tks_status code(const Bytes& plan, const tks_tile& tile, Source& source, Files& files,
+                uint32_t threads = 1) {
+  char message[256] = "";
+  const tks_mosaic_files storage = files.files();
+  return tks_mosaic_code(plan.data(), plan.size(), tile, tile.group == 0 ? &source.source : nullptr,
+                         &storage, threads, message, sizeof message);
+}
+
+int writeAt(void* user, uint64_t offset, const void* data, size_t size) {
+  auto& stream = *static_cast<Bytes*>(user);
+  stream.resize(std::max<size_t>(stream.size(), offset + size));
+  std::copy_n(static_cast<const uint8_t*>(data), size,
+              stream.begin() + static_cast<ptrdiff_t>(offset));
+  return 0;
+}
+
+tks_status merge(const Bytes& plan, Files& files, Bytes& stream, tks_index index = TKS_INDEX_NONE) {
+  char message[256] = "";
+  const tks_mosaic_files storage = files.files();
+  return tks_mosaic_merge(plan.data(), plan.size(), &storage, index, writeAt, &stream, message,
+                          sizeof message);
+}
+
+/// All tasks in their order, then the merge.
+Bytes mosaicOf(Source& source, const tks_mosaic_options& options,
+               tks_index index = TKS_INDEX_NONE) {
+  const Bytes plan = planOf(source, options);
+  Files files;
+  for (const tks_tile& tile : tilesOf(plan)) EXPECT_EQ(code(plan, tile, source, files), TKS_OK);
+  Bytes stream;
+  EXPECT_EQ(merge(plan, files, stream, index), TKS_OK);
+  return stream;
+}
+
+Raster hills(tks_sample sample, uint32_t width = 330, uint32_t height = 215) {
+  return make({Pattern::kRidges, width, height, 1, sample, 5});
+}
+
+/// Sets samples void that the shape leaves out.
+void dig(Source& source, samples::VoidShape shape) {
+  const auto valid = samples::validity(shape, source.raster.width, source.raster.height);
+  const size_t bytes = tks_sample_bytes(source.heights.sample);
+  source.heights.has_nodata = 1;
+  source.heights.nodata = source.heights.sample == TKS_F32 ? -9999.0 : 1;
+  const float void_float = -9999;
+  const int32_t void_whole = 1;  // little endian, as all machines that test
+  const void* nodata =
+      source.heights.sample == TKS_F32 ? static_cast<const void*>(&void_float) : &void_whole;
+  for (size_t i = 0; i < valid.size(); ++i)
+    if (!valid[i]) std::memcpy(source.raster.data.data() + bytes * i, nodata, bytes);
+}
+
+TEST(MosaicStream, RestoresSamplesOfEveryType) {
+  for (const tks_sample sample : {TKS_U8, TKS_I8, TKS_U16, TKS_I16, TKS_U32, TKS_I32}) {
+    for (const bool voids : {false, true}) {
+      Source source(hills(sample));
+      if (voids) dig(source, samples::VoidShape::kCoast);
+      tks_mosaic_options options = mosaicOptions();
+      options.lossless = 1;
+      Stream stream(mosaicOf(source, options));
+      ASSERT_EQ(stream.status(), TKS_OK) << sample << stream.message();
+      EXPECT_TRUE(stream.info().lossless);
+      EXPECT_EQ(tks_verify(stream.get()), TKS_OK);
+      std::vector<std::byte> samples(stream.heightsBytes());
+      ASSERT_EQ(tks_decode_heights(stream.get(), samples.data(), samples.size()), TKS_OK);
+      EXPECT_TRUE(samples == source.raster.data) << sample << voids;
+    }
+  }
+}
+
+/// Floats in quarters, with voids that are NaN or -9999.
+Raster quarters() {
+  Raster raster = hills(TKS_I16);
+  std::vector<std::byte> floats(raster.data.size() * 2);
+  for (size_t i = 0; i < raster.data.size() / 2; ++i) {
+    int16_t whole = 0;
+    std::memcpy(&whole, raster.data.data() + 2 * i, 2);
+    const float value = static_cast<float>(whole) / 4;
+    std::memcpy(floats.data() + 4 * i, &value, 4);
+  }
+  raster.sample = TKS_F32;
+  raster.data = std::move(floats);
+  return raster;
+}
+
+TEST(MosaicStream, RestoresFloatsThatHaveAStep) {
+  Source source(quarters());
+  dig(source, samples::VoidShape::kHoles);
+  tks_mosaic_options options = mosaicOptions();
+  options.lossless = 1;
+  Stream stream(mosaicOf(source, options));
+  std::vector<std::byte> samples(stream.heightsBytes());
+  ASSERT_EQ(tks_decode_heights(stream.get(), samples.data(), samples.size()), TKS_OK);
+  EXPECT_TRUE(samples == source.raster.data);
+}
+
+double largestError(Stream& stream, const Raster& raster) {
+  std::vector<float> heights(size_t{raster.width} * raster.height);
+  EXPECT_EQ(tks_decode_surface(stream.get(), heights.data(), heights.size()), TKS_OK);
+  double largest = 0;
+  for (size_t i = 0; i < heights.size(); ++i) {
+    float sample = 0;
+    std::memcpy(&sample, raster.data.data() + 4 * i, 4);
+    largest =
+        std::max(largest, std::abs(static_cast<double>(heights[i]) - static_cast<double>(sample)));
+  }
+  return largest;
+}
+
+TEST(MosaicStream, KeepsALargestError) {
+  Raster rough = quarters();  // and no step at all
+  for (size_t i = 0; i < rough.data.size() / 4; ++i) {
+    float value = 0;
+    std::memcpy(&value, rough.data.data() + 4 * i, 4);
+    value = value * 1.01f + std::sqrt(static_cast<float>(i % 97));
+    std::memcpy(rough.data.data() + 4 * i, &value, 4);
+  }
+  size_t before = SIZE_MAX;
+  for (const double error : {0.01, 0.5, 7.0}) {
+    Source source(rough);
+    tks_mosaic_options options = mosaicOptions();
+    options.max_error = error;
+    const Bytes bytes = mosaicOf(source, options);
+    EXPECT_LT(bytes.size(), before);
+    before = bytes.size();
+    Stream stream((Prefix(bytes)));
+    EXPECT_EQ(stream.info().max_error, error);
+    EXPECT_LE(largestError(stream, source.raster), error);
+  }
+}
+
+/// Squared errors of all samples of a stream of TKS_I16.
+double squaresOf(const Bytes& bytes, const Raster& raster) {
+  Stream stream((Prefix(bytes)));
+  std::vector<int16_t> heights(size_t{raster.width} * raster.height);
+  EXPECT_EQ(tks_decode_heights(stream.get(), heights.data(), 2 * heights.size()), TKS_OK);
+  double squares = 0;
+  for (size_t i = 0; i < heights.size(); ++i) {
+    int16_t sample = 0;
+    std::memcpy(&sample, raster.data.data() + 2 * i, 2);
+    squares += std::pow(heights[i] - sample, 2);
+  }
+  return squares;
+}
+
+TEST(MosaicStream, IsAboutAsGoodAsAnEncodersWithinABudget) {
+  Source source(hills(TKS_I16, 420, 400));
+  for (const uint64_t bytes : {2000, 8000, 24000}) {
+    tks_mosaic_options options = mosaicOptions();
+    options.bytes = bytes;
+    const Bytes mosaic = mosaicOf(source, options);
+    EXPECT_LE(mosaic.size(), bytes);
+    EXPECT_GT(mosaic.size(), bytes - 8);
+    const Bytes whole = encode(&source.raster, nullptr, inRegions(budget(bytes), 32));
+    EXPECT_LT(squaresOf(mosaic, source.raster), 1.1 * squaresOf(whole, source.raster)) << bytes;
+  }
+}
+
+TEST(MosaicStream, ReachesAPsnr) {
+  Source source(hills(TKS_I16));
+  const auto [low, high] = std::pair(-32768, 32767);
+  double least = high, most = low;
+  for (size_t i = 0; i < source.raster.data.size() / 2; ++i) {
+    int16_t sample = 0;
+    std::memcpy(&sample, source.raster.data.data() + 2 * i, 2);
+    least = std::min<double>(least, sample);
+    most = std::max<double>(most, sample);
+  }
+  for (const double psnr : {30.0, 45.0}) {
+    tks_mosaic_options options = mosaicOptions();
+    options.psnr = psnr;
+    const double mean = squaresOf(mosaicOf(source, options), source.raster) /
+                        static_cast<double>(source.raster.data.size() / 2);
+    const double reached = 10 * std::log10((most - least) * (most - least) / mean);
+    EXPECT_GT(reached, psnr - 0.1);
+    EXPECT_LT(reached, psnr + 1);
+  }
+}
+
+TEST(MosaicStream, WindowsHoldWhatThePlaneHoldsThere) {
+  Source source(hills(TKS_I16, 900, 800));
+  tks_mosaic_options options = mosaicOptions();
+  options.lossless = 1;
+  const Bytes bytes = mosaicOf(source, options, TKS_INDEX_WINDOWS);
+  Stream stream((Prefix(bytes)));
+  const tks_window window = {100, 60, 77, 81};
+  std::vector<int16_t> samples(size_t{window.width} * window.height), expected(samples.size());
+  ASSERT_EQ(tks_decode_heights_window(stream.get(), &window, samples.data(), 2 * samples.size()),
+            TKS_OK);
+  Source::read(&source, &window, expected.data());
+  EXPECT_EQ(samples, expected);
+  tks_ranges ranges = {};
+  ASSERT_EQ(tks_needed_ranges(stream.get(), TKS_PART_HEIGHTS, &window, &ranges), TKS_OK);
+  uint64_t needed = 0;
+  for (size_t i = 0; i < ranges.count; ++i) needed += ranges.ranges[i].size;
+  EXPECT_LT(needed, bytes.size() / 2);
+  tks_free_ranges(&ranges);
+}
+
+TEST(MosaicStream, EveryPrefixDecodes) {
+  Source source(hills(TKS_I16, 200, 180));
+  dig(source, samples::VoidShape::kHoles);
+  tks_mosaic_options options = mosaicOptions();
+  options.lossless = 1;
+  const Bytes bytes = mosaicOf(source, options);
+  for (size_t end = 0; end <= bytes.size(); end += 1 + end / 50) {
+    Stream stream(Prefix(bytes).first(end));
+    if (stream.status() != TKS_OK) {
+      EXPECT_EQ(stream.status(), TKS_TRUNCATED);
+      continue;
+    }
+    std::vector<std::byte> samples(stream.heightsBytes());
+    EXPECT_EQ(tks_decode_heights(stream.get(), samples.data(), samples.size()), TKS_OK);
+  }
+}
+
+/// Whoever works, in whatever order each tile comes behind those that it needs, and whatever was
+/// lost on the way: the stream has the same bytes.
+TEST(MosaicStream, DoesNotDependOnWhoWorkedWhen) {
+  Source source(hills(TKS_I16));
+  dig(source, samples::VoidShape::kCoast);
+  tks_mosaic_options options = mosaicOptions();
+  options.lossless = 1;
+  const Bytes expected = mosaicOf(source, options), plan = planOf(source, options);
+  std::vector<tks_tile> tiles = tilesOf(plan);
+  std::mt19937 random(1);
+  for (int round = 0; round < 3; ++round) {
+    Files files;
+    std::shuffle(tiles.begin(), tiles.end(), random);
+    size_t left = tiles.size(), runs = 0;
+    while (left > 0 && ++runs < 20 * tiles.size()) {
+      for (const tks_tile& tile : tiles) {
+        if (isDone(plan, tile, files)) continue;
+        const tks_status status =
+            code(plan, tile, source, files, 1 + static_cast<uint32_t>(random() % 3));
+        EXPECT_TRUE(status == TKS_OK || (status == TKS_IO && tile.group > 0));
+        // A worker that is killed leaves a part, or nothing.
+        if (random() % 4 == 0 && !files.all.empty())
+          files.all.erase(
+              std::next(files.all.begin(), static_cast<ptrdiff_t>(random() % files.all.size())));
+      }
+      left = static_cast<size_t>(std::count_if(
+          tiles.begin(), tiles.end(), [&](const tks_tile& t) { return !isDone(plan, t, files); }));
+    }
+    Bytes stream;
+    EXPECT_EQ(merge(plan, files, stream), TKS_OK);
+    EXPECT_TRUE(stream == expected);
+  }
+}
+
+TEST(MosaicStream, FindsEveryDamagedByteOfAPart) {
+  Source source(hills(TKS_I16, 130, 70));
+  dig(source, samples::VoidShape::kCoast);
+  tks_mosaic_options options = mosaicOptions();
+  options.lossless = 1;
+  const Bytes plan = planOf(source, options);
+  Files files;
+  for (const tks_tile& tile : tilesOf(plan)) ASSERT_EQ(code(plan, tile, source, files), TKS_OK);
+  Bytes expected;
+  ASSERT_EQ(merge(plan, files, expected), TKS_OK);
+  constexpr size_t kTable = 32;  // behind it may lie codewords, at which only the merge looks
+  for (auto& [name, bytes] : files.all) {
+    const bool is_low = name.ends_with(".low");
+    for (size_t i = 0; i < bytes.size(); i += 1 + i / 16) {
+      bytes[i] ^= 0x10;
+      Bytes stream;
+      const tks_status status = merge(plan, files, stream);
+      EXPECT_TRUE(is_low ? status == TKS_OK && stream == expected : status == TKS_IO) << name << i;
+      const std::vector<tks_tile> tiles = tilesOf(plan);
+      const auto lost = [&](const tks_tile& tile) { return !isDone(plan, tile, files); };
+      if (is_low || i < kTable) {
+        EXPECT_TRUE(std::any_of(tiles.begin(), tiles.end(), lost)) << name << i;
+      }
+      bytes[i] ^= 0x10;
+    }
+    const Bytes whole = bytes;
+    bytes.pop_back();
+    Bytes stream;
+    EXPECT_EQ(merge(plan, files, stream), is_low ? TKS_OK : TKS_IO);
+    bytes = whole;
+  }
+}
+
+TEST(MosaicStream, FindsEveryDamagedByteOfAPlan) {
+  Source source(hills(TKS_I16, 130, 70));
+  tks_mosaic_options options = mosaicOptions();
+  options.lossless = 1;
+  Bytes plan = planOf(source, options);
+  size_t count = 0;
+  for (size_t i = 0; i < plan.size(); ++i) {
+    plan[i] ^= 1;
+    const tks_status status = tks_mosaic_tiles(plan.data(), plan.size(), nullptr, 0, &count);
+    EXPECT_TRUE(status == TKS_CORRUPT || (status == TKS_UNSUPPORTED && i == 4)) << i;
+    plan[i] ^= 1;
+    EXPECT_EQ(tks_mosaic_tiles(plan.data(), i, nullptr, 0, &count), TKS_CORRUPT);
+  }
+}
+
+/// Parts of another plan are missing ones.
+TEST(MosaicStream, TellsPlansApart) {
+  Source source(hills(TKS_I16));
+  tks_mosaic_options options = mosaicOptions();
+  options.lossless = 1;
+  const Bytes plan = planOf(source, options);
+  Files files;
+  for (const tks_tile& tile : tilesOf(plan)) ASSERT_EQ(code(plan, tile, source, files), TKS_OK);
+  options.lossless = 0;
+  options.max_error = 3;
+  const Bytes other = planOf(source, options);
+  for (const tks_tile& tile : tilesOf(other)) EXPECT_FALSE(isDone(other, tile, files));
+  Bytes stream;
+  EXPECT_EQ(merge(other, files, stream), TKS_IO);
+}
+
+TEST(MosaicStream, RefusesWhatItCannotPromise) {
+  Raster rough = quarters();
+  for (size_t i = 0; i < rough.data.size() / 4; ++i) {
+    const auto value = std::sqrt(static_cast<float>(i));
+    std::memcpy(rough.data.data() + 4 * i, &value, 4);
+  }
+  Source source(rough);
+  tks_mosaic_options options = mosaicOptions();
+  options.lossless = 1;
+  planOf(source, options, TKS_USAGE);  // floats without a step
+  options.bytes = 100;
+  planOf(source, options, TKS_USAGE);  // two targets
+  options = mosaicOptions();
+  planOf(source, options, TKS_USAGE);  // none
+  options.max_error = 1e-7;
+  planOf(source, options, TKS_USAGE);
+  options.max_error = 1;
+  options.tile = 16;
+  planOf(source, options, TKS_USAGE);  // less than a region
+  options.tile = 100;
+  planOf(source, options, TKS_USAGE);
+  options.tile = 64;
+  source.heights.domain = TKS_DOMAIN_CYLINDER;
+  planOf(source, options, TKS_USAGE);
+  source.heights.domain = TKS_DOMAIN_PLANE;
+  source.fails = true;
+  planOf(source, options, TKS_IO);
+}
+
+/// A source that changes under way cannot make a stream that lies.
+TEST(MosaicStream, RefusesSamplesThatThePlanDoesNotAllow) {
+  Source source(quarters());
+  tks_mosaic_options options = mosaicOptions();
+  options.lossless = 1;
+  const Bytes plan = planOf(source, options);
+  Files files;
+  constexpr float kInfinite = std::numeric_limits<float>::infinity();
+  for (const float other : {0.1f, -0.0f, 1e9f, std::nanf(""), kInfinite}) {
+    std::memcpy(source.raster.data.data(), &other, sizeof other);
+    EXPECT_EQ(code(plan, {0, 0, 0}, source, files), TKS_USAGE) << other;
+  }
+  EXPECT_EQ(files.writes, 0u);
+  EXPECT_EQ(code(plan, {0, 4, 2}, source, files), TKS_OK);
+  EXPECT_EQ(code(plan, {7, 0, 0}, source, files), TKS_USAGE);
+  source.heights.width = 300;
+  EXPECT_EQ(code(plan, {0, 1, 0}, source, files), TKS_USAGE);
+}
+
+/// What a task asks for does not grow with the plane.
+TEST(MosaicStream, ReadsNoMoreThanATileAndItsHalo) {
+  Source source(hills(TKS_U8, 1200, 900));
+  tks_mosaic_options options = mosaicOptions();
+  options.lossless = 1;
+  const Bytes plan = planOf(source, options);
+  source.largest = 0;
+  Files files;
+  EXPECT_EQ(code(plan, {0, 3, 3}, source, files), TKS_OK);
+  EXPECT_EQ(source.largest, uint64_t{64 + 256} * (64 + 256));
+}
+
+}  // namespace
+}  // namespace tetrakis::test
