@@ -198,14 +198,18 @@ std::vector<EncodedTrack> encodePlanes(TransformedPlanes transformed, const Trac
   return encodeTracks(sources, options);
 }
 
-/// Coding ends at a part of the error that is to be reached: the account is not as exact as that,
-/// and samples are rounded, which matters where few steps are left.
+}  // namespace
+
+// Coding ends at a part of the error that is to be reached: the account is not as exact as that,
+// and samples are rounded, which matters where few steps are left.
 TrackOptions untilReached(const TextureOptions& options, uint64_t samples) {
   TrackOptions tracks{options.limit, options.threads};
   if (options.mean_square > kLeastSquares)
     tracks.enough = options.mean_square / kPartOfTarget * static_cast<double>(samples);
   return tracks;
 }
+
+namespace {
 
 /// roundedSquares() of all planes, by the first, which holds most of the bits.
 double roundedSquaresOf(const WaveletCoding& coding, const ColourPlanes& colours, Mask lifted) {

@@ -49,6 +49,9 @@ std::vector<double> energiesOf(size_t planes, const ColourTransform& colour, int
 std::array<int64_t, 4> prioritiesOf(size_t planes, const ColourTransform& colour,
                                     const ChannelWeights& weights);
 
+/// Where coding ends for an error that is to be reached. samples: that count.
+TrackOptions untilReached(const TextureOptions& options, uint64_t samples);
+
 /// Writes the transform into a header.
 void describeColour(const ColourTransform& colour, TextureHeader& header);
 

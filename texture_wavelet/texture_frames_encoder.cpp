@@ -83,7 +83,8 @@ EncodedTexture encodeTextureFrames(const std::vector<Texels>& frames, bool ring,
   header.wavelet.ring = ring;
   source.layout = frameLayoutOf(header);
   const bool whole = header.wavelet.fraction_bits == 0;
-  encoded.tracks = encodeFramePlanes(std::move(source), {options.limit, options.threads});
+  const uint64_t samples = frames.size() * first.samples.size();
+  encoded.tracks = encodeFramePlanes(std::move(source), untilReached(options, samples));
   header.planes = static_cast<uint8_t>(encoded.tracks.front().planes);
   if (whole) header.wavelet.rounded_bytes = roundedBytes(encoded.tracks, 0);
   return encoded;

@@ -141,7 +141,7 @@ double TextureFrames::squaresOf(const Codewords& prefix, uint32_t threads,
   return squares;
 }
 
-TextureFrames codeTextureFrames(const GroupInputs& inputs) {
+TextureFrames codeTextureFrames(const GroupInputs& inputs, bool to_the_end) {
   TextureFrames frames;
   std::shared_ptr<const TextureSource> first;
   for (const tks_image& image : inputs.images) {
@@ -150,8 +150,10 @@ TextureFrames codeTextureFrames(const GroupInputs& inputs) {
     if (first == nullptr) first = std::move(source);
   }
   const EncodeInputs like_first = inputs.first();
-  EncodedTexture encoded = encodeTextureFrames(frames.truth, first->ring, purposeOf(like_first),
-                                               textureOptions(like_first, first->texels));
+  TextureOptions options = textureOptions(like_first, first->texels);
+  if (to_the_end) options.mean_square = 0;
+  EncodedTexture encoded =
+      encodeTextureFrames(frames.truth, first->ring, purposeOf(like_first), options);
   frames.coded = std::make_shared<const CodedTexture>(
       CodedTexture{std::move(first), std::move(encoded.header), std::move(encoded.tracks)});
   return frames;

@@ -54,6 +54,7 @@ struct TextureFrames {
 
 /// TKS_USAGE: a sample is infinite. TKS_UNSUPPORTED: as of stepsOfFrames().
 Result<HeightFrames> codeHeightFrames(const GroupInputs& inputs);
-TextureFrames codeTextureFrames(const GroupInputs& inputs);
+/// Coding for a PSNR ends by the account, and may end too early. to_the_end: it does not.
+TextureFrames codeTextureFrames(const GroupInputs& inputs, bool to_the_end = false);
 
 }  // namespace tetrakis::inline groups

@@ -123,6 +123,16 @@ std::vector<Packet> keepForPsnr(const GroupInputs& inputs, const Group& group,
   return keepNeeded(packets, needs, quality_after);
 }
 
+/// The texture, coded as far as its target needs.
+TextureFrames textureFor(const GroupInputs& inputs) {
+  TextureFrames frames = codeTextureFrames(inputs);
+  if (inputs.options.psnr <= 0) return frames;
+  const double most = worstMeanSquare(frames.truth.front().white(), inputs.options.psnr);
+  const double squares =
+      frames.squaresOf(codewordsOf(frames.coded->tracks), inputs.options.threads, nullptr);
+  return squares / frames.counted() <= most ? frames : codeTextureFrames(inputs, true);
+}
+
 Result<std::vector<uint8_t>> encodeForTarget(const GroupInputs& inputs) {
   Group group;
   if (!inputs.heights.empty()) {
@@ -130,7 +140,7 @@ Result<std::vector<uint8_t>> encodeForTarget(const GroupInputs& inputs) {
     if (!heights.ok()) return heights.status();
     group.heights = *std::move(heights);
   }
-  if (!inputs.images.empty()) group.texture = codeTextureFrames(inputs);
+  if (!inputs.images.empty()) group.texture = textureFor(inputs);
   std::array<std::optional<Part>, kComponents> parts;
   Selection selection;
   if (group.heights) {

@@ -15,6 +15,7 @@
 #include "tests/support/decode_calls.hpp"
 #include "tests/support/forest_raster.hpp"
 #include "tests/support/forest_shapes.hpp"
+#include "tests/support/moving_frames.hpp"
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {
@@ -86,6 +87,20 @@ TEST(DecodeMemory, HeightsOfEveryKindStayBelowTheBound) {
   expectWithinBounds(encode(&heights, nullptr, within(100)), "corrections of steps");
   expectWithinBounds(withVoids(heights, lossless()), "voids");
   expectWithinBounds(withVoids(heights, inRegions(budget(9000), 64)), "voids in regions");
+}
+
+TEST(DecodeMemory, FramesStayBelowTheBound) {
+  const FrameRasters frames = movingFrames({Pattern::kRidges, 90, 70, 1, TKS_U16}, 5);
+  const FrameRasters images = movingFrames({Pattern::kHills, 80, 75, 3, TKS_U8}, 5);
+  expectWithinBounds(encodeFrames(heightsOf(frames), {}, lossless()), "frames");
+  expectWithinBounds(encodeFrames(heightsOf(frames), imagesOf(images), inRegions(lossless(), 32)),
+                     "frames in regions");
+  std::vector<tks_heights> holes = heightsOf(frames);
+  for (tks_heights& heights : holes) {
+    heights.has_nodata = 1;
+    heights.nodata = sampleAt(frames[0].data, TKS_U16, 45);
+  }
+  expectWithinBounds(encodeFrames(holes, {}, lossless()), "frames with voids", true);
 }
 
 /// Of coarse levels and small windows the masks take most.

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sequences on the command line: frames of files in and out, targets, cuts, comparisons, and
+// mistakes with the name of the file in their sentence.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_fixture.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+class CliSequence : public CliTest {
+ protected:
+  using Json = nlohmann::json;
+
+  void synth(const std::string& kind, uint32_t frames, uint32_t size = 33) {
+    const Outcome made = cli("synth -q --kind " + kind + " --frames " + std::to_string(frames) +
+                             " --size " + std::to_string(size) + " -o " + kind);
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+  Json json(const std::string& arguments) {
+    const Outcome outcome = cli(arguments + " --json -q");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return Json::parse(outcome.out, nullptr, false);
+  }
+  static std::string file(const std::string& kind, uint32_t frame, const std::string& extension) {
+    return kind + "/frame-00" + std::to_string(frame) + extension;
+  }
+};
+
+TEST_F(CliSequence, FramesComeBackByNumberAndByTime) {
+  for (const std::string kind : {"erosion", "rover"}) {
+    synth(kind, 7);
+    const Outcome encoded =
+        cliOf({"encode", kind + "/*.tif", "--every", "1800", "--epoch", "2019-03-01T00:00:00Z",
+               "--group", "3", "--lossless", "-o", kind + ".tks"});
+    ASSERT_EQ(encoded.code, 0) << encoded.err;
+    EXPECT_NE(encoded.err.find("7 frames"), std::string::npos);
+    for (const uint32_t frame : {0u, 4u, 6u}) {
+      const std::string by_time = std::to_string(1800 * frame + 900);
+      for (const std::string& which : {"--frame " + std::to_string(frame), "--time " + by_time}) {
+        const Outcome decoded = cli("decode -q " + kind + ".tks " + which + " --height o.tif -f");
+        ASSERT_EQ(decoded.code, 0) << decoded.err;
+        const auto original = tools::readHeights(path(file(kind, frame, ".tif")));
+        const auto copy = tools::readHeights(path("o.tif"));
+        ASSERT_TRUE(original.ok() && copy.ok());
+        EXPECT_TRUE(sameBytes(copy->data, original->data)) << kind << " " << which;
+      }
+    }
+    const Json info = json("info " + kind + ".tks --frame 4");
+    EXPECT_EQ(info["sequence"]["frames"], 7);
+    EXPECT_EQ(info["sequence"]["groups"], 3);
+    EXPECT_EQ(info["sequence"]["seconds"], 4 * 1800);
+    EXPECT_EQ(info["sequence"]["epoch"], "2019-03-01T00:00:00Z");
+    EXPECT_EQ(info["frame"], 1);
+  }
+}
+
+TEST_F(CliSequence, EveryFrameKeepsItsPromise) {
+  synth("flood", 5);
+  ASSERT_EQ(cliOf({"encode", "flood/*.tif", "--max-error", "1m", "-q", "-o", "f.tks"}).code, 0);
+  const Json compared = json("compare f.tks --height flood/*.tif");
+  EXPECT_EQ(compared["frames"], 5);
+  EXPECT_LE(compared["height_max_error"], 1);
+  EXPECT_GT(compared["height_max_error"], 0.1);
+  EXPECT_EQ(compared["of_frames"].size(), 5u);
+}
+
+TEST_F(CliSequence, BytesAreThoseOfAllFrames) {
+  synth("clouds", 6);
+  ASSERT_EQ(cliOf({"encode", "--texture", "clouds/*.png", "--bytes", "6000", "--group", "4", "-q",
+                   "-o", "all.tks"})
+                .code,
+            0);
+  EXPECT_LE(content("all.tks").size(), 6000u);
+  EXPECT_GE(content("all.tks").size(), 5900u);
+  ASSERT_EQ(cliOf({"encode", "--texture", "clouds/*.png", "--rate", "2000", "--fps", "4", "--group",
+                   "3", "-q", "-o", "rate.tks"})
+                .code,
+            0);
+  EXPECT_LE(content("rate.tks").size(), 3000u);
+  const Json compared = json("compare all.tks --texture clouds/*.png");
+  EXPECT_GT(compared["texture_psnr"], 15);
+}
+
+TEST_F(CliSequence, CutsKeepWholeGroupsAndAPartOfTheNext) {
+  synth("erosion", 6);
+  ASSERT_EQ(
+      cliOf({"encode", "erosion/*.tif", "--group", "3", "--lossless", "-q", "-o", "e.tks"}).code,
+      0);
+  const Json second = json("info e.tks --frame 3");
+  const size_t bytes = second["sequence"]["group_offset"].get<size_t>() + 400;
+  ASSERT_EQ(cli("truncate e.tks --bytes " + std::to_string(bytes) + " -o cut.tks").code, 0);
+  EXPECT_EQ(content("cut.tks"), content("e.tks").substr(0, bytes));
+  const Json cut = json("info cut.tks --frame 5");
+  EXPECT_EQ(cut["complete"], false);
+  EXPECT_EQ(
+      json("compare cut.tks --frame 2 --height " + file("erosion", 2, ".tif"))["height_exact"],
+      true);
+  EXPECT_EQ(
+      json("compare cut.tks --frame 5 --height " + file("erosion", 5, ".tif"))["height_exact"],
+      false);
+  EXPECT_EQ(cli("info cut.tks --strict").code, 4);
+}
+
+TEST_F(CliSequence, MistakesAreSentences) {
+  synth("erosion", 2);
+  synth("rover", 3, 17);
+  const Outcome none = cliOf({"encode", "none/*.tif", "--lossless", "-o", "x.tks"});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("none/*.tif"), std::string::npos);
+  std::filesystem::copy_file(path("rover/frame-002.tif"), path("erosion/frame-002.tif"));
+  const Outcome unlike = cliOf({"encode", "erosion/*.tif", "--lossless", "-q", "-o", "x.tks"});
+  EXPECT_EQ(unlike.code, 1);
+  EXPECT_NE(unlike.err.find("frame-002.tif"), std::string::npos);
+  EXPECT_EQ(names().count("x.tks"), 0u);
+  EXPECT_EQ(cli("encode rover/frame-000.tif --fps 2 --lossless -o x.tks").code, 1);
+  ASSERT_EQ(cliOf({"encode", "rover/*.tif", "--lossless", "-q", "-o", "r.tks"}).code, 0);
+  EXPECT_EQ(cli("decode r.tks --frame 3 --height o.tif").code, 1);
+  EXPECT_EQ(cli("decode r.tks --time 1 --height o.tif").code, 1);  // nobody knows its ticks
+}
+
+}  // namespace
+}  // namespace tetrakis::test
