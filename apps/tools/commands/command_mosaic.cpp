@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // tetrakis mosaic: heights that no machine holds, tile by tile. Each verb below it does one step in
-// a folder that all workers share (plan, code, tasks, status, merge, verify), or all of them (join).
+// a folder that all workers share: plan, code, tasks, status, merge, verify; join does all of them.
 #include <memory>
 #include <string>
 

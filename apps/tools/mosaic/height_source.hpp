@@ -55,8 +55,8 @@ Result<OpenSource> openGrid(const std::vector<std::string>& paths,
 Result<OpenSource> openSource(const std::vector<std::string>& files,
                               const std::optional<double>& nodata, Notes& notes);
 
-/// The files that are meant: those of a folder that are .tif, .hgt or .tks, in the order of their names,
-/// or the paths themselves.
+/// The files that are meant: those of a folder that are .tif, .hgt or .tks, in the order of their
+/// names, or the paths themselves.
 Result<std::vector<std::string>> sourceFiles(const std::vector<std::string>& paths);
 
 }  // namespace tetrakis::tools

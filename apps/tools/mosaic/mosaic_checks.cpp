@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// showMosaic() and verifyMosaic() look at a mosaic: how far it is, and whether its stream keeps what
-// was promised.
+// showMosaic() and verifyMosaic() look at a mosaic: how far it is, and whether its stream keeps
+// what was promised.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -48,7 +48,7 @@ Status showMosaic(const std::string& work, bool json_wanted) {
 
 namespace {
 
-/// Largest difference of a window of the source and of the stream, in sample units; voids are equal.
+/// Largest difference of samples of the source and of the stream, in sample units; voids are equal.
 double largestDifference(tks_sample sample, const std::vector<std::byte>& a,
                          const std::vector<std::byte>& b) {
   return withSampleType(sample, [&](auto type) {
