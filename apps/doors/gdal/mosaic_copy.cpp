@@ -145,7 +145,6 @@ tks_status Tiles::plan(bool strict, std::string& sentence) {
   tks_status status = tks_mosaic_plan(&source_, &*wanted, &plan_, message, sizeof message);
   if (fill_) declareFill(name_, strict, *fill_, windows_.heights());
   if (fill_ && !strict) {  // which has ended the first plan
-    read_ = 0;
     status = tks_mosaic_plan(&source_, &*wanted, &plan_, message, sizeof message);
   }
   planning_ = false;

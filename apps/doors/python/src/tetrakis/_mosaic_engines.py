@@ -46,7 +46,8 @@ class _Waiting:
 
 def run_by_threads(mosaic: Any, tiles: List[Any], workers: int, told: Told) -> None:
     """The library releases the GIL, so that threads work side by side."""
-    waiting, running, done = _Waiting(mosaic, tiles), {}, 0  # type: Any, Dict[Any, Any], int
+    waiting, done = _Waiting(mosaic, tiles), 0
+    running: Dict[Any, Any] = {}
     with futures.ThreadPoolExecutor(workers, "tetrakis") as pool:
         while True:
             while len(running) < workers:
@@ -86,9 +87,8 @@ def run_by_dask(mosaic: Any, tiles: List[Any], client: Any, told: Told) -> None:
             pure=False,
         )
     try:
-        for done, (_, failed) in enumerate(
-            as_completed(submitted.values(), with_results=True, raise_errors=True), 1
-        ):
+        ended = as_completed(submitted.values(), with_results=True)  # raises what a task raises
+        for done, _ in enumerate(ended, 1):
             told(done)
     finally:
         client.cancel([shared, *submitted.values()], force=True)
