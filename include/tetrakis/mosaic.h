@@ -45,7 +45,7 @@ typedef struct tks_mosaic_source {
 typedef struct tks_mosaic_options {
   size_t size;      /* sizeof(tks_mosaic_options) */
   uint64_t bytes;   /* of the stream, at most */
-  double psnr;      /* of the samples, by their range */
+  double psnr;      /* of the samples, by their range; by an estimate, which may be a little off */
   double max_error; /* of every sample, in the unit of the heights */
   int lossless;
   uint32_t regions; /* side of the regions that tracks hold, in samples: a power of two from 16 on;
