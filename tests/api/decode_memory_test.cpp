@@ -103,6 +103,44 @@ TEST(DecodeMemory, FramesStayBelowTheBound) {
   expectWithinBounds(encodeFrames(holes, {}, lossless()), "frames with voids", true);
 }
 
+/// Encodes and decodes so many groups of four frames as they come, and returns the peak.
+uint64_t peakOfSequence(const FrameRasters& frames, uint32_t groups) {
+  const tks_encode_options encode = lossless();
+  tks_sequence_options options = {};
+  options.size = sizeof options;
+  options.group = 4;
+  options.encode = &encode;
+  return peakBytes([&] {
+    tks_sequence_encoder* encoder = nullptr;
+    tks_sequence* sequence = nullptr;
+    EXPECT_EQ(tks_sequence_encoder_open(&options, &encoder, nullptr, 0), TKS_OK);
+    EXPECT_EQ(tks_sequence_open(nullptr, &sequence), TKS_OK);
+    for (uint32_t t = 0; t < 4 * groups; ++t) {
+      const tks_heights heights = frames[t % 4].heights();
+      EXPECT_EQ(tks_sequence_push(encoder, &heights, nullptr, t, nullptr, 0), TKS_OK);
+      tks_buffer ready = {};
+      EXPECT_EQ(tks_sequence_take(encoder, &ready), TKS_OK);
+      EXPECT_EQ(tks_sequence_append(sequence, ready.data, ready.size), TKS_OK);
+      tks_free_buffer(&ready);
+      if (t % 4 < 3) continue;
+      tks_decoder* decoder = nullptr;
+      std::vector<std::byte> samples(frames[0].data.size());
+      EXPECT_EQ(tks_sequence_frame(sequence, t, &decoder), TKS_OK);
+      EXPECT_EQ(tks_decode_heights(decoder, samples.data(), samples.size()), TKS_OK);
+      EXPECT_TRUE(sameBytes(samples, frames[3].data));
+      EXPECT_EQ(tks_sequence_forget(sequence, t), TKS_OK);
+    }
+    tks_sequence_close(sequence);
+    tks_sequence_encoder_close(encoder);
+  });
+}
+
+TEST(DecodeMemory, SequencesTakeThatOfAGroup) {
+  const FrameRasters frames = movingFrames({Pattern::kRidges, 24, 20, 1, TKS_U16}, 4);
+  const uint64_t few = peakOfSequence(frames, 3), many = peakOfSequence(frames, 40);
+  EXPECT_LE(many, few + 40 * 150);  // the encoder knows where its groups lie
+}
+
 /// Of coarse levels and small windows the masks take most.
 TEST(DecodeMemory, BridgedHolesStayBelowTheBound) {
   constexpr uint32_t kWidth = 700, kHeight = 640;

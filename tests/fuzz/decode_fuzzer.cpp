@@ -137,6 +137,25 @@ void growAndDecode(std::span<const uint8_t> bytes) {
   decode();
 }
 
+/// The last frame, and the first one again.
+void showFrames(tetrakis::Decoder& decoder) {
+  const uint32_t last = decoder.info().frames - 1;
+  for (const uint32_t frame : {last, 0u}) {
+    if (!decoder.setFrame(frame).ok()) std::abort();
+    if (decoder.info().has_heights) static_cast<void>(decoder.heights());
+    if (decoder.info().has_texture) static_cast<void>(decoder.texture());
+  }
+}
+
+/// The bytes as a sequence, or the end of one.
+void passGroups(std::span<const uint8_t> bytes) {
+  static_cast<void>(tetrakis::Sequence::open(bytes));
+  tks_range range = {};
+  int found = 0;
+  for (const int by_time : {0, 1})
+    tks_sequence_locate(bytes.data(), bytes.size(), bytes.size(), by_time, 7, &range, &found);
+}
+
 }  // namespace
 
 /// Random bytes never pass the header's checksum: every other mutant gets the right one.
@@ -148,6 +167,7 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  passGroups({data, size});
   auto decoder = tetrakis::Decoder::open({data, size}, fuzzLimits());
   if (!decoder) {
     checkPace({data, size});
@@ -165,6 +185,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   makeObjects(*decoder);
   planAndMeasure(*decoder);
+  if (info.frames > 1) showFrames(*decoder);
   if (info.has_texture) static_cast<void>(decoder->texture());
   const auto coarser = [size](uint32_t coarsest) {
     return static_cast<uint32_t>(size) % (coarsest + 1);

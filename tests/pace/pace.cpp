@@ -82,7 +82,7 @@ void watchHeights(tks_decoder* decoder, const tks_info& info, Watch& watch) {
   float height = 0;
   uint32_t sample = 0;
   const uint64_t count = uint64_t{info.width} * info.height;
-  const auto samples = static_cast<double>(count);
+  const auto samples = static_cast<double>(count) * info.frames;  // all frames are decoded
   watch.window("a window of the surface", samples,
                [&] { tks_decode_surface_window(decoder, &window, &height, 1); });
   watch.window("a window of the heights", samples, [&] {
@@ -108,11 +108,12 @@ void watchTexture(tks_decoder* decoder, const tks_info& info, Watch& watch) {
   uint64_t texel = 0;
   const size_t texel_bytes = info.texture_channels * tks_sample_bytes(info.texture_sample);
   const uint64_t count = uint64_t{info.texture_width} * info.texture_height * info.texture_channels;
-  watch.window("a window of the texture", static_cast<double>(count),
+  const auto samples = static_cast<double>(count) * info.frames;
+  watch.window("a window of the texture", samples,
                [&] { tks_decode_texture_window(decoder, &window, &texel, texel_bytes); });
   if (count > kMostSamples) return;
   std::vector<uint8_t> texels(count * tks_sample_bytes(info.texture_sample));
-  watch.all("the texture", static_cast<double>(count),
+  watch.all("the texture", samples,
             [&] { tks_decode_texture(decoder, texels.data(), texels.size()); });
 }
 
@@ -121,9 +122,9 @@ void watchLevels(tks_decoder* decoder, Watch& watch) {
   tks_info info = {};
   info.size = sizeof info;
   tks_get_info(decoder, &info);
-  const double heights = static_cast<double>(info.width) * info.height;
-  const double texels_of_plane =
-      static_cast<double>(info.texture_width) * info.texture_height * info.texture_channels;
+  const double heights = static_cast<double>(info.width) * info.height * info.frames;
+  const double texels_of_plane = static_cast<double>(info.texture_width) * info.texture_height *
+                                 info.texture_channels * info.frames;
   tks_set_levels(decoder, info.coarsest_level, info.texture_coarsest_level);
   tks_get_info(decoder, &info);
   std::vector<float> surface(size_t{info.width} * info.height);

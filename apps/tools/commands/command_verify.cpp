@@ -15,7 +15,33 @@
 namespace tetrakis::tools {
 namespace {
 
+/// Every group by itself.
+Status verifySequence(const std::string& path, std::span<const uint8_t> bytes, bool quiet) {
+  const Result<Sequence> sequence = Sequence::open(bytes);
+  if (!sequence) return sequence.status();
+  const tks_sequence_info info = sequence->info();
+  if (info.whole_bytes < bytes.size())
+    return Status(TKS_TRUNCATED, quoted(path) + " ends inside a group");
+  for (uint64_t frame = info.first_frame; frame < info.end_frame;) {
+    const Result<tks_group> group = sequence->group(frame);
+    if (!group) return group.status();
+    Result<Decoder> decoder = openDecoder(bytes.subspan(group->stream_offset, group->stream_bytes));
+    Status status = decoder ? decoder->verify() : decoder.status();
+    if (!status.ok())
+      return Status(status.code(),
+                    "the group of frame " + std::to_string(frame) + ": " + status.message());
+    frame += group->frames;
+  }
+  if (quiet) return Status();
+  return print(quoted(path) + ": valid, " + std::to_string(bytes.size()) + " bytes, " +
+               counted(info.end_frame - info.first_frame, "frame", "frames") + " in " +
+               counted(info.groups, "group", "groups") + "\n");
+}
+
 Status verifyStream(const std::string& path, bool quiet) {
+  const Result<std::vector<std::byte>> bytes = readBytes(path);
+  if (!bytes.ok()) return bytes.status();
+  if (isSequence(*bytes)) return verifySequence(path, octets(*bytes), quiet);
   const Result<OpenStream> stream = openStream({path, std::nullopt, true});
   if (!stream.ok()) return stream.status();
   if (quiet) return Status();
