@@ -50,8 +50,9 @@ typedef struct tks_mosaic_options {
   int lossless;
   uint32_t regions; /* side of the regions that tracks hold, in samples: a power of two from 16 on;
                        0: 512 */
-  uint32_t tile;    /* side of the tiles, likewise: at least a region, at most 16384; 0: 4096. A task
-                       takes 8 to 11 bytes for each sample of its tile and of the 128 around it */
+  uint32_t tile;    /* side of the tiles, likewise: at least a region, at most 16384; 0: 4096. A
+                       task takes 8 to 11 bytes for each sample of its tile and of the 128 around
+                       it */
 } tks_mosaic_options;
 
 /* Makes the plan: some kilobytes that every task is given. It reads the source once, window by
