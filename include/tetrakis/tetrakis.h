@@ -738,7 +738,8 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
 tks_status tks_set_levels(tks_decoder* decoder, uint32_t heights, uint32_t texture);
 
 /* Sets the frame that calls decode from now on, of a stream of several (tks_info.frames); at first
- * it is 0. All frames of a view are decoded at once and kept, about 4 bytes a sample and frame, so
+ * it is 0. The first call for a view decodes all of its frames, and takes the time and the memory
+ * of all of them (tks_check_memory counts it); they are kept, in 4 bytes a sample and frame, so
  * that the others take hardly any time. TKS_USAGE: there is no such frame. */
 tks_status tks_set_frame(tks_decoder* decoder, uint32_t frame);
 
