@@ -97,6 +97,51 @@ namespace {
 
 constexpr uint32_t kUsualGroup = 16;
 
+/// What an encoder was before a call. It comes back unless the call is done: memory may end
+/// anywhere in it.
+class Before {
+ public:
+  explicit Before(tks_sequence_encoder& encoder)
+      : encoder_(encoder),
+        index_(encoder.index),
+        frames_(encoder.pending.frames.size()),
+        ready_(encoder.ready.size()),
+        first_(encoder.like.frames() == 0),
+        has_time_(encoder.has_time),
+        last_time_(encoder.last_time) {}
+  Before(const Before&) = delete;
+  Before& operator=(const Before&) = delete;
+  ~Before() {
+    if (done_) return;
+    encoder_.index = std::move(index_);
+    cut(encoder_.pending.frames, frames_);
+    cut(encoder_.pending.times, frames_);
+    encoder_.ready.resize(ready_);  // which is no more than there is
+    encoder_.has_time = has_time_;
+    encoder_.last_time = last_time_;
+    if (!first_) return;
+    encoder_.like = {};
+    encoder_.texts = {};
+  }
+
+  Status done(Status status) {
+    done_ = true;
+    return status;
+  }
+
+ private:
+  static void cut(auto& list, size_t count) {
+    if (list.size() > count) list.erase(list.begin() + static_cast<ptrdiff_t>(count), list.end());
+  }
+
+  tks_sequence_encoder& encoder_;
+  GroupIndex index_;
+  size_t frames_, ready_;
+  bool first_, has_time_;
+  int64_t last_time_;
+  bool done_ = false;
+};
+
 Status takeClock(const tks_clock& given, Clock& clock) {
   if (given.size == 0) return {};
   tks_clock known;
@@ -225,6 +270,7 @@ Status push(tks_sequence_encoder& encoder, const tks_heights* heights, const tks
   FrameArguments taken = encoder.like;
   Status status = takeFrame(heights, image, encoder.options, taken);
   if (!status.ok()) return status;
+  Before before(encoder);
   if (encoder.like.frames() == 0) {
     encoder.like = taken;
     encoder.texts.take(encoder.like);
@@ -236,7 +282,13 @@ Status push(tks_sequence_encoder& encoder, const tks_heights* heights, const tks
   encoder.pending.times.push_back(time);
   encoder.has_time = true;
   encoder.last_time = time;
-  return encoder.pending.frames.size() < encoder.group ? Status() : encodePending(encoder);
+  const bool whole = encoder.pending.frames.size() >= encoder.group;
+  return before.done(whole ? encodePending(encoder) : Status());
+}
+
+Status flush(tks_sequence_encoder& encoder) {
+  Before before(encoder);
+  return before.done(encodePending(encoder));
 }
 
 }  // namespace
@@ -271,8 +323,7 @@ tks_status tks_sequence_push(tks_sequence_encoder* encoder, const tks_heights* h
 
 tks_status tks_sequence_flush(tks_sequence_encoder* encoder, char* message, size_t message_size) {
   if (encoder == nullptr) return TKS_USAGE;
-  return tetrakis::reporting(message, message_size,
-                             [&] { return tetrakis::encodePending(*encoder); });
+  return tetrakis::reporting(message, message_size, [&] { return tetrakis::flush(*encoder); });
 }
 
 tks_status tks_sequence_take(tks_sequence_encoder* encoder, tks_buffer* out) {

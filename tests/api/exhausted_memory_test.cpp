@@ -340,6 +340,141 @@ Bytes vectorOf(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+tks_heights frameOf(int64_t time) {
+  static const samples::Raster frames[] = {
+      samples::make({samples::Pattern::kRidges, 7, 6, 1, TKS_I16, 1}),
+      samples::make({samples::Pattern::kRidges, 7, 6, 1, TKS_I16, 2})};
+  return frames[time % 2].heights();
+}
+
+tks_status openEncoder(Desk& d) {
+  tks_sequence_encoder_close(d.sequence_encoder);
+  d.sequence_encoder = nullptr;
+  static const tks_encode_options encode = lossless();
+  tks_sequence_options options = {};
+  options.size = sizeof options;
+  options.group = 2;
+  options.encode = &encode;
+  options.clock.size = sizeof options.clock;
+  return tks_sequence_encoder_open(&options, &d.sequence_encoder, d.message, sizeof d.message);
+}
+
+tks_status push(Desk& d, int64_t time) {
+  const tks_heights heights = frameOf(time);
+  return tks_sequence_push(d.sequence_encoder, &heights, nullptr, time, d.message,
+                           sizeof d.message);
+}
+
+tks_status flush(Desk& d) {
+  return tks_sequence_flush(d.sequence_encoder, d.message, sizeof d.message);
+}
+
+tks_status take(Desk& d) {
+  tks_free_buffer(&d.buffer);
+  return tks_sequence_take(d.sequence_encoder, &d.buffer);
+}
+
+/// The encoder with frames before this one.
+std::function<void(Desk&)> encoderAt(int64_t time) {
+  return [time](Desk& d) {
+    EXPECT_EQ(openEncoder(d), TKS_OK);
+    for (int64_t t = 0; t < time; ++t) EXPECT_EQ(push(d, t), TKS_OK);
+  };
+}
+
+std::vector<Called> sequenceEncoderCalls() {
+  const auto taken = [](Desk& d) { EXPECT_EQ(take(d), TKS_OK); };
+  return {{"tks_encode_frames",
+           [](Desk& d) {
+             tks_free_buffer(&d.buffer);
+             const tks_heights frames[] = {frameOf(0), frameOf(1)};
+             const tks_encode_options options = lossless();
+             return tks_encode_frames(frames, nullptr, 2, &options, &d.buffer, d.message,
+                                      sizeof d.message);
+           }},
+          {"tks_sequence_encoder_open", openEncoder},
+          {"tks_sequence_push", [](Desk& d) { return push(d, 1); }, encoderAt(1), taken},
+          {"tks_sequence_flush", flush, encoderAt(1), taken},
+          {"tks_sequence_take", take, encoderAt(2), [](Desk&) {}, false}};
+}
+
+/// Two groups of two frames.
+const Bytes& smallSequence() {
+  static const Bytes bytes = [] {
+    Desk d({});
+    encoderAt(4)(d);
+    EXPECT_EQ(take(d), TKS_OK);
+    return Bytes(d.buffer.data, d.buffer.data + d.buffer.size);
+  }();
+  return bytes;
+}
+
+tks_status openSequence(Desk& d) {
+  tks_sequence_close(d.sequence);
+  d.sequence = nullptr;
+  return tks_sequence_open(nullptr, &d.sequence);
+}
+
+tks_status append(Desk& d) {
+  return tks_sequence_append(d.sequence, smallSequence().data(), smallSequence().size());
+}
+
+std::vector<Called> sequenceCalls() {
+  const auto opened = [](Desk& d) { EXPECT_EQ(openSequence(d), TKS_OK); };
+  const auto filled = [](Desk& d) {
+    EXPECT_EQ(openSequence(d), TKS_OK);
+    EXPECT_EQ(append(d), TKS_OK);
+  };
+  const auto about = [&](const char* name, const std::function<tks_status(Desk&)>& run) {
+    return Called{name, run, filled, [](Desk&) {}, false};
+  };
+  return {{"tks_sequence_open", openSequence, [](Desk&) {}, [](Desk&) {}, false},
+          {"tks_sequence_append", append, opened, [](Desk&) {}, false},
+          about("tks_sequence_forget", [](Desk& d) { return tks_sequence_forget(d.sequence, 2); }),
+          about("tks_sequence_get_info",
+                [](Desk& d) {
+                  tks_sequence_info info = {};
+                  info.size = sizeof info;
+                  return tks_sequence_get_info(d.sequence, &info);
+                }),
+          about("tks_sequence_time",
+                [](Desk& d) {
+                  int64_t time = 0;
+                  return tks_sequence_time(d.sequence, 3, &time);
+                }),
+          about("tks_sequence_find",
+                [](Desk& d) {
+                  uint64_t frame = 0;
+                  return tks_sequence_find(d.sequence, 3, &frame);
+                }),
+          about("tks_sequence_group",
+                [](Desk& d) {
+                  tks_group group = {};
+                  group.size = sizeof group;
+                  return tks_sequence_group(d.sequence, 3, &group);
+                }),
+          about("tks_sequence_frame",
+                [](Desk& d) {
+                  tks_decoder* decoder = nullptr;
+                  return tks_sequence_frame(d.sequence, 3, &decoder);
+                }),
+          about("tks_sequence_locate", [](Desk&) {
+            tks_range range = {};
+            int found = 0;
+            return tks_sequence_locate(smallSequence().data(), smallSequence().size(),
+                                       smallSequence().size(), 0, 1, &range, &found);
+          })};
+}
+
+/// Of a stream of several frames.
+std::vector<Called> frameCalls() {
+  std::vector<Called> calls = heightCalls();
+  for (Called& called : calls)
+    called.before = [](Desk& d) { EXPECT_EQ(tks_set_frame(d.decoder, 1), TKS_OK); };
+  calls.push_back({"tks_set_frame", [](Desk& d) { return tks_set_frame(d.decoder, 1); }});
+  return calls;
+}
+
 void exhaustAll(const std::vector<Called>& calls, Prefix stream) {
   for (const Called& called : calls) exhaust(called, stream);
 }
@@ -381,6 +516,13 @@ TEST(ExhaustedMemory, OfObjects) {
   exhaust(encodingAnObject(), {});
 }
 
+TEST(ExhaustedMemory, OfSequences) {
+  exhaustAll(sequenceEncoderCalls(), {});
+  exhaustAll(sequenceCalls(), {});
+  exhaustAll(frameCalls(), vectorOf("frames_voids_40x33"));
+  exhaustAll(textureCalls(), vectorOf("frames_rgb_40x30"));
+}
+
 TEST(ExhaustedMemory, OfEncoders) {
   for (const Called& called : encodingCalls()) exhaust(called, {});
 }
@@ -418,10 +560,12 @@ TEST(ExhaustedMemory, IsTriedOfEveryFunction) {
   std::set<std::string> tried = {
       "tks_free_buffer",     "tks_free_mesh",        "tks_free_ranges",
       "tks_close",           "tks_free_mesh_tree",   "tks_message",
-      "tks_free_globe_mesh", "tks_free_object_mesh", "tks_encode_object"};
-  for (const auto& calls : {firstCalls(), decoderCalls(), indexCalls(), givingCalls(), meshCalls(),
-                            globeCalls(), objectCalls(), fittingCalls(), positionCalls(),
-                            cubeCalls(), encodingCalls(), heightCalls(), textureCalls()})
+      "tks_free_globe_mesh", "tks_free_object_mesh", "tks_encode_object",
+      "tks_sequence_close",  "tks_sequence_message", "tks_sequence_encoder_close"};
+  for (const auto& calls :
+       {firstCalls(), decoderCalls(), indexCalls(), givingCalls(), meshCalls(), globeCalls(),
+        objectCalls(), fittingCalls(), positionCalls(), cubeCalls(), encodingCalls(), heightCalls(),
+        textureCalls(), sequenceEncoderCalls(), sequenceCalls(), frameCalls()})
     for (const Called& called : calls) tried.insert(called.name);
   std::ifstream file(TETRAKIS_HEADER);
   const std::string header{std::istreambuf_iterator<char>(file), {}};

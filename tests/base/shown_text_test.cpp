@@ -8,7 +8,7 @@
 
 #include "base/shown_text.hpp"
 
-namespace tetrakis::base {
+namespace tetrakis::inline base {
 namespace {
 
 TEST(ShownText, KeepsOrdinaryText) {
@@ -74,4 +74,4 @@ TEST(ShownText, LeavesJsonAsItIs) {
 }
 
 }  // namespace
-}  // namespace tetrakis::base
+}  // namespace tetrakis::inline base

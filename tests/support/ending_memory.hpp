@@ -33,6 +33,8 @@ class Desk {
     tks_free_ranges(&ranges);
     tks_free_mesh_tree(tree);
     tks_close(decoder);
+    tks_sequence_close(sequence);
+    tks_sequence_encoder_close(sequence_encoder);
     EXPECT_FALSE(allocationHasFailed());
     failAllocation(0);
   }
@@ -74,6 +76,8 @@ class Desk {
   tks_object_mesh object = {};
   tks_ranges ranges = {};
   tks_mesh_tree* tree = nullptr;
+  tks_sequence* sequence = nullptr;
+  tks_sequence_encoder* sequence_encoder = nullptr;
   char message[128] = "";
 };
 
