@@ -111,17 +111,64 @@ Result<size_t> begin(tks_sequence& sequence, std::span<const uint8_t> bytes) {
   return taken;
 }
 
+/// What a sequence had before it was given bytes. It comes back unless they are taken, or refused:
+/// memory may end anywhere.
+class BeforeBytes {
+ public:
+  explicit BeforeBytes(tks_sequence& sequence)
+      : sequence_(sequence),
+        begun_(sequence.begun),
+        groups_(sequence.groups.size()),
+        bytes_(sequence.bytes),
+        whole_bytes_(sequence.whole_bytes) {
+    if (groups_ == 0) return;
+    available_ = sequence.groups.back().available;
+    of_stream_ = sequence.groups.back().stream.size();
+  }
+  BeforeBytes(const BeforeBytes&) = delete;
+  BeforeBytes& operator=(const BeforeBytes&) = delete;
+  ~BeforeBytes() {
+    if (done_) return;
+    while (sequence_.groups.size() > groups_) sequence_.groups.pop_back();
+    if (groups_ > 0) {
+      sequence_.groups.back().available = available_;
+      sequence_.groups.back().stream.resize(of_stream_);  // which is no more than there is
+    } else {
+      sequence_.clock = {};
+    }
+    sequence_.begun = std::move(begun_);
+    sequence_.bytes = bytes_;
+    sequence_.whole_bytes = whole_bytes_;
+  }
+
+  void done() { done_ = true; }
+
+ private:
+  tks_sequence& sequence_;
+  std::vector<uint8_t> begun_;
+  size_t groups_;
+  uint64_t bytes_, whole_bytes_;
+  uint64_t available_ = 0;  ///< of the last group
+  size_t of_stream_ = 0;
+  bool done_ = false;
+};
+
 Status append(tks_sequence& sequence, std::span<const uint8_t> bytes) {
   if (!sequence.refused.ok()) return sequence.refused;
+  BeforeBytes before(sequence);
   while (!bytes.empty()) {
     if (!sequence.groups.empty() && !sequence.groups.back().whole()) {
       bytes = bytes.subspan(grow(sequence, bytes));
       continue;
     }
     const Result<size_t> taken = begin(sequence, bytes);
-    if (!taken.ok()) return sequence.refused = taken.status();
+    if (!taken.ok()) {
+      before.done();
+      return sequence.refused = taken.status();
+    }
     bytes = bytes.subspan(*taken);
   }
+  before.done();
   return {};
 }
 
@@ -156,7 +203,7 @@ Status open(tks_sequence& sequence, uint64_t frame) {
     sequence.opened = group;
     tks_info info = {};
     info.size = sizeof info;
-    tks_get_info(opened, &info);
+    if (tks_get_info(opened, &info) != TKS_OK) throw std::bad_alloc();  // else it has no errors
     if (info.frames != group->parsed.head.frames()) {
       closeDecoder(sequence);
       return {TKS_CORRUPT,

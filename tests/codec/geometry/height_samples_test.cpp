@@ -49,7 +49,7 @@ void expectFormula(tks_sample sample) {
       decoded.geometry.heights = someHeights(random);
       decoded.geometry.fraction_bits = fraction_bits;
       GeometryHeader header{};
-      header.sample = sample;
+      header.sample = static_cast<uint8_t>(sample);
       header.base = scale.base;
       header.step = scale.step;
       const Plane& heights = decoded.geometry.heights;
