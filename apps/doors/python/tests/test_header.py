@@ -16,6 +16,8 @@ from tetrakis import _mosaic_library as m
 
 HEADERS = [REPOSITORY / "include" / "tetrakis" / name for name in ("tetrakis.h", "mosaic.h")]
 STRUCTS = {**c.STRUCTS, **m.STRUCTS}
+# Structs of calls that the package does not make: sequences.
+OTHERS = {"tks_clock", "tks_sequence_options", "tks_sequence_info", "tks_group"}
 PROTOTYPES = {**c.PROTOTYPES, **m.PROTOTYPES}
 
 
@@ -64,6 +66,8 @@ def layout(header, tmp_path_factory):
         pytest.skip("no C compiler")
     seen, lines = set(), []
     for name, field in fields_of(header):
+        if name in OTHERS:
+            continue
         if name not in seen:
             seen.add(name)
             lines.append(f'printf("{name} sizeof %zu 0\\n", sizeof({name}));')

@@ -361,6 +361,8 @@ class StreamInfo(ctypes.Structure):
         ("grid_height", c_uint32),
         ("base_mesh", BaseMesh),
         ("object_triangles", c_uint32),
+        ("frames", c_uint32),
+        ("frame", c_uint32),
     ]
 
 
