@@ -52,6 +52,7 @@ for (const name of ['tetrakis', 'tetrakis-raster', 'tetrakis-plain']) {
     const module = await WebAssembly.compile(await readFile(file));
     const manifest = JSON.parse(await readFile(new URL('manifest.json', vectors), 'utf8'));
     for (const vector of manifest.vectors) {
+      if (vector.name.startsWith('frames_')) continue; // modules show the first frame alone
       const bytes = new Uint8Array(await readFile(new URL(vector.file, vectors)));
       const decoder = new Decoder(module, 8 * 2 ** 30);
       decoder.append(bytes);
