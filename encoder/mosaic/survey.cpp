@@ -26,6 +26,8 @@ namespace {
 /// The part of the error of a PSNR that the accounts of tracks come down to: they estimate, and
 /// nobody decodes the plane. A larger part takes fewer bytes, and misses the PSNR of more heights.
 constexpr double kPartOfError = 0.94;
+/// More are in no stream that programs open.
+constexpr uint64_t kMostSamples = uint64_t{1} << 32;
 /// Sides of the windows that a survey reads. Larger ones take memory.
 constexpr uint32_t kWindowSide = 2048;
 
@@ -237,6 +239,8 @@ Status checkOptions(const MosaicOptions& options) {
 Result<MosaicPlan> makePlan(const tks_heights& source, const MosaicOptions& options,
                             const ReadSamples& read) {
   if (Status status = checkOptions(options); !status.ok()) return status;
+  if (uint64_t{source.width} * source.height > kMostSamples)
+    return Status(TKS_USAGE, "A mosaic has at most 2^32 samples.");
   MosaicPlan plan;
   plan.tile_log2 = options.tile_log2;
   plan.target.bounded = options.max_error > 0;

@@ -33,7 +33,8 @@ extern "C" {
 typedef int (*tks_read_window)(void* user, const tks_window* window, void* samples);
 
 /* The source of a mosaic: as of tks_encode, but its samples come by windows. `data` counts for
- * nothing. The domain is a plane. tks_heights.step: that of the samples; 0: it is found. */
+ * nothing. The domain is a plane of at most 2^32 samples. tks_heights.step: that of the samples; 0:
+ * it is found. */
 typedef struct tks_mosaic_source {
   size_t size; /* sizeof(tks_mosaic_source) */
   const tks_heights* heights;

@@ -449,6 +449,10 @@ TEST(MosaicStream, RefusesWhatItCannotPromise) {
   source.heights.domain = TKS_DOMAIN_CYLINDER;
   planOf(source, options, TKS_USAGE);
   source.heights.domain = TKS_DOMAIN_PLANE;
+  const tks_heights small = source.heights;
+  source.heights.width = source.heights.height = 65537;
+  planOf(source, options, TKS_USAGE);
+  source.heights = small;
   source.fails = true;
   planOf(source, options, TKS_IO);
 }
