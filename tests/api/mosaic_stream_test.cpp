@@ -180,6 +180,21 @@ TEST(MosaicStream, RestoresSamplesOfEveryType) {
   }
 }
 
+/// As files say of masks that have become something else.
+TEST(MosaicStream, ANodataValueThatNoSampleCanHaveIsNone) {
+  for (const double nodata : {-9999.0, 0.5, 1e30}) {
+    Source source(hills(TKS_U8, 200, 150));
+    source.heights.has_nodata = 1;
+    source.heights.nodata = nodata;
+    tks_mosaic_options options = mosaicOptions();
+    options.lossless = 1;
+    Stream stream(mosaicOf(source, options));
+    std::vector<std::byte> samples(stream.heightsBytes());
+    ASSERT_EQ(tks_decode_heights(stream.get(), samples.data(), samples.size()), TKS_OK);
+    EXPECT_TRUE(samples == source.raster.data);
+  }
+}
+
 /// Floats in quarters, with voids that are NaN or -9999.
 Raster quarters() {
   Raster raster = hills(TKS_I16);

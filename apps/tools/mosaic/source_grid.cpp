@@ -10,6 +10,7 @@
 
 #include "apps/tools/files/place/ground_spacing.hpp"
 #include "apps/tools/files/text.hpp"
+#include "apps/tools/files/void_samples.hpp"
 #include "apps/tools/mosaic/height_source.hpp"
 #include "base/samples.hpp"
 
@@ -210,7 +211,8 @@ Result<OpenSource> openGrid(const std::vector<std::string>& paths,
     const Result<OpenSource> source = openOne(path, members.empty() ? notes : ignored);
     if (!source.ok()) return source.status();
     members.push_back({path, (*source)->described()});
-    if (nodata) members.back().described.nodata = nodata;
+    if (nodata)
+      members.back().described.nodata = asSample(*nodata, members.back().described.sample);
     const Status placed = place(members.front().described, members.back());
     if (!placed.ok()) return placed;
   }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "apps/tools/files/file_bytes.hpp"
+#include "apps/tools/files/memory_limit.hpp"
 #include "apps/tools/files/pictures/tiff.hpp"
 #include "apps/tools/files/place/pam.hpp"
 #include "apps/tools/files/text.hpp"
@@ -69,6 +70,19 @@ BlockGrid blockGrid(TIFF* tiff, uint32_t width, uint32_t height) {
     grid.height = std::min(grid.height, height);
   }
   return grid;
+}
+
+/// A block is read whole: some programs write a file as one strip.
+Status checkBlocks(TIFF* tiff, const StoredHeights& stored, const HeightFile& described,
+                   const std::string& path) {
+  constexpr uint32_t kMostBlockSide = 1 << 20;
+  const BlockGrid grid = blockGrid(tiff, described.width, described.height);
+  if (grid.width == 0 || grid.height == 0 || grid.width > kMostBlockSide ||
+      grid.height > kMostBlockSide)
+    return {TKS_USAGE, quoted(path) + " has strips or tiles of a size that is not read"};
+  const size_t sample = stored.wide ? sizeof(double) : tks_sample_bytes(stored.sample);
+  return checkMemoryFor("reading a strip or tile of " + quoted(path),
+                        uint64_t{grid.width} * grid.height * sample);
 }
 
 class TiffWindows : public HeightSource {
@@ -216,6 +230,11 @@ Result<OpenSource> openTiffWindows(const std::string& path, Notes& notes) {
   described.sample = stored->sample;
   if (Status tags = readGeoTags(path, described, notes); !tags.ok()) return tags;
   takePam(path, described, notes);
+  // A value that the samples cannot have is none of their voids.
+  if (described.nodata && described.sample != TKS_F32)
+    described.nodata = asSample(*described.nodata, described.sample);
+  if (Status status = checkBlocks(file->get(), *stored, described, path); !status.ok())
+    return status;
   if (stored->wide) notes.push_back({"64-bit floats become the nearest 32-bit floats", ""});
   return OpenSource(
       std::make_unique<TiffWindows>(path, *std::move(file), *stored, std::move(described)));
