@@ -209,6 +209,9 @@ TEST_F(CliMosaic, SaysWhatIsWrongWithSources) {
     EXPECT_FALSE(std::filesystem::exists(path("bad/plan")));
   };
   refused("nowhere.tif --lossless", 2, "nowhere.tif");
+  write("ground.tif.msk", "a mask");
+  refused("ground.tif --lossless", 1, "mask");
+  std::filesystem::remove(path("ground.tif.msk"));
   refused("tiles", 1, "required");
   refused("tiles --lossless --psnr 50", 1, "");
   refused("tiles --lossless --tile 100", 1, "powers of two");

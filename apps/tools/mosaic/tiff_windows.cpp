@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <list>
 #include <map>
@@ -219,10 +220,11 @@ Result<OpenSource> openTiffWindows(const std::string& path, Notes& notes) {
   if (!stored.ok()) return stored.status();
   const Result<TiffForm> form = tiffForm(path);
   if (!form.ok()) return form.status();
-  if (form->mask) {
+  std::error_code ignored;
+  if (form->mask || std::filesystem::exists(path + ".msk", ignored)) {
     return Status(TKS_USAGE, quoted(path) +
-                                 " has a mask page, which is not read by windows: "
-                                 "gdal_translate -a_nodata makes voids of it");
+                                 " has a mask, in a page or beside it, which is not read by "
+                                 "windows: gdal_translate -a_nodata makes voids of it");
   }
   HeightFile described;
   TIFFGetField(file->get(), TIFFTAG_IMAGEWIDTH, &described.width);
