@@ -7,6 +7,7 @@
 
 #include "base/portable_math.hpp"
 #include "codec/geometry/heights_decoder.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
 #include "codec/wavelet/choice/filter_choice.hpp"
 #include "texture_wavelet/texture_decoder.hpp"
 #include "texture_wavelet/texture_encoder.hpp"
@@ -23,8 +24,7 @@ double validityWorth(const FrameSteps& steps) {
 }
 
 GeometryLayers layersOf(const tks_heights& first, uint64_t validity_bytes) {
-  const bool infinite_integer = first.sample != TKS_F32 && !std::isfinite(first.nodata);
-  const bool has_nodata = first.has_nodata != 0 && !std::isnan(first.nodata) && !infinite_integer;
+  const bool has_nodata = statesNodata(first);
   return {.validity_bytes = validity_bytes,
           .has_nodata = has_nodata,
           .nodata = has_nodata ? first.nodata + 0.0 : 0};

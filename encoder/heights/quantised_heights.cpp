@@ -64,9 +64,7 @@ Result<ChosenSteps> chooseSteps(const EncodeInputs& inputs, bool table) {
 /// The layers that the header states of heights with voids. validity_bytes: 0 if there are no
 /// voids.
 GeometryLayers layersOf(const tks_heights& samples, uint64_t validity_bytes) {
-  const bool infinite_integer = samples.sample != TKS_F32 && !std::isfinite(samples.nodata);
-  const bool has_nodata =
-      samples.has_nodata != 0 && !std::isnan(samples.nodata) && !infinite_integer;
+  const bool has_nodata = statesNodata(samples);
   return {.validity_bytes = validity_bytes,
           .has_nodata = has_nodata,
           .nodata = has_nodata ? samples.nodata + 0.0 : 0};  // -0 equals 0: one of them

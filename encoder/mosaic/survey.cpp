@@ -220,17 +220,6 @@ Status settle(const Survey& survey, const MosaicOptions& options, const ReadSamp
   return {};
 }
 
-/// Whether samples of that type may have the value: voids of no others are declared by it.
-bool holds(tks_sample sample, double value) {
-  return withSampleType(sample, [&](auto type) {
-    using T = decltype(type);
-    if constexpr (std::is_floating_point_v<T>) return !std::isnan(value);
-    return value == std::trunc(value) &&
-           value >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
-           value <= static_cast<double>(std::numeric_limits<T>::max());
-  });
-}
-
 Status checkOptions(const MosaicOptions& options) {
   const int targets = (options.bytes > 0) + (options.psnr > 0) + (options.max_error > 0) +
                       (options.lossless ? 1 : 0);
@@ -265,7 +254,7 @@ Result<MosaicPlan> makePlan(const tks_heights& source, const MosaicOptions& opti
   header.regions.side_log2 = static_cast<uint8_t>(one ? 0 : options.region_log2);
   if (options.max_error > 0) header.max_error = options.max_error;
   if (options.lossless) header.max_error = 0;
-  plan.header.layers.has_nodata = source.has_nodata && holds(source.sample, source.nodata);
+  plan.header.layers.has_nodata = statesNodata(source);
   if (plan.header.layers.has_nodata) plan.header.layers.nodata = source.nodata;
   const Result<Survey> survey = surveyOf(plan, read);
   if (!survey.ok()) return survey.status();

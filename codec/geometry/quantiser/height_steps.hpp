@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -28,6 +29,13 @@ namespace tetrakis::inline quantiser {
 /// or nothing if all samples are valid. A sample is void if it equals heights.nodata (and there is
 /// has_nodata) or is NaN. TKS_USAGE: a sample is infinite; its place is in the message.
 Result<std::vector<uint8_t>> findVoids(const tks_heights& heights);
+
+/// Whether streams of these heights state their nodata value: NaN is that of floats anyway, and no
+/// integer is infinite.
+inline bool statesNodata(const tks_heights& heights) {
+  const bool infinite_integer = heights.sample != TKS_F32 && !std::isfinite(heights.nodata);
+  return heights.has_nodata != 0 && !std::isnan(heights.nodata) && !infinite_integer;
+}
 
 /// The smallest and the largest of the valid samples; both are 0 if no sample is valid.
 struct SampleRange {
