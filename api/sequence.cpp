@@ -13,7 +13,7 @@
 #include "bitstream/sequence/group_head.hpp"
 #include "bitstream/sequence/group_index.hpp"
 #include "bitstream/stream/header.hpp"
-#include "tetrakis/tetrakis.h"
+#include "tetrakis/sequence.h"
 
 namespace tetrakis::inline api {
 

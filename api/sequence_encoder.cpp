@@ -14,6 +14,7 @@
 #include "api/guarded.hpp"
 #include "bitstream/sequence/group_head.hpp"
 #include "bitstream/sequence/group_index.hpp"
+#include "tetrakis/sequence.h"
 
 namespace tetrakis::inline api {
 

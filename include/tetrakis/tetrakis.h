@@ -440,57 +440,6 @@ tks_status tks_encode_frames(const tks_heights* heights, const tks_image* images
                              const tks_encode_options* options, tks_buffer* out, char* message,
                              size_t message_size);
 
-/* What the times of the frames of a sequence mean: a tick lasts numerator / denominator seconds,
- * and tick 0 is the epoch. */
-typedef struct tks_clock {
-  size_t size;                     /* sizeof(tks_clock) */
-  uint64_t numerator, denominator; /* both 0: it is not known what a tick is */
-  const char* epoch; /* UTF-8, as RFC 3339 ("2019-03-01T00:00:00Z") or CF has it; NULL: unknown */
-  const char* calendar; /* UTF-8, of CF: "noleap", "360_day"; NULL: that of everyday life */
-} tks_clock;
-
-/* How a sequence is encoded. */
-typedef struct tks_sequence_options {
-  size_t size;    /* sizeof(tks_sequence_options) */
-  uint32_t group; /* frames that are coded together, from 1 to TKS_MOST_FRAMES, which is the
-                           latency; 0: 16. Larger groups take fewer bytes */
-  const tks_encode_options* encode; /* for each group as tks_encode_frames takes them, but that
-                           `bytes` counts a frame: a group of n frames takes at most n times as
-                           many, head and index included. Copied; cameras and callbacks outlive the
-                           encoder */
-  tks_clock clock;                  /* copied */
-  int no_index; /* non-zero: groups have no index, which saves some bytes of each; a reader
-                           of the file then passes over all groups before the one it looks for */
-} tks_sequence_options;
-
-/* Encodes frames as they come into a sequence: groups of frames, one behind the other. What it has
- * written is never changed, so that a file grows at its end, and one that was cut is read up to its
- * last whole bytes. It takes memory for one group, and 50 bytes for each group before. */
-typedef struct tks_sequence_encoder tks_sequence_encoder;
-
-/* message: as of tks_encode. */
-tks_status tks_sequence_encoder_open(const tks_sequence_options* options,
-                                     tks_sequence_encoder** out, char* message,
-                                     size_t message_size);
-void tks_sequence_encoder_close(tks_sequence_encoder* encoder);
-
-/* Takes one frame, which it copies, at a time in ticks after that of the frame before, within
- * +-2^61. The last frame of a group is pushed when the group is encoded. All frames of a sequence
- * are alike, as those of tks_encode_frames. Where frames together cannot be coded as the target
- * asks for, each is a group by itself. TKS_USAGE, with a sentence in message: as tks_encode; the
- * frame is not like the first one, or is not later than the one before. The frame then is not
- * taken. */
-tks_status tks_sequence_push(tks_sequence_encoder* encoder, const tks_heights* heights,
-                             const tks_image* image, int64_t time, char* message,
-                             size_t message_size);
-
-/* Encodes the frames that are no whole group yet. Further frames begin a new one. */
-tks_status tks_sequence_flush(tks_sequence_encoder* encoder, char* message, size_t message_size);
-
-/* Hands over the bytes that are ready and follow those that were taken before; there may be none.
- * Release them with tks_free_buffer. */
-tks_status tks_sequence_take(tks_sequence_encoder* encoder, tks_buffer* out);
-
 /* How an object is coded. */
 typedef enum tks_object_kind {
   TKS_OBJECT_AUTO = 0,      /* (encoder) in whichever way comes nearer to the mesh */
@@ -1084,70 +1033,6 @@ tks_status tks_decode_mesh_tree(tks_decoder* decoder, tks_mesh_kind kind, uint32
  * one bit a vertex. */
 tks_status tks_view_mesh(const tks_mesh_tree* tree, const double clip[16], tks_mesh* out);
 void tks_free_mesh_tree(tks_mesh_tree* tree);
-
-/* Decodes a sequence, or any prefix of it, or any groups of it in their order. */
-typedef struct tks_sequence tks_sequence;
-
-/* An empty one. limits: of the decoder of each group; may be NULL. */
-tks_status tks_sequence_open(const tks_limits* limits, tks_sequence** out);
-void tks_sequence_close(tks_sequence* sequence);
-
-/* One sentence about the last failure; "" if none. */
-const char* tks_sequence_message(const tks_sequence* sequence);
-
-/* Gives it more bytes: those that follow what it has, which it copies. TKS_CORRUPT,
- * TKS_UNSUPPORTED: no group begins where one should; the groups before stay as they are, and no
- * more bytes are taken. */
-tks_status tks_sequence_append(tks_sequence* sequence, const uint8_t* data, size_t size);
-
-/* Gives up the bytes of all groups that end before a frame, and forgets these frames: their numbers
- * stay. A player of a live sequence takes no more memory with it however long that is. */
-tks_status tks_sequence_forget(tks_sequence* sequence, uint64_t frame);
-
-typedef struct tks_sequence_info {
-  size_t size;                     /* sizeof(tks_sequence_info), set by the caller */
-  uint64_t first_frame, end_frame; /* frames that can be decoded: from the first one to before the
-                                       end. Of a group that is cut all frames can be, once the
-                                       header of its stream is there */
-  uint64_t groups;                 /* that hold these */
-  uint64_t bytes;                  /* that were given to it */
-  uint64_t whole_bytes;            /* of these, up to the end of the last whole group */
-  tks_clock clock;                 /* texts belong to the sequence; "": unknown */
-} tks_sequence_info;
-tks_status tks_sequence_get_info(const tks_sequence* sequence, tks_sequence_info* info);
-
-/* The time of a frame in ticks, and the last frame whose time is not after a given one. TKS_USAGE:
- * there is no such frame. */
-tks_status tks_sequence_time(const tks_sequence* sequence, uint64_t frame, int64_t* time);
-tks_status tks_sequence_find(const tks_sequence* sequence, int64_t time, uint64_t* frame);
-
-/* What there is of a group: where its bytes lie among those given. */
-typedef struct tks_group {
-  size_t size; /* sizeof(tks_group), set by the caller */
-  uint64_t first_frame, frames;
-  uint64_t offset, bytes; /* of the whole group, whether it is all there or not */
-  uint64_t stream_offset; /* of its stream */
-  uint64_t stream_bytes;
-  uint64_t available_bytes; /* of the group */
-} tks_group;
-/* The group of a frame. TKS_USAGE: there is no such frame. */
-tks_status tks_sequence_group(const tks_sequence* sequence, uint64_t frame, tks_group* out);
-
-/* The decoder of the stream that holds a frame, with that frame set (tks_set_frame): all calls of
- * decoders show it. It belongs to the sequence, keeps its levels and threads while it stays the
- * same, and is there until the next call of tks_sequence_frame for a frame of another group,
- * tks_sequence_append, _forget or _close. TKS_USAGE: there is no such frame; else as tks_open. */
-tks_status tks_sequence_frame(tks_sequence* sequence, uint64_t frame, tks_decoder** decoder);
-
-/* What to read of a sequence on a host that gives ranges of bytes, to find a frame or a time: begin
- * with its last bytes (64 kB reach), and go on with the range that this gives, at most twice. tail:
- * bytes that end with a group, or with a cut one, at the offset `end` of the file. by_time: 0:
- * `place` is a frame; else it is a time in ticks. range: the group that holds the place, if *found
- * becomes 1; else the end of another group, for the next call, whose tail then ends where the range
- * does. Places before the first frame or after the last one are those. TKS_USAGE: there is no index
- * in these bytes. */
-tks_status tks_sequence_locate(const uint8_t* tail, size_t size, uint64_t end, int by_time,
-                               int64_t place, tks_range* range, int* found);
 
 #undef TKS_INT
 #ifdef __GNUC__

@@ -9,7 +9,7 @@
 
 #include "conformance/samples/header_seal.hpp"
 #include "tests/pace/pace.hpp"
-#include "tetrakis/tetrakis.hpp"
+#include "tetrakis/sequence.hpp"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
 

@@ -50,10 +50,13 @@ for name in tetrakis tetrakis_decoder; do
   "${CC:-cc}" "$source/consumer.c" -o "$scratch/from_c" "${flags[@]}"
   LD_LIBRARY_PATH="$libraries" "$scratch/from_c" "$stream" || fail "C with $name.pc fails"
 done
-printf '#include <tetrakis/mosaic.h>\n' |  # and what it includes
-  "${CXX:-c++}" -x c++ -std=c++98 -Wno-long-long -pedantic -Werror -fsyntax-only -I"$prefix/include" -
-printf '#include <tetrakis/mosaic.h>\n' |
-  "${CC:-cc}" -x c -std=c99 -pedantic -Werror -fsyntax-only -I"$prefix/include" -
+for header in mosaic sequence; do  # and what they include
+  printf '#include <tetrakis/%s.h>\n' "$header" |
+    "${CXX:-c++}" -x c++ -std=c++98 -Wno-long-long -pedantic -Werror -fsyntax-only \
+      -I"$prefix/include" -
+  printf '#include <tetrakis/%s.h>\n' "$header" |
+    "${CC:-cc}" -x c -std=c99 -pedantic -Werror -fsyntax-only -I"$prefix/include" -
+done
 
 for library in "$libraries"/libtetrakis*.so; do
   [[ -e "$library" ]] || continue
@@ -63,7 +66,7 @@ for library in "$libraries"/libtetrakis*.so; do
   [[ -z "$others" ]] || fail "$library exports $others"
 done
 if [[ -e "$libraries/libtetrakis_decoder.so" ]]; then
-  declared="$(sed -n 's/.*\b\(tks_[a-z_]*\)(.*/\1/p' "$prefix/include/tetrakis/tetrakis.h" |
+  declared="$(sed -n 's/.*\b\(tks_[a-z_]*\)(.*/\1/p' "$prefix"/include/tetrakis/{tetrakis,sequence}.h |
     grep -vx 'tks_cube_from_grid\|tks_encode\|tks_encode_object\|tks_fit_positions\|tks_find_[a-z_]*' |
     grep -vx 'tks_free_buffer\|tks_reorder\|tks_encode_frames\|tks_sequence_encoder_[a-z]*' |
     grep -vx 'tks_sequence_push\|tks_sequence_flush\|tks_sequence_take' |

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "tetrakis/sequence.h"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/stream_fixture.hpp"
 

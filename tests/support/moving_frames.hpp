@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "conformance/samples/moving_frames.hpp"
+#include "tetrakis/sequence.hpp"
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {

@@ -15,7 +15,7 @@
 #include "apps/tools/output/output.hpp"
 #include "apps/tools/output/output_names.hpp"
 #include "apps/tools/output/progress.hpp"
-#include "tetrakis/tetrakis.hpp"
+#include "tetrakis/sequence.hpp"
 
 namespace tetrakis::tools {
 namespace {

@@ -13,7 +13,7 @@
 #include "apps/tools/files/files.hpp"
 #include "base/plane.hpp"
 #include "tetrakis/result.hpp"
-#include "tetrakis/tetrakis.hpp"
+#include "tetrakis/sequence.hpp"
 
 namespace tetrakis::tools {
 

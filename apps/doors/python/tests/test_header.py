@@ -14,7 +14,8 @@ from tetrakis import _errors, _values
 from tetrakis import _library as c
 from tetrakis import _mosaic_library as m
 
-HEADERS = [REPOSITORY / "include" / "tetrakis" / name for name in ("tetrakis.h", "mosaic.h")]
+NAMES = ("tetrakis.h", "mosaic.h", "sequence.h")
+HEADERS = [REPOSITORY / "include" / "tetrakis" / name for name in NAMES]
 STRUCTS = {**c.STRUCTS, **m.STRUCTS}
 # Structs of calls that the package does not make: sequences.
 OTHERS = {"tks_clock", "tks_sequence_options", "tks_sequence_info", "tks_group"}
@@ -40,7 +41,7 @@ def compiled(folder, lines):
     source, program = folder / "probe.c", folder / "probe"
     body = "\n".join(lines)
     source.write_text(
-        "#include <stdio.h>\n#include <tetrakis/mosaic.h>\n"
+        "#include <stdio.h>\n#include <tetrakis/mosaic.h>\n#include <tetrakis/sequence.h>\n"
         f"int main(void) {{\n{body}\nreturn 0; }}\n"
     )
     include = HEADERS[0].parents[1]
