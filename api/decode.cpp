@@ -61,7 +61,7 @@ Status lost() {
 
 uint32_t framesOf(const StreamHeader& header) {
   if (header.geometry && !header.geometry->frames.none()) return header.geometry->frames.count;
-  return header.texture ? header.texture->frames.count : 1;
+  return header.texture ? header.texture->frames.shown() : 1;
 }
 
 void showScale(tks_decoder& decoder) {
@@ -203,7 +203,7 @@ Status giveTexels(tks_decoder& decoder, const Call& call) {
   const size_t count = view->extentIn(header.shown()).samples();
   const size_t texel_bytes = tks_sample_bytes(sample) * header.channels;
   if (Status s = call.check(decoder, *view, count, texel_bytes); !s.ok()) return s;
-  if (decoder.packets.payload.nothingOf(Component::kTexture)) {
+  if (texelsAreUnsent(decoder)) {
     writeUnsentTexels(header, call.out, count);
     return {};
   }

@@ -81,10 +81,16 @@ Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
 uint32_t framesOf(const StreamHeader& header);
 
 /// Whether nothing of the heights was sent, so that all samples are alike. Those of frames with
-/// scales may differ by roundings from level to level.
+/// scales may differ by roundings from level to level, and others go on from earlier frames.
 inline bool heightsAreUnsent(const tks_decoder& decoder) {
-  return decoder.packets.payload.nothingOf(Component::kGeometry) &&
-         decoder.parsed.header.geometry->frames.scales.empty();
+  const FramesHeader& frames = decoder.parsed.header.geometry->frames;
+  return decoder.packets.payload.nothingOf(Component::kGeometry) && frames.scales.empty() &&
+         frames.reference == 0;
+}
+/// The same of texels.
+inline bool texelsAreUnsent(const tks_decoder& decoder) {
+  return decoder.packets.payload.nothingOf(Component::kTexture) &&
+         decoder.parsed.header.texture->frames.reference == 0;
 }
 
 /// Gives the header of heights the base and the step of the frame that is shown.

@@ -272,8 +272,10 @@ Status encodeAndProve(const tks_heights* heights, const tks_image* image,
                     .notes = known.options.explain != nullptr ? &notes : nullptr});
   if (!stream.ok()) return stream.status();
   watch.stage(1);
-  Status proved = prove(*stream, {known_heights, heights != nullptr ? 1u : 0u},
-                        {known_image, image != nullptr ? 1u : 0u}, known.options);
+  Status proved = prove(
+      *stream,
+      {{known_heights, heights != nullptr ? 1u : 0u}, {known_image, image != nullptr ? 1u : 0u}},
+      known.options);
   if (!proved.ok()) return proved;
   watch.stage(1);
   if (known.options.explain != nullptr)

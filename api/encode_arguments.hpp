@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "api/group_chain.hpp"
+#include "encoder/groups/coded_frames.hpp"
 #include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.h"
 
@@ -42,8 +44,21 @@ struct FrameArguments {
 Status takeFrame(const tks_heights* heights, const tks_image* image,
                  const tks_encode_options& options, FrameArguments& out);
 
+/// How the frames of a group are coded.
+struct GroupCoding {
+  bool refers = false;  ///< later groups go on from it: also a single frame is coded as frames are
+  const GroupBefore* before = nullptr;  ///< what it may go on from itself; null: nothing
+};
+
+/// What decoders of the next group take from this one, which outlives them.
+inline References referencesTo(const GroupBefore& before) {
+  return {{[&before] { return before.last_heights; }, 0},
+          {[&before] { return before.last_texture; }, 0}};
+}
+
 /// The stream of one frame or more, which is proved to keep what it promises. TKS_UNSUPPORTED: as
 /// of tks_encode_frames.
-Result<std::vector<uint8_t>> encodeFrames(const FrameArguments& frames);
+Result<std::vector<uint8_t>> encodeFrames(const FrameArguments& frames,
+                                          const GroupCoding& coding = {});
 
 }  // namespace tetrakis::inline api

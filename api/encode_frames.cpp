@@ -46,8 +46,12 @@ Status checkFrame(const tks_heights* heights, const tks_image* image,
   return misuse("The frame has another size, type, scale or nodata value than the first one.");
 }
 
-Result<std::vector<uint8_t>> encode(const FrameArguments& frames) {
-  if (frames.frames() > 1) return encodeGroup({frames.heights, frames.images, frames.options});
+Result<std::vector<uint8_t>> encode(const FrameArguments& frames, const GroupCoding& coding) {
+  if (frames.frames() > 1 || coding.refers) {
+    Result<std::vector<uint8_t>> group =
+        encodeGroup({frames.heights, frames.images, frames.options, coding.before});
+    if (frames.frames() > 1 || group.status().code() != TKS_UNSUPPORTED) return group;
+  }
   return encodeStream({.heights = frames.heights.empty() ? nullptr : frames.heights.data(),
                        .image = frames.images.empty() ? nullptr : frames.images.data(),
                        .options = frames.options});
@@ -74,7 +78,7 @@ Status takeFrame(const tks_heights* heights, const tks_image* image,
   return {};
 }
 
-Result<std::vector<uint8_t>> encodeFrames(const FrameArguments& frames) {
+Result<std::vector<uint8_t>> encodeFrames(const FrameArguments& frames, const GroupCoding& coding) {
   ToldProgress watch([&](double done) {
     const tks_encode_options& o = frames.options;
     return o.progress == nullptr || o.progress(o.user, done) == 0;
@@ -82,10 +86,13 @@ Result<std::vector<uint8_t>> encodeFrames(const FrameArguments& frames) {
   const Watched watched(&watch);
   try {
     watch.stage(kEncoded);
-    Result<std::vector<uint8_t>> stream = encode(frames);
+    Result<std::vector<uint8_t>> stream = encode(frames, coding);
     if (!stream.ok()) return stream;
     watch.stage(1);
-    Status proved = prove(*stream, frames.heights, frames.images, frames.options);
+    References references;
+    if (coding.before != nullptr) references = referencesTo(*coding.before);
+    Status proved =
+        prove(*stream, {frames.heights, frames.images, std::move(references)}, frames.options);
     if (!proved.ok()) return proved;
     watch.stage(1);
     return stream;

@@ -110,24 +110,24 @@ Status proveTexture(tks_decoder* decoder, const tks_image& image) {
   return broken("a texel does not come back");
 }
 
-tks_limits noLimits() {
+}  // namespace
+
+tks_limits unlimited() {
   tks_limits limits = {};
   limits.size = sizeof limits;
   limits.max_samples = limits.max_texels = limits.max_memory = std::numeric_limits<uint64_t>::max();
   return limits;
 }
 
-}  // namespace
-
-Status prove(std::span<const uint8_t> stream, std::span<const tks_heights> heights,
-             std::span<const tks_image> images, const tks_encode_options& options) {
+Status prove(std::span<const uint8_t> stream, const StreamSource& source,
+             const tks_encode_options& options) {
+  const auto& [heights, images, references] = source;
   if (options.bytes != 0 && stream.size() > options.bytes)
     return broken("the stream takes more than its budget");
-  tks_decoder* opened = nullptr;
-  const tks_limits limits = noLimits();
-  if (!works(tks_open(stream.data(), stream.size(), &limits, &opened, nullptr, 0)))
-    return broken("the stream does not open");
-  const std::unique_ptr<tks_decoder, void (*)(tks_decoder*)> decoder(opened, tks_close);
+  const tks_limits limits = unlimited();
+  const Result<OwnedDecoder> decoder = openBehind(stream, &limits, references);
+  if (!decoder.ok()) return broken("the stream does not open");
+  tks_decoder* const opened = decoder->get();
   tks_set_threads(opened, options.threads);
   tks_info info = {};
   info.size = sizeof info;

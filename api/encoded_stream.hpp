@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "api/group_chain.hpp"
 #include "encoder/encode_stream.hpp"
 #include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.h"
@@ -26,13 +27,22 @@ void giveBytes(std::span<const uint8_t> bytes, tks_buffer& out);
 // the byte budget, the largest error, and every bit where the stream calls itself lossless. No
 // caller gets a stream that breaks a promise.
 
+/// Limits that no stream meets.
+tks_limits unlimited();
+
+/// What a stream was made of.
+struct StreamSource {
+  std::span<const tks_heights> heights;  ///< of each frame; empty: none
+  std::span<const tks_image> images;
+  References references = {};  ///< what the frames go on from
+};
+
 /// Decodes the finished stream through the public interface and compares: a budget, a largest
-/// error, and every bit where the target or the stream says lossless. heights and images (none:
-/// there are none) are what was encoded, frame by frame. TKS_MISMATCH with a sentence if a
-/// promise is broken, which is a fault of the encoder. Streams that promise nothing are not
+/// error, and every bit where the target or the stream says lossless. TKS_MISMATCH with a sentence
+/// if a promise is broken, which is a fault of the encoder. Streams that promise nothing are not
 /// decoded.
-Status prove(std::span<const uint8_t> stream, std::span<const tks_heights> heights,
-             std::span<const tks_image> images, const tks_encode_options& options);
+Status prove(std::span<const uint8_t> stream, const StreamSource& source,
+             const tks_encode_options& options);
 
 // explain() tells a caller of tks_encode() the plans that the encoder weighed.
 

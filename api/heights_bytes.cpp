@@ -85,7 +85,7 @@ uint64_t HeightsBytes::decodingLines() const {
 
 uint64_t HeightsBytes::decodingTaken() const {
   if (header_.drawn) return drawing();
-  const uint32_t frames = header_.frames.count;
+  const uint32_t frames = header_.frames.shown();
   const PlanesBytes planes(decoder_, header_, view_, frames, voids_);
   const uint64_t samples = view_.window ? shown_ : low();
   const uint64_t masks = wholeMasks() + (voids_ ? samples : 0);

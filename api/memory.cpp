@@ -23,7 +23,7 @@ namespace {
 /// What a call takes beside the codewords that it joins.
 uint64_t decodingBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   if (request.part == TKS_PART_TEXTURE) {
-    if (decoder.packets.payload.nothingOf(Component::kTexture)) return kDrawnOnceBytes;
+    if (texelsAreUnsent(decoder)) return kDrawnOnceBytes;
     return textureBytes(decoder, request.view);
   }
   if (request.part == TKS_PART_CODED_MESH || request.part == TKS_PART_BUDGET_MESH)
@@ -45,13 +45,11 @@ uint64_t joinedBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   return borrowed.bytesOf(component, neededTracks(header, component, request.view));
 }
 
-/// Bytes that the call allocates at its peak, at most; meshes include what they hand over. The
-/// stream holds what is asked for.
+}  // namespace
+
 uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   return decodingBytes(decoder, request) + joinedBytes(decoder, request);
 }
-
-}  // namespace
 
 // Refuses calls that would take more than limits.max_memory, in a sentence.
 

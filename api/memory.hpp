@@ -106,7 +106,13 @@ inline uint64_t framesBytes(const auto& header, const PlanesBytes& planes, uint6
                             uint32_t colours = 1) {
   if (header.frames.none()) return 0;
   const uint64_t all = (header.frames.count + 1u) * colours;
-  return all * (samples * kValueBytes + planes.work) + 2 * samples;
+  const uint64_t bytes = all * (samples * kValueBytes + planes.work) + 2 * samples;
+  if (header.frames.reference == 0) return bytes;
+  // What the frames go on from, as whole planes: that of the last group and that of the one before
+  // it, copied with means of its voids, while the last group is decoded.
+  constexpr uint64_t kMeans = 16;
+  const uint64_t plane = uint64_t{header.width} * header.height;
+  return bytes + header.frames.before.bytes + plane * (colours * 4 * kValueBytes + kMeans + 4);
 }
 
 /// So many samples that are copied from coded lines, and the maps of lines.
@@ -175,6 +181,10 @@ struct MemoryRequest {
   View view;                   ///< of viewOf(); meshes ignore it
   uint32_t max_triangles = 0;  ///< of TKS_PART_BUDGET_MESH
 };
+
+/// Bytes that a call allocates at its peak, at most; meshes include what they hand over. The stream
+/// holds what is asked for.
+uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request);
 
 /// What a budget mesh of decoded heights with voids takes. callBytes() knows no more triangles than
 /// the budget; those in voids are beside it, and judged when they are known.

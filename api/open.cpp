@@ -8,6 +8,7 @@
 #include <string>
 
 #include "api/decoder.hpp"
+#include "api/group_chain.hpp"
 #include "api/guarded.hpp"
 #include "api/memory.hpp"
 
@@ -65,7 +66,22 @@ tks_index indexOf(const StreamHeader& header) {
   return last[0] > 0 || last[1] > 0 ? TKS_INDEX_WINDOWS : TKS_INDEX_PACKETS;
 }
 
-Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder& decoder) {
+/// Gives the components what their frames go on from.
+Status takeReferences(const References& references, StreamHeader& header) {
+  const auto take = [](auto& component, const ReferenceSource& before) {
+    if (!component || component->frames.reference == 0) return true;
+    component->frames.before = before;
+    return !before.none();
+  };
+  if (take(header.geometry, references.heights) && take(header.texture, references.texture))
+    return {};
+  return {TKS_UNSUPPORTED,
+          "The frames of the stream go on from those of another one: it is decoded as a part of "
+          "its sequence."};
+}
+
+Status open(std::span<const uint8_t> data, const tks_limits* limits, const References& references,
+            tks_decoder& decoder) {
   decoder.data = data;
   tks_limits known{};
   if (limits != nullptr) {
@@ -77,6 +93,8 @@ Status open(std::span<const uint8_t> data, const tks_limits* limits, tks_decoder
   decoder.parsed = std::move(*parsed);
   const StreamHeader& header = decoder.parsed.header;
   if (Status status = checkSizes(header, known); !status.ok()) return status;
+  if (Status status = takeReferences(references, decoder.parsed.header); !status.ok())
+    return status;
   if (header.geometry && !header.geometry->base_mesh.none())
     decoder.base_mesh = decodeBaseMesh(header.geometry->base_mesh, header.geometry->wavelet.forest);
   if (header.geometry) {
@@ -200,6 +218,13 @@ Status takeMorePackets(tks_decoder& decoder, std::span<const ByteRange> ranges) 
   return takeFollowing(decoder);
 }
 
+Result<OwnedDecoder> openBehind(std::span<const uint8_t> data, const tks_limits* limits,
+                                const References& references) {
+  OwnedDecoder decoder(new tks_decoder, tks_close);
+  if (Status status = open(data, limits, references, *decoder); !status.ok()) return status;
+  return decoder;
+}
+
 }  // namespace tetrakis::inline api
 
 tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes) {
@@ -220,10 +245,11 @@ tks_status tks_open(const uint8_t* data, size_t size, const tks_limits* limits, 
   return tetrakis::reporting(message, message_size, [&]() -> tetrakis::Status {
     if (out == nullptr) return tetrakis::outputMissing();
     if (data == nullptr && size != 0) return {TKS_USAGE, "The bytes of the stream are missing."};
-    auto decoder = std::make_unique<tks_decoder>();
-    tetrakis::Status status = tetrakis::open({data, size}, limits, *decoder);
-    if (status.ok()) *out = decoder.release();
-    return status;
+    tetrakis::Result<tetrakis::OwnedDecoder> opened =
+        tetrakis::openBehind({data, size}, limits, {});
+    if (!opened.ok()) return opened.status();
+    *out = opened->release();
+    return {};
   });
 }
 

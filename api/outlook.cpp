@@ -63,7 +63,7 @@ Result<CoarseGround> coarseGround(tks_decoder& decoder) {
   const Extent extent = view.extentIn(plane);
   CoarseGround ground{extent.width, extent.height, view.step(), {}};
   ground.heights.resize(extent.samples());
-  if (!header.geometry || decoder.packets.payload.nothingOf(Component::kGeometry)) return ground;
+  if (!header.geometry || heightsAreUnsent(decoder)) return ground;
   if (Status status = checkMemory(decoder, {TKS_PART_HEIGHTS, view, 0}); !status.ok())
     return status;
   writeSurface(decoder, decodeHeights(decoder, view), ground.heights.data());

@@ -2,7 +2,6 @@
 // A tks_sequence passes from group to group as their bytes come, and opens the stream of a group
 // once a frame of it is asked for.
 #include <algorithm>
-#include <deque>
 #include <memory>
 #include <span>
 #include <string>
@@ -10,44 +9,8 @@
 #include <vector>
 
 #include "api/guarded.hpp"
-#include "bitstream/sequence/group_head.hpp"
+#include "api/sequence.hpp"
 #include "bitstream/sequence/group_index.hpp"
-#include "bitstream/stream/header.hpp"
-#include "tetrakis/sequence.h"
-
-namespace tetrakis::inline api {
-
-/// A group that has begun: its head is whole.
-struct KeptGroup {
-  ParsedHead parsed;
-  uint64_t offset = 0;          ///< of its head among all bytes
-  uint64_t available = 0;       ///< bytes of it, the head included
-  std::vector<uint8_t> stream;  ///< what is there of it
-
-  bool whole() const { return available == parsed.groupEnd(); }
-  uint64_t endFrame() const { return parsed.head.first_frame + parsed.head.frames(); }
-  /// The header of its stream is there.
-  bool decodes() const {
-    const Result<uint64_t> needed = headerBytes(stream);
-    return needed.ok() && *needed <= stream.size();
-  }
-};
-
-}  // namespace tetrakis::inline api
-
-struct tks_sequence {
-  tks_limits limits = {};
-  bool has_limits = false;
-  std::deque<tetrakis::KeptGroup> groups;
-  std::vector<uint8_t> begun;  ///< of a head that is not whole
-  uint64_t bytes = 0, whole_bytes = 0;
-  tetrakis::Clock clock;  ///< of the first group that was there
-  const tetrakis::KeptGroup* opened = nullptr;
-  std::unique_ptr<tks_decoder, void (*)(tks_decoder*)> decoder{nullptr, tks_close};
-  tetrakis::Status refused;  ///< once bytes were: it takes no more
-  tetrakis::Status last;
-  const char* sentence = "";
-};
 
 namespace tetrakis::inline api {
 
@@ -55,6 +18,12 @@ namespace {
 
 Status noFrame(uint64_t frame) {
   return {TKS_USAGE, "The sequence has no frame " + std::to_string(frame) + "."};
+}
+
+Status misledDepth() {
+  return {TKS_CORRUPT,
+          "Corrupt sequence: the head of a group does not say that it goes on from another one, or "
+          "says so wrongly."};
 }
 
 void closeDecoder(tks_sequence& sequence) {
@@ -69,7 +38,12 @@ Status checkNext(const tks_sequence& sequence, const GroupHead& head) {
   const bool follows = head.number > before.number &&
                        head.first_frame >= sequence.groups.back().endFrame() &&
                        head.times.front() > before.times.back() && head.clock == before.clock;
-  if (follows) return {};
+  // Behind a gap nobody knows what a group goes on from.
+  const bool goes_on =
+      head.back.none() || head.number > before.number + 1 ||
+      (head.back.depth == before.back.depth + 1 &&
+       head.back.bytes == before.back.bytes + sequence.groups.back().parsed.groupEnd());
+  if (follows && goes_on) return {};
   return {TKS_CORRUPT, "Corrupt sequence: group " + std::to_string(head.number) +
                            " does not follow the one before it."};
 }
@@ -188,40 +162,75 @@ const KeptGroup* groupOf(const tks_sequence& sequence, uint64_t frame) {
   return frame < group.endFrame() ? &group : nullptr;
 }
 
+/// The place of a group among those that are there.
+size_t placeOf(const tks_sequence& sequence, const KeptGroup& group) {
+  const auto at = std::lower_bound(
+      sequence.groups.begin(), sequence.groups.end(), group.parsed.head.number,
+      [](const KeptGroup& g, uint64_t number) { return g.parsed.head.number < number; });
+  return static_cast<size_t>(at - sequence.groups.begin());
+}
+
+/// Makes the chain that of a group, whose place is given. What it has of it already stays.
+Status makeChain(tks_sequence& sequence, size_t place) {
+  const GroupHead& head = sequence.groups[place].parsed.head;
+  const auto depth = static_cast<size_t>(head.back.depth);
+  const auto numberAt = [&](size_t p) { return sequence.groups[p].parsed.head.number; };
+  if (depth > place || numberAt(place - depth) != head.number - depth)
+    return {TKS_TRUNCATED, "Group " + std::to_string(head.number) +
+                               " of the sequence goes on from group " +
+                               std::to_string(head.number - depth) + ", which is not there."};
+  GroupChain& chain = sequence.chain;
+  const bool goes_on = chain.length() > 0 && chain.length() < depth + 1 &&
+                       sequence.chained + 1 + depth - chain.length() == head.number;
+  if (!goes_on) chain = GroupChain(sequence.has_limits ? &sequence.limits : nullptr);
+  for (size_t p = place - depth + chain.length(); p < place; ++p) {
+    const Result<ParsedHeader> next = readHeader(sequence.groups[p + 1].stream);
+    if (!next.ok()) return next.status();
+    if (referenceOf(next->header) == 0) return misledDepth();
+    if (Status status = chain.add(sequence.groups[p].stream, next->header); !status.ok())
+      return status;
+    sequence.chained = numberAt(p);
+  }
+  return {};
+}
+
+Status openGroup(tks_sequence& sequence, const KeptGroup& group) {
+  closeDecoder(sequence);
+  if (Status status = makeChain(sequence, placeOf(sequence, group)); !status.ok()) return status;
+  Result<OwnedDecoder> opened = openBehind(
+      group.stream, sequence.has_limits ? &sequence.limits : nullptr, sequence.chain.references());
+  if (!opened.ok()) return opened.status();
+  const StreamHeader& header = (*opened)->parsed.header;
+  if (framesOf(header) != group.parsed.head.frames())
+    return {TKS_CORRUPT,
+            "Corrupt sequence: a group has another number of frames than its head says."};
+  if (group.parsed.head.back.none() != (referenceOf(header) == 0)) return misledDepth();
+  sequence.decoder = *std::move(opened);
+  sequence.opened = &group;
+  return {};
+}
+
 Status open(tks_sequence& sequence, uint64_t frame) {
   const KeptGroup* const group = groupOf(sequence, frame);
   if (group == nullptr) return noFrame(frame);
-  if (sequence.opened != group) {
-    closeDecoder(sequence);
-    char message[512] = "";
-    tks_decoder* opened = nullptr;
-    const tks_status status = tks_open(group->stream.data(), group->stream.size(),
-                                       sequence.has_limits ? &sequence.limits : nullptr, &opened,
-                                       message, sizeof message);
-    if (status != TKS_OK) return {status, message};
-    sequence.decoder.reset(opened);
-    sequence.opened = group;
-    tks_info info = {};
-    info.size = sizeof info;
-    if (tks_get_info(opened, &info) != TKS_OK) throw std::bad_alloc();  // else it has no errors
-    if (info.frames != group->parsed.head.frames()) {
-      closeDecoder(sequence);
-      return {TKS_CORRUPT,
-              "Corrupt sequence: a group has another number of frames than its head "
-              "says."};
-    }
-  }
+  if (sequence.opened != group)
+    if (Status status = openGroup(sequence, *group); !status.ok()) return status;
   const auto at = static_cast<uint32_t>(frame - group->parsed.head.first_frame);
   const tks_status status = tks_set_frame(sequence.decoder.get(), at);
   return status == TKS_OK ? Status() : Status(status, tks_message(sequence.decoder.get()));
 }
 
 Status forgetBefore(tks_sequence& sequence, uint64_t frame) {
-  while (!sequence.groups.empty() && sequence.groups.front().endFrame() <= frame &&
-         sequence.groups.front().whole() && sequence.groups.size() > 1) {
-    if (sequence.opened == &sequence.groups.front()) closeDecoder(sequence);
-    sequence.groups.pop_front();
-  }
+  std::deque<KeptGroup>& groups = sequence.groups;
+  size_t first = 0;  // that is kept, with those that it goes on from
+  while (first + 1 < groups.size() && groups[first].endFrame() <= frame) ++first;
+  if (groups.empty()) return {};
+  first -= static_cast<size_t>(std::min<uint64_t>(first, groups[first].parsed.head.back.depth));
+  if (first == 0) return {};
+  if (sequence.opened != nullptr && placeOf(sequence, *sequence.opened) < first)
+    closeDecoder(sequence);
+  if (sequence.opened == nullptr) sequence.chain.clear();
+  groups.erase(groups.begin(), groups.begin() + static_cast<ptrdiff_t>(first));
   return {};
 }
 
@@ -386,10 +395,12 @@ tks_status tks_sequence_group(const tks_sequence* sequence, uint64_t frame, tks_
     const tetrakis::KeptGroup* const group = tetrakis::groupOf(*sequence, frame);
     if (group == nullptr) return tetrakis::noFrame(frame);
     const tetrakis::ParsedHead& parsed = group->parsed;
-    tetrakis::giveSized(tks_group{sizeof *out, parsed.head.first_frame, parsed.head.frames(),
-                                  group->offset, parsed.groupEnd(), group->offset + parsed.bytes,
-                                  parsed.head.stream_bytes, group->available},
-                        *out);
+    tetrakis::giveSized(
+        tks_group{sizeof *out, parsed.head.first_frame, parsed.head.frames(), group->offset,
+                  parsed.groupEnd(), group->offset + parsed.bytes, parsed.head.stream_bytes,
+                  group->available, static_cast<uint32_t>(parsed.head.back.depth),
+                  parsed.head.back.bytes},
+        *out);
     return {};
   });
 }

@@ -5,16 +5,18 @@
 #include <cstddef>
 #include <cstring>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "api/encode_arguments.hpp"
 #include "api/encoded_stream.hpp"
+#include "api/group_chain.hpp"
+#include "api/group_writer.hpp"
 #include "api/guarded.hpp"
-#include "bitstream/sequence/group_head.hpp"
-#include "bitstream/sequence/group_index.hpp"
-#include "tetrakis/sequence.h"
+#include "api/sequence.hpp"
 
 namespace tetrakis::inline api {
 
@@ -81,12 +83,15 @@ struct PendingGroup {
 struct tks_sequence_encoder {
   tks_encode_options options = {};
   uint32_t group = 0;
-  bool has_index = true;
-  tetrakis::Clock clock;
+  uint64_t reference = 0;         ///< bytes a frame that later groups go on from; 0: none do
+  uint32_t entry = 0;             ///< every how manyth group stands by itself
   tetrakis::FrameArguments like;  ///< the first frame of all, without samples; none so far: empty
   tetrakis::KeptTexts texts;
   tetrakis::PendingGroup pending;
-  tetrakis::GroupIndex index;
+  tetrakis::GroupWriter groups;
+  std::shared_ptr<const tetrakis::GroupBefore> last;  ///< null: the next group stands by itself
+  /// Of the last group of the sequence that it goes on behind; none: it begins one.
+  std::optional<tetrakis::StreamHeader> behind;
   bool has_time = false;
   int64_t last_time = 0;
   std::vector<uint8_t> ready;
@@ -97,6 +102,7 @@ namespace tetrakis::inline api {
 namespace {
 
 constexpr uint32_t kUsualGroup = 16;
+constexpr uint32_t kUsualEntry = 16;
 
 /// What an encoder was before a call. It comes back unless the call is done: memory may end
 /// anywhere in it.
@@ -104,7 +110,8 @@ class Before {
  public:
   explicit Before(tks_sequence_encoder& encoder)
       : encoder_(encoder),
-        index_(encoder.index),
+        groups_(encoder.groups),
+        last_(encoder.last),
         frames_(encoder.pending.frames.size()),
         ready_(encoder.ready.size()),
         first_(encoder.like.frames() == 0),
@@ -114,7 +121,8 @@ class Before {
   Before& operator=(const Before&) = delete;
   ~Before() {
     if (done_) return;
-    encoder_.index = std::move(index_);
+    encoder_.groups = std::move(groups_);
+    encoder_.last = std::move(last_);
     cut(encoder_.pending.frames, frames_);
     cut(encoder_.pending.times, frames_);
     encoder_.ready.resize(ready_);  // which is no more than there is
@@ -136,7 +144,8 @@ class Before {
   }
 
   tks_sequence_encoder& encoder_;
-  GroupIndex index_;
+  GroupWriter groups_;
+  std::shared_ptr<const GroupBefore> last_;
   size_t frames_, ready_;
   bool first_, has_time_;
   int64_t last_time_;
@@ -170,8 +179,14 @@ Status open(const tks_sequence_options& given, tks_sequence_encoder& encoder) {
                                    offsetof(tks_encode_options, threads), encoder.options);
   if (!options.ok()) return options;
   encoder.group = known.group > 0 ? known.group : kUsualGroup;
-  encoder.has_index = known.no_index == 0;
-  return takeClock(known.clock, encoder.clock);
+  if (known.entry > TKS_MOST_DEPTH + 1)
+    return misuse("At least every 64th group of a sequence stands by itself.");
+  encoder.reference = known.reference;
+  encoder.entry = known.entry > 0 ? known.entry : kUsualEntry;
+  Clock clock;
+  Status taken = takeClock(known.clock, clock);
+  encoder.groups = GroupWriter(std::move(clock), known.no_index == 0);
+  return taken;
 }
 
 /// The frames of the pending group from `first` on.
@@ -191,61 +206,62 @@ FrameArguments framesOf(const tks_sequence_encoder& encoder, size_t first, size_
   return frames;
 }
 
-GroupHead headOf(const tks_sequence_encoder& encoder, size_t first, size_t count) {
-  GroupHead head;
-  head.number = encoder.index.groups();
-  head.first_frame = encoder.index.frames();
-  const auto begin = encoder.pending.times.begin() + static_cast<ptrdiff_t>(first);
-  head.times.assign(begin, begin + static_cast<ptrdiff_t>(count));
-  head.clock = encoder.clock;
-  return head;
+/// The stream of a group as far as the next one goes on from it.
+std::shared_ptr<const GroupBefore> shownBy(std::span<const uint8_t> stream,
+                                           const tks_sequence_encoder& encoder, size_t frames) {
+  const uint64_t header = *headerBytes(stream);
+  const uint64_t most =
+      encoder.reference > stream.size() / frames ? stream.size() : encoder.reference * frames;
+  auto shown = std::make_shared<GroupBefore>();
+  shown->bytes = std::max(most, header);
+  const tks_limits limits = unlimited();
+  const References before = encoder.last ? referencesTo(*encoder.last) : References();
+  const Result<OwnedDecoder> opened =
+      openBehind(stream.first(static_cast<size_t>(shown->bytes)), &limits, before);
+  if (!opened.ok()) throw std::bad_alloc();  // the stream has been proved
+  tks_decoder& decoder = **opened;
+  decoder.threads = encoder.options.threads;
+  const auto last = [&](const auto& component, Component which, auto& kept) {
+    // Components without frames were coded in ways that only a frame by itself has.
+    if (!component || component->frames.none()) return std::shared_ptr<const FrameReference>();
+    kept = component;
+    kept->frames.before = {};
+    return std::make_shared<const FrameReference>(lastFrame(decoder, which));
+  };
+  const StreamHeader& parsed = decoder.parsed.header;
+  shown->last_heights = last(parsed.geometry, Component::kGeometry, shown->heights);
+  shown->last_texture = last(parsed.texture, Component::kTexture, shown->texture);
+  return shown;
 }
 
-std::vector<uint8_t> indexOf(const tks_sequence_encoder& encoder, const GroupHead& head,
-                             uint64_t bytes_before) {
-  if (!encoder.has_index) return {};
-  return encoder.index.next(bytes_before, head.frames(), head.times.front());
-}
-
-/// The most bytes that head and index take beside a stream of so many.
-uint64_t bytesBeside(const tks_sequence_encoder& encoder, GroupHead head, uint64_t most) {
-  head.stream_bytes = head.index_bytes = most;
-  const std::vector<uint8_t> index = indexOf(encoder, head, most);
-  head.index_bytes = std::max<uint64_t>(index.size(), 1);
-  return writeHead(head).size() + index.size();
-}
-
-void append(std::span<const uint8_t> bytes, std::vector<uint8_t>& to) {
-  to.insert(to.end(), bytes.begin(), bytes.end());
+/// Keeps what the next group goes on from. head: of the group.
+void keepLast(tks_sequence_encoder& encoder, const GroupHead& head,
+              std::span<const uint8_t> stream) {
+  const bool ends = encoder.reference == 0 || head.back.depth + 1 >= encoder.entry;
+  std::shared_ptr<const GroupBefore> last;
+  if (!ends) last = shownBy(stream, encoder, head.frames());
+  encoder.last = std::move(last);
 }
 
 /// Encodes some of the pending frames as a group.
 Status encodeGroupOf(tks_sequence_encoder& encoder, size_t first, size_t count) {
   FrameArguments frames = framesOf(encoder, first, count);
-  GroupHead head = headOf(encoder, first, count);
+  const std::span<const int64_t> times = std::span(encoder.pending.times).subspan(first, count);
+  GroupHead head = encoder.groups.next(times, encoder.last != nullptr);
   if (frames.options.bytes > 0) {
     const uint64_t budget = frames.options.bytes * count;
-    const uint64_t beside = bytesBeside(encoder, head, std::min<uint64_t>(budget, 1u << 29));
+    const uint64_t beside = encoder.groups.bytesBeside(head, std::min<uint64_t>(budget, 1u << 29));
     if (budget <= beside)
       return misuse("A budget of " + std::to_string(budget) + " bytes for a group is too small: " +
                     std::to_string(beside) + " take its head and index alone.");
     frames.options.bytes = budget - beside;
   }
-  const Result<std::vector<uint8_t>> stream = encodeFrames(frames);
+  const Result<std::vector<uint8_t>> stream =
+      encodeFrames(frames, {encoder.reference > 0, encoder.last.get()});
   if (!stream.ok()) return stream.status();
-  head.stream_bytes = stream->size();
-  // The index says how many bytes come before it, head included, whose length depends on its own.
-  std::vector<uint8_t> head_bytes, index;
-  for (int round = 0; round < 3; ++round) {
-    head.index_bytes = index.size();
-    head_bytes = writeHead(head);
-    index = indexOf(encoder, head, head_bytes.size() + stream->size());
-  }
-  append(head_bytes, encoder.ready);
-  append(*stream, encoder.ready);
-  append(index, encoder.ready);
-  encoder.index.add({1, head_bytes.size() + stream->size() + index.size(), count,
-                     head.times.front(), index.size()});
+  if (referenceOf(readHeader(*stream)->header) == 0) head.back = {};
+  encoder.groups.write(head, *stream, encoder.ready);
+  keepLast(encoder, head, *stream);
   return {};
 }
 
@@ -262,6 +278,44 @@ Status encodePending(tks_sequence_encoder& encoder) {
   return status;
 }
 
+/// Whether a frame is like those of the sequence that it follows.
+Status checkLike(const StreamHeader& header, const FrameArguments& frame) {
+  const auto likeHeights = [](const GeometryHeader& g, const tks_heights& h) {
+    const Extent shown = g.shown();
+    return shown.width == h.width && shown.height == h.height && g.sample == h.sample;
+  };
+  const auto likeImage = [](const TextureHeader& t, const tks_image& i) {
+    const Extent shown = t.shown();
+    return shown.width == i.width && shown.height == i.height && t.sample == i.sample &&
+           t.channels == i.channels;
+  };
+  const bool same =
+      header.geometry.has_value() == !frame.heights.empty() &&
+      header.texture.has_value() == !frame.images.empty() &&
+      (frame.heights.empty() || likeHeights(*header.geometry, frame.heights.back())) &&
+      (frame.images.empty() || likeImage(*header.texture, frame.images.back()));
+  return same ? Status() : misuse("The frame has another size or type than the sequence has.");
+}
+
+Status goOnBehind(tks_sequence_encoder& encoder, const tks_sequence& written) {
+  if (encoder.has_time) return misuse("The encoder has taken frames already.");
+  if (Status status = checkGapless(written); !status.ok()) return status;
+  if (written.groups.empty() || written.whole_bytes < written.bytes || !written.begun.empty())
+    return misuse("The sequence ends inside a group: keep its whole groups alone.");
+  if (!(written.clock == encoder.groups.clock()))
+    return misuse("The sequence has another clock than the encoder.");
+  const KeptGroup& last = written.groups.back();
+  Result<ParsedHeader> header = readHeader(last.stream);
+  if (!header.ok()) return header.status();
+  GroupWriter groups(written.clock, written.groups.front().parsed.head.index_bytes > 0);
+  for (const KeptGroup& group : written.groups) groups.pass(group.parsed);
+  encoder.groups = std::move(groups);
+  encoder.behind = std::move(header->header);
+  encoder.has_time = true;
+  encoder.last_time = last.parsed.head.times.back();
+  return {};
+}
+
 Status push(tks_sequence_encoder& encoder, const tks_heights* heights, const tks_image* image,
             int64_t time) {
   if (time < -kMostTime || time > kMostTime) return misuse("A time lies within +-2^61 ticks.");
@@ -270,6 +324,7 @@ Status push(tks_sequence_encoder& encoder, const tks_heights* heights, const tks
                   " is not later than the one before, " + std::to_string(encoder.last_time) + ".");
   FrameArguments taken = encoder.like;
   Status status = takeFrame(heights, image, encoder.options, taken);
+  if (status.ok() && encoder.behind) status = checkLike(*encoder.behind, taken);
   if (!status.ok()) return status;
   Before before(encoder);
   if (encoder.like.frames() == 0) {
@@ -312,6 +367,13 @@ tks_status tks_sequence_encoder_open(const tks_sequence_options* options,
 
 void tks_sequence_encoder_close(tks_sequence_encoder* encoder) {
   delete encoder;
+}
+
+tks_status tks_sequence_encoder_continue(tks_sequence_encoder* encoder, const tks_sequence* written,
+                                         char* message, size_t message_size) {
+  if (encoder == nullptr || written == nullptr) return TKS_USAGE;
+  return tetrakis::reporting(message, message_size,
+                             [&] { return tetrakis::goOnBehind(*encoder, *written); });
 }
 
 tks_status tks_sequence_push(tks_sequence_encoder* encoder, const tks_heights* heights,

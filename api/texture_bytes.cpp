@@ -65,7 +65,7 @@ class TextureBytes {
     if (header_.direct())
       return kDrawnOnceBytes + direct(view_.window ? area(header_) : shown_) +
              (view_.window ? out : 0);
-    const uint32_t colour_planes = header_.colourPlanes() * header_.frames.count;
+    const uint32_t colour_planes = header_.colourPlanes() * header_.frames.shown();
     const PlanesBytes planes(decoder_, header_, view_, colour_planes, masked_);
     const uint64_t all = colour_planes * planes.coefficients;
     const uint64_t masks = shown_ * ((masked_ ? 1 : 0) + (seen_ ? 1 : 0));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// make_vectors OUTDIR: encodes every vector case, writes the streams with their manifest, and
-// prints the rows of README.md's table. The decoder under test makes the digests, so run it only
+// make_vectors OUTDIR: encodes every vector case, writes streams into OUTDIR/vectors and sequences
+// into OUTDIR/sequences, each with a manifest, and prints the rows of README.md's tables. The decoder under test makes the digests, so run it only
 // when a change of the format is intended, and review the difference. A stream that has other tools
 // than its vector states, or lacks one, is told, and no manifest is written.
 #include <algorithm>
@@ -41,6 +41,15 @@ std::vector<size_t> cutsOf(std::span<const uint8_t> stream, bool dense) {
   return cuts;
 }
 
+/// Within heads, streams and indices of groups.
+std::vector<size_t> cutsOfSequence(size_t size) {
+  std::vector<size_t> cuts;
+  for (size_t part = 0; part <= 24; ++part) cuts.push_back(size * part / 24);
+  cuts.push_back(size - 1);
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
+}
+
 /// All mip levels of the whole stream, and every other one of three fifths of it.
 void addLevels(std::span<const uint8_t> stream, Vector& vector) {
   const auto decoder = Decoder::open(stream);
@@ -66,14 +75,30 @@ Result<Vector> makeVector(const VectorCase& vector_case, const std::string& dire
   return vector;
 }
 
-Status makeVectors(const std::string& directory) {
+Result<Vector> makeSequence(const VectorCase& vector_case, const std::string& directory) {
+  const std::vector<uint8_t>& stream = vector_case.stream;
+  if (stream.empty()) return Status(TKS_MISMATCH, vector_case.name + " was not encoded.");
+  Vector vector{vector_case.name, vector_case.name + ".tks", vector_case.purpose, {}};
+  for (const size_t cut : cutsOfSequence(stream.size()))
+    vector.cuts.push_back(decodeCut(std::span(stream).first(cut)));
+  for (const int level : {1, 2, 3}) vector.cuts.push_back(decodeCut(stream, level));
+  const Status written =
+      writeFile(directory + "/" + vector.file, std::string(stream.begin(), stream.end()));
+  if (!written.ok()) return written;
+  return vector;
+}
+
+/// make: makeVector() or makeSequence().
+template <class Make>
+Status makeAll(const std::vector<VectorCase>& cases, const std::string& directory,
+               const Make& make) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) return {TKS_IO, "Cannot make '" + directory + "': " + error.message() + "."};
   std::vector<Vector> vectors;
   Status failed;
-  for (const VectorCase& vector_case : vectorCases()) {
-    auto vector = makeVector(vector_case, directory);
+  for (const VectorCase& vector_case : cases) {
+    auto vector = make(vector_case, directory);
     if (!vector.ok()) {
       failed = vector.status();
       std::cerr << failed.message() << "\n";
@@ -84,6 +109,12 @@ Status makeVectors(const std::string& directory) {
     vectors.push_back(std::move(*vector));
   }
   return failed.ok() ? writeManifest(directory, vectors) : failed;
+}
+
+Status makeVectors(const std::string& directory) {
+  Status status = makeAll(vectorCases(), directory + "/vectors", makeVector);
+  if (!status.ok()) return status;
+  return makeAll(sequenceCases(), directory + "/sequences", makeSequence);
 }
 
 }  // namespace

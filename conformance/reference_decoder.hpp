@@ -41,6 +41,19 @@ struct Decoded {
 Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples = kMaxSamples,
                Levels levels = {});
 
+/// FORMAT 14.
+struct DecodedGroup {
+  uint64_t firstFrame = 0;
+  std::vector<int64_t> times;  ///< of each frame, in ticks
+  Decoded frames;              ///< one behind the other
+};
+struct DecodedSequence {
+  Outcome outcome = Outcome::kDone;  ///< of the heads: those before the first that is wrong count
+  std::vector<DecodedGroup> groups;  ///< whose streams have begun
+};
+DecodedSequence decodeSequence(std::span<const uint8_t> prefix, uint64_t maxSamples = kMaxSamples,
+                               Levels levels = {});
+
 /// FORMAT 11, "Objects".
 using Vector = std::array<int64_t, 3>;
 struct BasePoint {

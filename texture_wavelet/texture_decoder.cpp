@@ -11,6 +11,7 @@
 #include "base/forest.hpp"
 #include "base/parallel.hpp"
 #include "bitstream/coder/byte_planes.hpp"
+#include "codec/frames/frame_reference.hpp"
 #include "codec/lines/shown_lines.hpp"
 #include "codec/wavelet/synthesis/view_synthesis.hpp"
 #include "codec/wavelet/wavelet.hpp"
@@ -160,6 +161,7 @@ FrameLayout frameLayoutOf(const TextureHeader& header) {
 
 namespace {
 
+/// All frames of a view.
 std::shared_ptr<const FramePlanes> framesOf(const TextureHeader& header, const Codewords& codewords,
                                             const View& view,
                                             const DecodeContext<TextureMemory>& context) {
@@ -170,8 +172,9 @@ std::shared_ptr<const FramePlanes> framesOf(const TextureHeader& header, const C
   const FrameLayout layout = frameLayoutOf(header);
   const FramePlan plan(layout, nullptr, tracks != nullptr ? tracks->norms : std::nullopt);
   if (tracks != nullptr) tracks->norms = plan.layout().norms();
+  const auto before = referenceOf(layout.frames);
   auto planes = std::make_shared<const FramePlanes>(
-      decodeFramePlanes(layout, plan, codewords, view, {context.threads, tracks}));
+      decodeFramePlanes(layout, plan, codewords, view, before.get(), {context.threads, tracks}));
   if (memory != nullptr) memory->frames = {view, known, planes};
   return planes;
 }
@@ -187,6 +190,20 @@ Texels decodeFrame(const TextureHeader& header, const Codewords& codewords, cons
   finish(header, all->fraction_bits, planes, context.threads, texels);
   return texels;
 }
+
+}  // namespace
+
+FrameReference lastFrame(const TextureHeader& header, const Codewords& codewords,
+                         const DecodeContext<TextureMemory>& context) {
+  const std::shared_ptr<const FramePlanes> all = framesOf(header, codewords, {}, context);
+  FrameReference last;
+  const size_t colours = header.colourPlanes();
+  for (size_t p = all->planes.size() - colours; p < all->planes.size(); ++p)
+    last.planes.push_back(wholeSteps(all->planes[p], all->fraction_bits));
+  return last;
+}
+
+namespace {
 
 /// A view of the lines that are coded.
 Texels decodeLines(const TextureHeader& header, const Codewords& codewords, const View& view,

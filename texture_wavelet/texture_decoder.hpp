@@ -120,4 +120,8 @@ struct TextureMemory {
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view = {},
                      const DecodeContext<TextureMemory>& context = {});
 
+/// The last frame of a texture in frames, as the next group goes on from it.
+FrameReference lastFrame(const TextureHeader& header, const Codewords& codewords,
+                         const DecodeContext<TextureMemory>& context = {});
+
 }  // namespace tetrakis::inline texture

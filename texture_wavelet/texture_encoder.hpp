@@ -6,6 +6,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/samples.hpp"
@@ -29,11 +31,19 @@ EncodedTexture encodeStoredTexture(const Texels& texels);
 
 // encodeTextureFrames() codes images that follow one another in time, as the frames of one texture.
 
-/// frames: 2 to 32 images of one size and kind. ring: WaveletHeader::ring. Complete tracks for
-/// Purpose::kLossless are lossless. Distortion is the squared error of all samples, alpha
-/// included.
+/// The texture of the group before, as so many bytes of its stream show its last frame.
+struct TextureBefore {
+  uint64_t bytes = 0;
+  const TextureHeader* header = nullptr;
+  std::shared_ptr<const FrameReference> last;
+};
+
+/// frames: 1 to 32 images of one size and kind. ring: WaveletHeader::ring. before: what they may go
+/// on from, if that takes fewer bits; nothing: they stand by themselves. Complete tracks for
+/// Purpose::kLossless are lossless. Distortion is the squared error of all samples, alpha included.
 EncodedTexture encodeTextureFrames(const std::vector<Texels>& frames, bool ring, Purpose purpose,
-                                   const TextureOptions& options);
+                                   const TextureOptions& options,
+                                   const std::optional<TextureBefore>& before = {});
 
 // energiesOf() and the functions below it are what all textures that are coded by wavelet share.
 

@@ -65,19 +65,42 @@ FrameSource sourceOf(const std::vector<Texels>& frames, const ColourTransform& c
   return source;
 }
 
+/// A way to code frames: with colours of their own, or going on from the group before.
+struct TextureWay {
+  TextureHeader header;
+  FrameSource source;
+  FrameCoding coding;
+
+  TextureWay(const std::vector<Texels>& frames, const ColourTransform& colour, Purpose purpose,
+             const std::optional<TextureBefore>& before = {})
+      : header(headerOfFrames(frames.front(), colour)) {
+    header.frames.count = static_cast<uint8_t>(frames.size());
+    if (before) {
+      header.frames.reference = before->bytes;
+      header.frames.before.decode = [last = before->last] { return last; };
+    }
+    source = sourceOf(frames, colour, header);
+    coding = chooseFrameCoding(source, frames.front().bits, purpose);
+  }
+};
+
 }  // namespace
 
 EncodedTexture encodeTextureFrames(const std::vector<Texels>& frames, bool ring, Purpose purpose,
-                                   const TextureOptions& options) {
-  assert(frames.size() >= 2 && frames.size() <= FramesHeader::kMost);
+                                   const TextureOptions& options,
+                                   const std::optional<TextureBefore>& before) {
+  assert(!frames.empty() && frames.size() <= FramesHeader::kMost);
   const Texels& first = frames.front();
-  const ColourTransform colour = colourOfFrames(first, purpose);
-  EncodedTexture encoded{headerOfFrames(first, colour), {}};
+  TextureWay way(frames, colourOfFrames(first, purpose), purpose);
+  if (before) {
+    TextureWay going_on(frames, colourOf(*before->header), purpose, before);
+    if (going_on.coding.bits < way.coding.bits) way = std::move(going_on);
+  }
+  FrameSource& source = way.source;
+  const FrameCoding& coding = way.coding;
+  EncodedTexture encoded{std::move(way.header), {}};
   TextureHeader& header = encoded.header;
-  header.frames.count = static_cast<uint8_t>(frames.size());
   header.regions.side_log2 = static_cast<uint8_t>(options.region_log2);
-  FrameSource source = sourceOf(frames, colour, header);
-  const FrameCoding coding = chooseFrameCoding(source, first.bits, purpose);
   header.frames.filter = coding.filter;
   header.wavelet = options.windows ? withShortReach(coding.wavelet) : coding.wavelet;
   header.wavelet.ring = ring;

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """bench/sequence runs this: sequence.py TETRAKIS FOLDER|FILE... Each FOLDER holds frames (*.tif or
 *.png); a FILE that GDAL reads has a frame in each band, of which the first 128 count. It prints
-bytes: of a sequence in groups of 16, of each frame by itself, and of peers. Needs NumPy and GDAL's
-Python module."""
+bytes: of a sequence in groups of 16, of one whose groups go on from the one before, of each frame
+by itself, and of peers. Needs NumPy, GDAL's Python module, zfpy and aomenc."""
 
 import subprocess
 import sys
@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+import zfpy
 from osgeo import gdal
 
 gdal.UseExceptions()
@@ -49,7 +50,8 @@ def tetrakis(program, names, group, *target):
         inputs = [pattern] if names[0].suffix == ".tif" else ["--texture", pattern]
         begin = time.time()
         subprocess.run(
-            [program, "encode", *inputs, "--group", str(group), *target, "-q", "-o", out + "/s.tks"],
+            [program, "encode", *inputs, "--group", str(group), *target, "-q", "-o",
+             out + "/s.tks"],
             check=True,
         )
         return Path(out + "/s.tks").stat().st_size, time.time() - begin
@@ -79,13 +81,78 @@ def netcdf(names):
         return Path(out + "/c.nc").stat().st_size
 
 
+def zfp(cube, **bound):
+    """Bytes of ZFP, which codes blocks of 4 x 4 x 4 samples."""
+    return len(zfpy.compress_numpy(np.ascontiguousarray(cube, np.float32), **bound))
+
+
+def write_y4m(frames, path):
+    """8 bits, 4:4:4, BT.709 in full range."""
+    height, width, _ = frames[0].shape
+    with open(path, "wb") as out:
+        out.write(f"YUV4MPEG2 W{width} H{height} F25:1 Ip A1:1 C444 XCOLORRANGE=FULL\n".encode())
+        for frame in frames:
+            r, g, b = np.moveaxis(frame.astype(np.float64), 2, 0)
+            y = 0.2126 * r + 0.7152 * g + 0.0722 * b
+            planes = [y, (b - y) / 1.8556 + 128, (r - y) / 1.5748 + 128]
+            out.write(b"FRAME\n")
+            for plane in planes:
+                out.write(np.clip(np.rint(plane), 0, 255).astype(np.uint8).tobytes())
+
+
+def psnr_of_video(path, frames):
+    """Of all samples of the frames, in RGB."""
+    height, width, _ = frames[0].shape
+    raw = subprocess.run(["aomdec", "--rawvideo", "--i444", "-o", "-", path], check=True,
+                         capture_output=True).stdout
+    planes = np.frombuffer(raw, np.uint8).reshape(len(frames), 3, height, width).astype(np.float64)
+    squares = 0.0
+    for (y, u, v), frame in zip(planes, frames):
+        b, r = y + 1.8556 * (u - 128), y + 1.5748 * (v - 128)
+        g = (y - 0.2126 * r - 0.0722 * b) / 0.7152
+        shown = np.clip(np.rint(np.stack([r, g, b], axis=2)), 0, 255)
+        squares += np.sum((shown - frame) ** 2)
+    return 10 * np.log10(255**2 / (squares / (len(frames) * height * width * 3)))
+
+
+def av1(names, intra):
+    """(PSNR, bytes) of libaom at several qualities: of key frames alone, or of groups as ours."""
+    frames = [np.moveaxis(gdal.Open(str(n)).ReadAsArray(), 0, 2) for n in names]
+    curve = []
+    with tempfile.TemporaryDirectory() as out:
+        write_y4m(frames, out + "/in.y4m")
+        for level in (20, 28, 36, 44, 52, 60):
+            key = ["--kf-max-dist=0"] if intra else [f"--kf-max-dist={GROUP}"]
+            subprocess.run(
+                ["aomenc", "--obu", "--i444", "--end-usage=q", f"--cq-level={level}",
+                 "--cpu-used=3", "--passes=2", "--color-range=1", *key, "-o", out + "/v.obu",
+                 out + "/in.y4m"], check=True, capture_output=True)
+            size = Path(out + "/v.obu").stat().st_size
+            curve.append((psnr_of_video(out + "/v.obu", frames), size))
+    return sorted(curve)
+
+
+def bytes_at(curve, psnr):
+    """Between the qualities that were coded; nothing beyond them."""
+    if not curve[0][0] <= psnr <= curve[-1][0]:
+        return None
+    return int(np.exp(np.interp(psnr, [p for p, _ in curve], [np.log(b) for _, b in curve])))
+
+
 def tell(name, what, found):
     ours = found["sequence"]
-    peers = {k: v for k, v in found.items() if k != "sequence"}
+    peers = {k: v for k, v in found.items() if k not in ("sequence", "going_on")}
     best = min((k for k in peers if k != "frames"), key=peers.get)
+    ours = min(ours, found["going_on"])
     cells = "  ".join(f"{k} {v}" for k, v in found.items())
     print(f"{name:10} {what:12} {cells}  of frames {ours / peers['frames']:.3f}"
           f"  of {best} {ours / peers[best]:.3f}", flush=True)
+
+
+def both(program, names, *target):
+    """Bytes of groups that stand by themselves, and of groups that go on from the one before."""
+    return {"sequence": tetrakis(program, names, GROUP, *target)[0],
+            "going_on": tetrakis(program, names, GROUP, *target, "--reference", "all")[0]}
 
 
 def heights(program, name, names):
@@ -96,8 +163,9 @@ def heights(program, name, names):
     cube = np.stack(samples).astype(np.float64)
     known = cube[cube != nodata] if nodata is not None else cube
     span = known.max() - known.min()
-    found = {"sequence": tetrakis(program, names, GROUP, "--lossless")[0],
+    found = {**both(program, names, "--lossless"),
              "frames": tetrakis(program, names, 1, "--lossless")[0],
+             "zfp": zfp(cube),
              "zstd": geotiffs(names, ["COMPRESS=ZSTD", "ZSTD_LEVEL=19"]),
              "deflate": geotiffs(names, ["COMPRESS=DEFLATE", "ZLEVEL=9"]),
              "netcdf": netcdf(names)}
@@ -106,22 +174,26 @@ def heights(program, name, names):
         bound = f"{part * span:.6g}"
         # Bounds are in the unit of the heights, and LERC's in samples.
         error = f"{float(bound) * scale:.9g}"
-        found = {"sequence": tetrakis(program, names, GROUP, "--max-error", error)[0],
+        found = {**both(program, names, "--max-error", error),
                  "frames": tetrakis(program, names, 1, "--max-error", error)[0],
+                 "zfp": zfp(cube, tolerance=float(bound)),
                  "lerc": geotiffs(names, ["COMPRESS=LERC_ZSTD", f"MAX_Z_ERROR={bound}"], False)}
         tell(name, f"within {part:g}", found)
 
 
 def textures(program, name, names):
-    found = {"sequence": tetrakis(program, names, GROUP, "--lossless")[0],
+    found = {**both(program, names, "--lossless"),
              "frames": tetrakis(program, names, 1, "--lossless")[0],
              "png": sum(n.stat().st_size for n in names)}
     tell(name, "lossless", found)
+    intra, inter = av1(names, True), av1(names, False)
     for psnr in ("32", "38"):
         ours, seconds = tetrakis(program, names, GROUP, "--psnr", psnr)
         frames = tetrakis(program, names, 1, "--psnr", psnr)[0]
-        print(f"{name:10} {psnr} dB        sequence {ours}  frames {frames}  of frames "
-              f"{ours / frames:.3f}  {len(names) / seconds:.1f} frames a second", flush=True)
+        print(f"{name:10} {psnr} dB        sequence {ours}  frames {frames}  "
+              f"av1_intra {bytes_at(intra, float(psnr))}  av1 {bytes_at(inter, float(psnr))}  "
+              f"of frames {ours / frames:.3f}  {len(names) / seconds:.1f} frames a second",
+              flush=True)
 
 
 def main():

@@ -10,7 +10,7 @@ namespace tetrakis::inline sequence {
 
 namespace {
 
-enum HeadPart : uint64_t { kClock = 0 };
+enum HeadPart : uint64_t { kClock = 0, kWayBack = 1 };
 
 constexpr size_t kFixedHead = kGroupMagic.size() + 1;
 constexpr size_t kChecksum = 4;
@@ -49,6 +49,7 @@ void GroupHead::visit(V& v) {
   times.resize(count);
   visitTimes(v, times);
   v.part(kClock, !clock.none(), [&](auto& part) { clock.visit(part); });
+  v.part(kWayBack, !back.none(), [&](auto& part) { back.visit(part); });
   v.endParts(later_parts);
 }
 

@@ -5,7 +5,9 @@
 //
 // The stream is an ordinary one, whose components have as many frames as the head says. The head
 // says when each frame is, and how long the rest of the group is, so that readers pass from group
-// to group. The index behind it leads back to all groups before (group_index.hpp).
+// to group. The index behind it leads back to all groups before (group_index.hpp). The frames of a
+// group may go on from the last one of the group before (codec/frames/frame_reference.hpp), and
+// those from the group before that, up to a point of entry.
 #pragma once
 
 #include <array>
@@ -24,6 +26,7 @@ inline constexpr uint32_t kMostHeadBytes = 1u << 16;
 inline constexpr uint32_t kMostFrames = 32;  ///< of a group
 inline constexpr uint64_t kMostFirstFrame = uint64_t{UINT32_MAX} * kMostFrames;
 inline constexpr uint32_t kMostIndexBytes = 1u << 30;
+inline constexpr uint64_t kMostDepth = 63;
 inline constexpr int64_t kMostTime = int64_t{1} << 61;  ///< in ticks, either way
 
 /// What a tick is, and when tick 0 is.
@@ -43,6 +46,20 @@ struct Clock {
   }
 };
 
+/// How far back the point of entry lies that a group needs.
+struct WayBack {
+  uint64_t depth = 0;  ///< in groups; 0: the group is one
+  uint64_t bytes = 0;  ///< from its first byte to the head of this group
+
+  bool none() const { return depth == 0; }
+
+  template <class V>
+  void visit(V& v) {
+    v.varint("depth", depth, 1, kMostDepth);
+    v.varint("bytes_back", bytes, 1, UINT64_MAX >> 2);
+  }
+};
+
 struct GroupHead {
   uint64_t number = 0;       ///< of the group in the sequence
   uint64_t first_frame = 0;  ///< number of its first frame in the sequence
@@ -50,6 +67,7 @@ struct GroupHead {
   uint64_t index_bytes = 0;    ///< behind the stream; 0: there is no index
   std::vector<int64_t> times;  ///< of each frame, in ticks, rising
   Clock clock;
+  WayBack back;
   std::string later_parts;  ///< of kinds that are not known and inform
 
   uint32_t frames() const { return static_cast<uint32_t>(times.size()); }

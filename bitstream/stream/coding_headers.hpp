@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -25,9 +27,9 @@ enum class Coding : uint8_t { kStored = 0, kDrawn = 1, kWavelet = 2 };
 struct PartKind {
   static constexpr uint64_t kRepeatedLines = 1, kPriorities = 2, kValidity = 3, kBridges = 4,
                             kLateMask = 5, kNodata = 6, kValueTable = 7, kFlatAreas = 8,
-                            kCorrections = 9, kBaseMesh = 10, kFrames = 11, kCutOut = 16,
-                            kOverlay = 17, kColours = 18, kFurtherColour = 19, kChannelTables = 20,
-                            kWhiteLevel = 21, kBandWeights = 22, kBound = 64;
+                            kCorrections = 9, kBaseMesh = 10, kFrames = 11, kReference = 12,
+                            kCutOut = 16, kOverlay = 17, kColours = 18, kFurtherColour = 19,
+                            kChannelTables = 20, kWhiteLevel = 21, kBandWeights = 22, kBound = 64;
 };
 
 /// Which wavelet: codec/wavelet/wavelet.hpp.
@@ -95,19 +97,44 @@ struct FrameScale {
   bool operator==(const FrameScale&) const = default;
 };
 
+/// The last frame of the group before in a sequence, which the frames of a group go on from: whole
+/// planes of level 0.
+struct FrameReference {
+  std::vector<std::vector<int32_t>> planes;  ///< of each colour, or of heights, in whole steps
+  std::vector<uint8_t> significant = {};     ///< of heights: as of DecodedGeometry
+  uint32_t quiet_levels = 0;                 ///< likewise
+};
+/// Decodes it when it is asked for.
+struct ReferenceSource {
+  std::function<std::shared_ptr<const FrameReference>()> decode = {};
+  uint64_t bytes = 0;  ///< of memory that this takes at most, beside the frame itself
+
+  bool none() const { return !decode; }
+};
+
 /// Frames of a component, which follow one another in time. Each has the planes of the component.
 struct FramesHeader {
-  uint8_t count = 1;  ///< 1: the component is no sequence
+  uint8_t count = 0;  ///< 0: the component has no frames
   TimeFilter filter = TimeFilter::kNone;
   std::vector<FrameScale> scales = {};  ///< of each frame; empty: all have the component's steps
+  /// The frames go on from the last frame of the group before in a sequence, as so many bytes of
+  /// its stream show it (codec/frames/frame_reference.hpp); 0: they stand by themselves.
+  uint64_t reference = 0;
+  ReferenceSource before = {};  ///< what these bytes show; none: it is not there
 
-  bool none() const { return count == 1; }
+  bool none() const { return count == 0; }
+  /// How many frames the component shows.
+  uint32_t shown() const { return count > 0 ? count : 1; }
   FrameScale scale(size_t frame) const { return scales.empty() ? FrameScale() : scales[frame]; }
 
   template <class V>
   void visit(V& v) {
-    v.u8("frames", count, 2, kMost);
+    v.u8("frames", count, 1, kMost);
     v.u8("time_filter", filter, 0, static_cast<uint64_t>(TimeFilter::kFiveThree));
+  }
+  template <class V>
+  void visitReference(V& v) {
+    v.varint("reference", reference, 1, kMostReference);
   }
   template <class V>
   void visitScales(V& v) {
@@ -120,6 +147,7 @@ struct FramesHeader {
     });
   }
   static constexpr uint8_t kMost = 32;
+  static constexpr uint64_t kMostReference = UINT64_MAX >> 2;
 };
 
 /// The tiles of a side of a plane.

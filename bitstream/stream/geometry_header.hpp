@@ -73,6 +73,8 @@ struct GeometryHeader {
       frames.visit(part);
       frames.visitScales(part);
     });
+    v.part(PartKind::kReference, frames.reference > 0,
+           [&](auto& part) { frames.visitReference(part); });
   }
   /// What informs.
   template <class V>

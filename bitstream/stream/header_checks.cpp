@@ -202,7 +202,11 @@ Status checkFrames(const StreamHeader& header) {
            !t.tables.present && t.weights.levels == 0 && t.colour_shears.size() == 1;
   }
   if (header.geometry && header.texture)
-    all &= header.geometry->frames.count == header.texture->frames.count;
+    all &= header.geometry->frames.shown() == header.texture->frames.shown();
+  const auto refers_well = [](const auto& c) {
+    return !c || c->frames.reference == 0 || (!c->frames.none() && c->frames.scales.empty());
+  };
+  all &= refers_well(header.geometry) && refers_well(header.texture);
   if (all) return {};
   return {TKS_CORRUPT,
           "Corrupt stream: its frames have tools that frames do not have, or heights and texture "

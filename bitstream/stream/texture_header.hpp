@@ -125,6 +125,8 @@ struct TextureHeader {
     v.part(PartKind::kPriorities, !priorities.none(), [&](auto& part) { priorities.visit(part); });
     v.part(PartKind::kBridges, bridge > 0, [&](auto& part) { part.u8("bridge", bridge, 1, 255); });
     v.part(PartKind::kFrames, !frames.none(), [&](auto& part) { frames.visit(part); });
+    v.part(PartKind::kReference, frames.reference > 0,
+           [&](auto& part) { frames.visitReference(part); });
     v.part(PartKind::kCutOut, alpha_bytes > 0, [&](auto& part) {
       part.varint("alpha_bytes", alpha_bytes, 1, UINT64_MAX >> 1);
       part.u8("hidden", hidden, 0, 1);

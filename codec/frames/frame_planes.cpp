@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/parallel.hpp"
+#include "codec/frames/frame_reference.hpp"
 #include "codec/wavelet/synthesis/view_synthesis.hpp"
 #include "codec/wavelet/wavelet.hpp"
 
@@ -51,6 +52,7 @@ uint64_t FramePlanes::bytes() const {
 
 FramePlanes decodeFramePlanes(const FrameLayout& of, const FramePlan& plan,
                               const Codewords& codewords, const View& view,
+                              const FrameReference* before,
                               const DecodeContext<TrackMemory>& context, const TakeBands& take) {
   std::vector<ViewSynthesis> synthesis(
       of.planes(), ViewSynthesis(specOf(of.wavelet), plan.layout().pyramid(), view));
@@ -73,6 +75,8 @@ FramePlanes decodeFramePlanes(const FrameLayout& of, const FramePlan& plan,
   parallelFor(context.threads, synthesis.size(),
               [&](size_t p) { out.planes[p] = synthesis[p].run(1); });
   for (uint32_t c = 0; c < of.colours(); ++c) {
+    if (before != nullptr)
+      addReference(before->planes[c], of.extent, view, out.fraction_bits, out.planes[c]);
     FrameViews frames;
     for (uint32_t p = c; p < of.planes(); p += of.colours()) frames.emplace_back(out.planes[p]);
     inverseFrames(of.frames, out.fraction_bits, frames);

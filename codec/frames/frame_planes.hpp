@@ -83,11 +83,18 @@ struct FramePlanes {
 using TakeBands =
     std::function<void(size_t track, std::span<const Band> bands, std::span<const BandPart> parts)>;
 
+/// What frames go on from; null: nothing.
+inline std::shared_ptr<const FrameReference> referenceOf(const FramesHeader& frames) {
+  return frames.before.none() ? nullptr : frames.before.decode();
+}
+
 /// Decodes what a view shows of all frames. codewords: any prefix of the coefficients of each
-/// track, one for each region. Safe on any bytes. The memory is that of earlier calls with the same
-/// plan. take: is told the bands as well; empty: nobody is.
+/// track, one for each region. Safe on any bytes. before: what the frames go on from; null: nothing.
+/// The memory is that of earlier calls with the same plan. take: is told the
+/// bands as well; empty: nobody is.
 FramePlanes decodeFramePlanes(const FrameLayout& of, const FramePlan& plan,
                               const Codewords& codewords, const View& view,
+                              const FrameReference* before,
                               const DecodeContext<TrackMemory>& context = {},
                               const TakeBands& take = {});
 

@@ -12,6 +12,7 @@
 #include "base/parallel.hpp"
 #include "base/portable_math.hpp"
 #include "codec/frames/frame_lifting.hpp"
+#include "codec/frames/frame_reference.hpp"
 #include "codec/wavelet/wavelet.hpp"
 
 namespace tetrakis::inline frames {
@@ -25,9 +26,22 @@ FrameViews framesOf(Planes& planes, uint32_t c, uint32_t colours) {
   return frames;
 }
 
-Planes lifted(FramesHeader header, TimeFilter filter, uint32_t colours, Planes planes) {
+/// Lifts the frames of a source over time, and leaves of the first plane of each colour what
+/// differs from the reference. fraction_bits: of the planes.
+void liftOverTime(const FrameSource& source, TimeFilter filter, int fraction_bits, Planes& planes) {
+  FramesHeader header = source.layout.frames;
   header.filter = filter;
-  for (uint32_t c = 0; c < colours; ++c) forwardFrames(header, 0, framesOf(planes, c, colours));
+  const uint32_t colours = source.layout.colours();
+  const std::shared_ptr<const FrameReference> before = source.before();
+  for (uint32_t c = 0; c < colours; ++c) {
+    forwardFrames(header, fraction_bits, framesOf(planes, c, colours));
+    if (before != nullptr) takeReference(before->planes[c], fraction_bits, planes[c]);
+  }
+}
+
+Planes lifted(const FrameSource& source, TimeFilter filter) {
+  Planes planes = source.planes;
+  liftOverTime(source, filter, 0, planes);
   return planes;
 }
 
@@ -75,13 +89,12 @@ constexpr size_t kLookedAt = 4;
 
 FrameCoding chooseFrameCoding(const FrameSource& source, int bits, Purpose purpose) {
   constexpr std::array kFilters = {TimeFilter::kNone, TimeFilter::kHaar, TimeFilter::kFiveThree};
-  const uint32_t colours = source.layout.colours();
   const int most = std::max(kMostBits, bitsOf(source.planes));
   FrameCoding best;
   double least = 0;
   Planes left;
   for (const TimeFilter filter : kFilters) {
-    Planes planes = lifted(source.layout.frames, filter, colours, source.planes);
+    Planes planes = lifted(source, filter);
     if (bitsOf(planes) > most) continue;
     const double cost = losslessBits(Stack(planes, source, 1).view(), bits);
     if (filter != TimeFilter::kNone && cost >= least) continue;
@@ -90,6 +103,7 @@ FrameCoding chooseFrameCoding(const FrameSource& source, int bits, Purpose purpo
     left = std::move(planes);
   }
   const size_t every = source.layout.frames.count > 2 * kLookedAt ? kLookedAt : 1;
+  best.bits = least;
   best.wavelet =
       chooseWavelet(Stack(left, source, every).view(), std::max(bits, bitsOf(left)), purpose);
   return best;
@@ -118,15 +132,13 @@ struct TransformedFrames {
   }
 };
 
-void transform(const FrameLayout& layout, const FramePlan& plan, const SharedBits& marks,
-               Planes& planes, uint32_t threads) {
-  for (uint32_t c = 0; c < layout.colours(); ++c)
-    forwardFrames(layout.frames, layout.wavelet.fraction_bits,
-                  framesOf(planes, c, layout.colours()));
-  const std::vector<uint8_t> bytes = shownMarks(marks, {});
-  parallelFor(threads, planes.size(), [&](size_t p) {
-    clearUnmarked(std::span(planes[p]), bytes);
-    forwardWavelet(specOf(layout.wavelet), plan.layout().pyramid(), planes[p], 1);
+void transform(const FramePlan& plan, FrameSource& source, uint32_t threads) {
+  const FrameLayout& layout = source.layout;
+  liftOverTime(source, layout.frames.filter, layout.wavelet.fraction_bits, source.planes);
+  const std::vector<uint8_t> bytes = shownMarks(source.lifted, {});
+  parallelFor(threads, source.planes.size(), [&](size_t p) {
+    clearUnmarked(std::span(source.planes[p]), bytes);
+    forwardWavelet(specOf(layout.wavelet), plan.layout().pyramid(), source.planes[p], 1);
   });
 }
 
@@ -138,7 +150,7 @@ std::vector<EncodedTrack> encodeFramePlanes(FrameSource source, const TrackOptio
   const int fraction_bits = layout.wavelet.fraction_bits;
   for (std::vector<int32_t>& plane : source.planes) plane = withFractions(plane, fraction_bits);
   const FramePlan plan(layout, source.lifted);
-  transform(layout, plan, source.lifted, source.planes, options.threads);
+  transform(plan, source, options.threads);
   const TransformedFrames frames{plan, source};
   const size_t regions = plan.regions().size();
   const auto source_of = [&](size_t region) { return frames.trackOf(region); };

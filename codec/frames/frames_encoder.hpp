@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "base/bit_plane.hpp"
@@ -23,12 +24,16 @@ struct FrameSource {
   Planes planes;       ///< whole steps; others than the lifted samples may be anything
   std::vector<double> squares = {1};  ///< errors of the samples by those of each colour
   double share = 1;                   ///< of the lifted samples, those whose errors count
+
+  /// What the frames go on from, in whole steps of each colour; null: nothing.
+  std::shared_ptr<const FrameReference> before() const { return referenceOf(layout.frames); }
 };
 
 /// The filters of a group.
 struct FrameCoding {
   TimeFilter filter = TimeFilter::kNone;
   WaveletHeader wavelet;
+  double bits = 0;  ///< that coefficients to the last bit take, estimated
 };
 
 /// Chooses the filter over time that leaves the fewest bits, and the wavelet that suits what it

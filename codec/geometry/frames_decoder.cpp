@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // decodeFrame() decodes heights in frames: the masks of all frames, then the planes, of which one
 // is shown.
+#include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <utility>
 
+#include "codec/frames/frame_reference.hpp"
 #include "codec/geometry/heights_decoder.hpp"
 #include "codec/wavelet/morphology.hpp"
 #include "codec/wavelet/wavelet.hpp"
@@ -38,12 +41,20 @@ FramePlanes decodeAll(const TakenLayers& taken, const SharedBits& lifted, const 
     for (; !bands.empty(); bands = bands.subspan(parts.size()))
       significance.take(track, bands.first(parts.size()), parts);
   };
-  FramePlanes all =
-      decodeFramePlanes(layout, plan, joinCoefficients(taken).codewords, view, context, take);
+  const auto before = referenceOf(layout.frames);
+  FramePlanes all = decodeFramePlanes(layout, plan, joinCoefficients(taken).codewords, view,
+                                      before.get(), context, take);
   DecodedGeometry marks;
   significance.giveTo(marks);
   all.significant = std::move(marks.significant);
   all.quiet_levels = marks.quiet_levels;
+  if (before != nullptr && !view.window) {  // meshes are made of whole levels
+    const std::vector<uint8_t> earlier = slice(std::span(before->significant), layout.extent, view);
+    for (size_t i = 0; i < all.significant.size(); ++i) all.significant[i] |= earlier[i];
+    const auto level = static_cast<uint32_t>(view.level);
+    const uint32_t quiet = before->quiet_levels - std::min(before->quiet_levels, level);
+    all.quiet_levels = std::min(all.quiet_levels, quiet);
+  }
   return all;
 }
 
@@ -81,6 +92,18 @@ DecodedGeometry decodeFrame(const TakenLayers& taken, const View& view,
   clearUnmarked(std::span(out.heights), out.valid);
   clearUnmarked(std::span(out.significant), out.valid);
   return out;
+}
+
+FrameReference lastFrame(const GeometryHeader& header, const GeometryLayers& layers,
+                         const Codewords& codewords, const DecodeContext<HeightsMemory>& context) {
+  const View view{0, {}, header.frames.count - 1u};
+  const DecodedGeometry shown = decodeFrame(takeApart(codewords, header, layers), view, context);
+  FrameReference last;
+  last.planes.push_back(filledReference(wholeSteps(shown.heights, shown.fraction_bits), shown.valid,
+                                        header.extent()));
+  last.significant = shown.significant;
+  last.quiet_levels = shown.quiet_levels;
+  return last;
 }
 
 }  // namespace tetrakis::inline geometry

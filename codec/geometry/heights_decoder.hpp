@@ -135,6 +135,11 @@ FrameMasks frameMasksOf(const TakenLayers& taken, HeightsMemory* memory = nullpt
 DecodedGeometry decodeFrame(const TakenLayers& taken, const View& view,
                             const DecodeContext<HeightsMemory>& context);
 
+/// The last frame of heights in frames, as the next group goes on from it.
+FrameReference lastFrame(const GeometryHeader& header, const GeometryLayers& layers,
+                         const Codewords& codewords,
+                         const DecodeContext<HeightsMemory>& context = {});
+
 /// Decodes which samples of a view are valid, and nothing else; empty: all are valid.
 std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const GeometryLayers& layers,
                                          const Codewords& codewords, const View& view);

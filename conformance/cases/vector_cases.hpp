@@ -58,6 +58,9 @@ struct VectorCase {
 /// All cases, in the order of the manifest.
 std::vector<VectorCase> vectorCases();
 
+/// Sequences, whose `stream` is there already.
+std::vector<VectorCase> sequenceCases();
+
 /// The complete stream of a case.
 Result<std::vector<uint8_t>> encodeCase(const VectorCase& vector_case);
 

@@ -93,9 +93,22 @@ void invert(const FramesHeader& header, int f, std::vector<int32_t*>& v) {
   }
 }
 
-void invertAll(const FrameLayout& layout, FramePlanes& of) {
+/// "v[0] of colour c first becomes".
+void addReference(const std::vector<int32_t>& before, int width, int level, int f, Plane& plane) {
+  for (int y = 0; y < plane.height; ++y) {
+    for (int x = 0; x < plane.width; ++x) {
+      int32_t& value = plane.values[size_t(y) * size_t(plane.width) + size_t(x)];
+      const int32_t r = before[size_t(y << level) * size_t(width) + size_t(x << level)];
+      value = wrap(int64_t{value} + int64_t{r} * (int64_t{1} << f));
+    }
+  }
+}
+
+void invertAll(const FrameLayout& layout, int width, int level, FramePlanes& of) {
   const size_t colours = layout.priorities.size();
   for (size_t c = 0; c < colours; ++c) {
+    if (!layout.frames.before.empty())
+      addReference(layout.frames.before[c], width, level, of.f, of.planes[c]);
     for (size_t i = 0; i < of.planes[c].values.size(); ++i) {
       std::vector<int32_t*> v;
       for (size_t p = c; p < of.planes.size(); p += colours) v.push_back(&of.planes[p].values[i]);
@@ -133,12 +146,19 @@ FramePlanes decodeFrames(const FrameLayout& layout, const Plane& lifted,
     synthesise(layout.wavelet, level, plane);
     if (level > 0) plane = reference::levelOf(layout.wavelet, level, plane);
   }
-  invertAll(layout, out);
+  invertAll(layout, lifted.width, level, out);
   return out;
 }
 
-std::vector<uint8_t> decodeHeightFrames(const GeometryHeader& header, const Layers& layers,
-                                        const Codewords& codewords, int level) {
+namespace {
+
+struct HeightFrames {
+  FramePlanes frames;
+  std::vector<std::vector<uint8_t>> masks;  ///< of each frame, level 0; empty: all are valid
+};
+
+HeightFrames heightFrames(const GeometryHeader& header, const Layers& layers,
+                          const Codewords& codewords, int level) {
   const int width = header.width, height = header.height;
   std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
   const auto validity = take(coefficients[0], layers.validityBytes);
@@ -155,7 +175,15 @@ std::vector<uint8_t> decodeHeightFrames(const GeometryHeader& header, const Laye
       lifted.valid = bridged(lifted.valid, width, height, layers.bridge);
   }
   const FrameLayout layout{header.wavelet, header.regions, header.frames, header.planes, {0}};
-  FramePlanes frames = decodeFrames(layout, lifted, coefficients, level);
+  return {decodeFrames(layout, lifted, coefficients, level), std::move(masks)};
+}
+
+}  // namespace
+
+std::vector<uint8_t> decodeHeightFrames(const GeometryHeader& header, const Layers& layers,
+                                        const Codewords& codewords, int level) {
+  const int width = header.width, height = header.height;
+  auto [frames, masks] = heightFrames(header, layers, codewords, level);
   std::vector<uint8_t> all;
   for (int t = 0; t < header.frames.count; ++t) {
     GeometryHeader one = header;
@@ -175,6 +203,58 @@ std::vector<uint8_t> decodeHeightFrames(const GeometryHeader& header, const Laye
     all.insert(all.end(), bytes.begin(), bytes.end());
   }
   return all;
+}
+
+namespace {
+
+/// A pass of "Heights that are void in that frame are filled".
+void fillPass(int width, int height, std::vector<int32_t>& values, std::vector<uint8_t>& valid) {
+  const std::vector<int32_t> known = values;
+  const std::vector<uint8_t> had = valid;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const size_t at = size_t(y) * size_t(width) + size_t(x);
+      if (had[at]) continue;
+      int64_t sum = 0, weights = 0;
+      for (const auto [dx, dy] : {std::array{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+        for (int d = 1;; ++d) {
+          const int u = x + d * dx, v = y + d * dy;
+          if (u < 0 || v < 0 || u >= width || v >= height) break;
+          const size_t other = size_t(v) * size_t(width) + size_t(u);
+          if (!had[other]) continue;
+          const int64_t w = std::max(65536 / d, 1);
+          sum += w * known[other];
+          weights += w;
+          break;
+        }
+      }
+      if (weights == 0) continue;
+      const int64_t above = 2 * sum + weights, below = 2 * weights;
+      values[at] = static_cast<int32_t>(above / below - (above % below < 0 ? 1 : 0));
+      valid[at] = 1;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<int32_t> wholeSteps(const Plane& plane, int f) {
+  std::vector<int32_t> steps = plane.values;
+  if (f == 0) return steps;
+  for (int32_t& x : steps) x = static_cast<int32_t>((x + (int64_t{1} << (f - 1))) >> f);
+  return steps;
+}
+
+ReferencePlanes lastHeights(const GeometryHeader& header, const Layers& layers,
+                            const Codewords& codewords) {
+  const auto [frames, masks] = heightFrames(header, layers, codewords, 0);
+  std::vector<int32_t> steps = wholeSteps(frames.planes.back(), frames.f);
+  std::vector<uint8_t> valid = masks.back();
+  for (size_t i = 0; i < valid.size(); ++i)
+    if (!valid[i]) steps[i] = 0;
+  for (int pass = 0; pass < 2 && !valid.empty(); ++pass)
+    fillPass(header.width, header.height, steps, valid);
+  return {steps};
 }
 
 }  // namespace tetrakis::reference

@@ -33,4 +33,12 @@ FramePlanes decodeFrames(const FrameLayout& layout, const Plane& lifted,
 std::vector<uint8_t> decodeHeightFrames(const GeometryHeader& header, const Layers& layers,
                                         const Codewords& codewords, int level);
 
+/// FORMAT 9.4, Reference: what the next group goes on from.
+ReferencePlanes lastHeights(const GeometryHeader& header, const Layers& layers,
+                            const Codewords& codewords);
+ReferencePlanes lastTexels(const TextureHeader& header, const Codewords& codewords);
+
+/// "R[c]" of the values of a plane.
+std::vector<int32_t> wholeSteps(const Plane& plane, int f);
+
 }  // namespace tetrakis::reference

@@ -91,7 +91,7 @@ std::vector<uint32_t> decodeTable(const Layers& layers, const FirstTrack& track)
 std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& layers,
                                    const Codewords& codewords, int level) {
   level = std::min(level, subbandsOf(header.width, header.height).front().level);
-  if (header.frames.count > 1) return decodeHeightFrames(header, layers, codewords, level);
+  if (header.frames.count > 0) return decodeHeightFrames(header, layers, codewords, level);
   const FirstTrack track = takeApart(layers, codewords.at(0));
   Opening opening = decodeOpening(header, layers, track);
   const bool stored = header.planes == kStoredPlanes && !header.drawn;

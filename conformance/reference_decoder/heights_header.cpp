@@ -128,6 +128,7 @@ void readHeights(Reader& in, const Domain& domain, RegionHeader regions, Stream&
   stream.layers = readLayers(parts);
   parts.take(10, [&](Reader& p) { g.baseMesh = readBaseMesh(p); });
   parts.take(11, [&](Reader& p) { g.frames = readFrames(p, true); });
+  parts.take(12, [&](Reader& p) { g.frames.reference = p.varint(1, INT64_MAX / 2); });
   parts.take(64, [](Reader& p) {
     p.u8(0, 1);              // exact
     if (!p.ends()) p.f64();  // max_error
@@ -140,12 +141,13 @@ void readHeights(Reader& in, const Domain& domain, RegionHeader regions, Stream&
   const Layers& layers = stream.layers;
   const bool others =
       layers.lateMask || layers.tableBytes > 0 || layers.flatBytes > 0 || layers.corrections > 0;
-  if (g.frames.count > 1 && (others || !suitsFrames(g))) stream.suits = false;
+  if (g.frames.count > 0 && (others || !suitsFrames(g))) stream.suits = false;
+  if (!g.frames.suits()) stream.suits = false;
 }
 
 FramesHeader readFrames(Reader& in, bool scaled) {
   FramesHeader frames;
-  frames.count = in.u8(2, 32);
+  frames.count = in.u8(1, 32);
   frames.filter = in.u8(0, 2);
   if (!scaled || in.ends()) return frames;
   for (int t = 0; t < frames.count; ++t) {

@@ -15,16 +15,6 @@
 namespace tetrakis::reference {
 namespace {
 
-/// FORMAT 2: CRC-32, "polynomial EDB88320 reflected, initial and final xor FFFFFFFF".
-uint32_t crc32(std::span<const uint8_t> bytes) {
-  uint32_t crc = 0xFFFFFFFFu;
-  for (const uint8_t byte : bytes) {
-    crc ^= byte;
-    for (int i = 0; i < 8; ++i) crc = crc & 1 ? crc >> 1 ^ 0xEDB88320u : crc >> 1;
-  }
-  return ~crc;
-}
-
 /// FORMAT 3: what the field `head` of a packet says.
 struct Head {
   uint64_t length = 0, number = 0;
@@ -165,7 +155,7 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   if (!stream.geometry && !stream.texture && !stream.triangles) in.fail(Outcome::kUnsupported);
   if (stream.triangles && !suits(stream)) stream.suits = false;
   if (stream.geometry && stream.texture &&
-      stream.geometry->frames.count != stream.texture->frames.count)
+      stream.geometry->frames.shown() != stream.texture->frames.shown())
     stream.suits = false;
   if (!stream.suits) in.fail(Outcome::kCorrupt);
   stream.outcome = in.outcome() == Outcome::kTruncated ? Outcome::kCorrupt : in.outcome();
@@ -227,6 +217,8 @@ Outcome readPackets(std::span<const uint8_t> payload, Stream& stream) {
   return Outcome::kDone;
 }
 
+}  // namespace
+
 Stream readStream(std::span<const uint8_t> prefix, uint64_t maxSamples) {
   Stream stream;
   const auto payload = readHeader(prefix, stream);
@@ -236,12 +228,18 @@ Stream readStream(std::span<const uint8_t> prefix, uint64_t maxSamples) {
   return stream;
 }
 
-}  // namespace
-
 Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples, Levels levels) {
-  const Stream stream = readStream(prefix, maxSamples);
+  return decode(readStream(prefix, maxSamples), levels);
+}
+
+Decoded decode(const Stream& stream, Levels levels) {
   Decoded decoded;
   decoded.outcome = stream.outcome;
+  const auto unknown = [](const auto& c) {
+    return c && c->frames.reference > 0 && c->frames.before.empty();
+  };
+  if (decoded.outcome == Outcome::kDone && (unknown(stream.geometry) || unknown(stream.texture)))
+    decoded.outcome = Outcome::kUnsupported;
   if (decoded.outcome != Outcome::kDone) return decoded;
   const auto level = [](const Forest& forest, int of) { return forest.isGrid() ? of : 0; };
   if (const auto& g = stream.geometry) {

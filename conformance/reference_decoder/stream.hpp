@@ -74,9 +74,16 @@ struct FrameScale {
   int64_t offset = 0;
   int shift = 0;
 };
+/// The last frame of the group before, level 0: whole steps of each colour.
+using ReferencePlanes = std::vector<std::vector<int32_t>>;
 struct FramesHeader {
-  int count = 1, filter = 0;
+  int count = 0, filter = 0;       ///< count: 0: there are none
   std::vector<FrameScale> scales;  ///< of each frame; empty: all are 0
+  uint64_t reference = 0;          ///< bytes of the stream of the group before
+  ReferencePlanes before;          ///< what these show; empty: nothing is known of them
+
+  int shown() const { return count > 0 ? count : 1; }
+  bool suits() const { return reference == 0 || (count > 0 && scales.empty()); }
 
   FrameScale scale(int t) const { return scales.empty() ? FrameScale() : scales[size_t(t)]; }
 };
@@ -167,6 +174,11 @@ struct Stream {
   bool suits = true;                   ///< what the parts of the header say fits together
   std::array<Codewords, 2> codewords;  ///< by role
 };
+
+/// Header and packets of a prefix.
+Stream readStream(std::span<const uint8_t> prefix, uint64_t maxSamples);
+/// The samples of a stream. kUnsupported: nobody gave what its frames go on from.
+Decoded decode(const Stream& stream, Levels levels);
 
 /// "Arithmetic on samples and coefficients wraps modulo 2^32" (FORMAT, notation).
 constexpr int32_t wrap(int64_t value) {

@@ -226,19 +226,23 @@ void append(const TextureHeader& header, const std::array<int32_t, 4>& texel,
   }
 }
 
-/// FORMAT 9.4: all frames, one behind the other.
-std::vector<uint8_t> decodeTextureFrames(const TextureHeader& header,
-                                         const std::vector<std::span<const uint8_t>>& coefficients,
-                                         int level) {
-  const auto colours = static_cast<size_t>(header.colourPlanes);
+FramePlanes textureFrames(const TextureHeader& header,
+                          const std::vector<std::span<const uint8_t>>& coefficients, int level) {
   const FrameLayout layout{
       header.wavelet,
       header.regions,
       header.frames,
       header.planes,
       {header.priority.begin(), header.priority.begin() + header.colourPlanes}};
-  const FramePlanes frames =
-      decodeFrames(layout, {header.width, header.height, {}, {}}, coefficients, level);
+  return decodeFrames(layout, {header.width, header.height, {}, {}}, coefficients, level);
+}
+
+/// FORMAT 9.4: all frames, one behind the other.
+std::vector<uint8_t> decodeTextureFrames(const TextureHeader& header,
+                                         const std::vector<std::span<const uint8_t>>& coefficients,
+                                         int level) {
+  const auto colours = static_cast<size_t>(header.colourPlanes);
+  const FramePlanes frames = textureFrames(header, coefficients, level);
   std::vector<uint8_t> samples;
   for (size_t first = 0; first < frames.planes.size(); first += colours) {
     for (size_t i = 0; i < frames.planes[first].values.size(); ++i) {
@@ -252,6 +256,15 @@ std::vector<uint8_t> decodeTextureFrames(const TextureHeader& header,
 
 }  // namespace
 
+ReferencePlanes lastTexels(const TextureHeader& header, const Codewords& codewords) {
+  const FramePlanes frames = textureFrames(header, {codewords.begin(), codewords.end()}, 0);
+  const auto colours = static_cast<size_t>(header.colourPlanes);
+  ReferencePlanes last;
+  for (size_t p = frames.planes.size() - colours; p < frames.planes.size(); ++p)
+    last.push_back(wholeSteps(frames.planes[p], frames.f));
+  return last;
+}
+
 std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords& codewords,
                                    int level) {
   std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
@@ -259,7 +272,7 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
     return decodeDrawn(header, coefficients[0], level);
   level = std::min(level, subbandsOf(header.width, header.height).front().level);
   if (header.stored) return decodeStored(header, coefficients[0], level);
-  if (header.frames.count > 1) return decodeTextureFrames(header, coefficients, level);
+  if (header.frames.count > 0) return decodeTextureFrames(header, coefficients, level);
   const Opening opening = takeOpening(header, coefficients[0]);
   const Tracks tracks = decodeTracks(header, coefficients, opening.lifted, level);
   const int f = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);

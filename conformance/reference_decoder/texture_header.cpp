@@ -74,6 +74,7 @@ void readTexture(Reader& in, const Domain& domain, RegionHeader regions, Stream&
   readCoding(parts, t);
   parts.take(4, [&](Reader& p) { t.bridge = p.u8(1, 255); });
   parts.take(11, [&](Reader& p) { t.frames = readFrames(p, false); });
+  parts.take(12, [&](Reader& p) { t.frames.reference = p.varint(1, INT64_MAX / 2); });
   const bool cutout = parts.take(16, [&](Reader& p) {
     t.alphaBytes = p.varint(1, INT64_MAX);
     t.hidden = p.u8(0, 1);
@@ -94,7 +95,8 @@ void readTexture(Reader& in, const Domain& domain, RegionHeader regions, Stream&
   if (white && t.sample == kU8) stream.suits = false;
   if (!suits(t, domain)) stream.suits = false;
   const bool others = opening || tables || weights || t.bridge > 0 || t.shears.size() > 1;
-  if (t.frames.count > 1 && (others || !suitsFrames(t))) stream.suits = false;
+  if (t.frames.count > 0 && (others || !suitsFrames(t))) stream.suits = false;
+  if (!t.frames.suits()) stream.suits = false;
 }
 
 }  // namespace tetrakis::reference

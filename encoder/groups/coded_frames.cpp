@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/portable_math.hpp"
@@ -88,24 +89,82 @@ double HeightFrames::squaresOf(const Codewords& prefix, uint32_t threads,
   return squares;
 }
 
+namespace {
+
+/// A way to code the heights of a group: in steps of its own, or going on from the group before.
+struct HeightWay {
+  FrameSteps truth;
+  GeometryHeader header;
+  FrameSource source;
+  std::vector<uint8_t> masks;
+  FrameCoding coding;
+
+  /// Bits to the last step, of steps of a given size.
+  double bitsAt(double step) const {
+    return coding.bits + static_cast<double>(truth.validSamples()) * std::log2(truth.step / step);
+  }
+};
+
+/// A largest error is kept by the steps alone, so that all of them have to come back.
+bool needsAllSteps(const tks_encode_options& options) {
+  return options.lossless != 0 || options.max_error > 0;
+}
+
+/// reference: what the frames go on from; null: nothing.
+HeightWay wayOf(const GroupInputs& inputs, FrameSteps truth,
+                const std::shared_ptr<const FrameReference>& reference) {
+  HeightWay way{std::move(truth), {}, {}, {}, {}};
+  way.header = headerOf(inputs.heights.front(), way.truth);
+  if (reference != nullptr) {
+    way.header.frames.reference = inputs.before->bytes;
+    way.header.frames.before.decode = [reference] { return reference; };
+  }
+  way.source.planes = filled(way.truth).steps;
+  way.source.layout = frameLayoutOf(way.header);
+  way.masks = encodeFrameMasks(way.truth.masks, way.source.layout.extent);
+  if (!way.masks.empty()) way.source.lifted = everValid(way.truth.masks);
+  const auto valid = static_cast<double>(std::max<uint64_t>(way.truth.validSamples(), 1));
+  way.source.share = valid / static_cast<double>(samplesOf(way.source.planes));
+  const Purpose purpose = needsAllSteps(inputs.options) ? Purpose::kLossless : Purpose::kLossy;
+  way.coding = chooseFrameCoding(way.source, way.truth.range_bits + 1, purpose);
+  return way;
+}
+
+/// Of lossy streams: how much coarser than the steps of a group those of the group before may be.
+constexpr double kCoarser = 2;
+
+/// The way that takes fewer bits.
+Result<HeightWay> chooseWay(const GroupInputs& inputs) {
+  Result<FrameSteps> found = stepsOfFrames(inputs.heights, inputs.options);
+  std::optional<FrameSteps> like;
+  if (inputs.before != nullptr && inputs.before->last_heights != nullptr)
+    like = stepsLike(*inputs.before->heights, inputs.heights, inputs.options);
+  if (!found.ok() && !like) return found.status();
+  if (!like) return wayOf(inputs, *std::move(found), nullptr);
+  HeightWay going_on = wayOf(inputs, *std::move(like), inputs.before->last_heights);
+  if (!found.ok()) return going_on;
+  const bool all = needsAllSteps(inputs.options);
+  if (!all && going_on.truth.step > kCoarser * found->step)
+    return wayOf(inputs, *std::move(found), nullptr);
+  HeightWay alone = wayOf(inputs, *std::move(found), nullptr);
+  const double step = all ? going_on.truth.step : alone.truth.step;
+  const double bits = all ? alone.coding.bits : alone.bitsAt(step);
+  return going_on.bitsAt(step) < bits ? std::move(going_on) : std::move(alone);
+}
+
+}  // namespace
+
 Result<HeightFrames> codeHeightFrames(const GroupInputs& inputs) {
   const tks_encode_options& options = inputs.options;
-  Result<FrameSteps> found = stepsOfFrames(inputs.heights, options);
-  if (!found.ok()) return found.status();
-  HeightFrames frames{*std::move(found), nullptr};
+  Result<HeightWay> way = chooseWay(inputs);
+  if (!way.ok()) return way.status();
+  HeightFrames frames{std::move(way->truth), nullptr};
   const tks_heights& first = inputs.heights.front();
+  const FrameCoding& coding = way->coding;
+  const std::vector<uint8_t>& masks = way->masks;
+  FrameSource& source = way->source;
   CodedHeights coded;
-  coded.header = headerOf(first, frames.truth);
-  FrameSource source;
-  source.planes = filled(frames.truth).steps;
-  source.layout = frameLayoutOf(coded.header);
-  const std::vector<uint8_t> masks = encodeFrameMasks(frames.truth.masks, source.layout.extent);
-  if (!masks.empty()) source.lifted = everValid(frames.truth.masks);
-  source.share = frames.counted() / static_cast<double>(samplesOf(source.planes));
-  // A largest error is kept by the steps alone, so that all of them have to come back.
-  const bool whole = options.lossless != 0 || options.max_error > 0;
-  const Purpose purpose = whole ? Purpose::kLossless : Purpose::kLossy;
-  const FrameCoding coding = chooseFrameCoding(source, frames.truth.range_bits + 1, purpose);
+  coded.header = std::move(way->header);
   const CoefficientOptions given = heightOptions(inputs.first());
   coded.header.frames.filter = coding.filter;
   coded.header.wavelet = given.windows ? withShortReach(coding.wavelet) : coding.wavelet;
@@ -152,8 +211,11 @@ TextureFrames codeTextureFrames(const GroupInputs& inputs, bool to_the_end) {
   const EncodeInputs like_first = inputs.first();
   TextureOptions options = textureOptions(like_first, first->texels);
   if (to_the_end) options.mean_square = 0;
+  std::optional<TextureBefore> before;
+  if (inputs.before != nullptr && inputs.before->last_texture != nullptr)
+    before = {inputs.before->bytes, &*inputs.before->texture, inputs.before->last_texture};
   EncodedTexture encoded =
-      encodeTextureFrames(frames.truth, first->ring, purposeOf(like_first), options);
+      encodeTextureFrames(frames.truth, first->ring, purposeOf(like_first), options, before);
   frames.coded = std::make_shared<const CodedTexture>(
       CodedTexture{std::move(first), std::move(encoded.header), std::move(encoded.tracks)});
   return frames;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -17,11 +18,21 @@
 
 namespace tetrakis::inline groups {
 
+/// The group before in a sequence, as the first bytes of its stream show it.
+struct GroupBefore {
+  uint64_t bytes = 0;
+  std::optional<GeometryHeader> heights;
+  std::optional<TextureHeader> texture;
+  /// The last frame of each; null where there is none.
+  std::shared_ptr<const FrameReference> last_heights = nullptr, last_texture = nullptr;
+};
+
 /// The frames of a group; exactly one of the options' targets is set.
 struct GroupInputs {
   std::vector<tks_heights> heights;  ///< of each frame, alike but for their samples; empty: none
   std::vector<tks_image> images;     ///< likewise
   const tks_encode_options& options;
+  const GroupBefore* before = nullptr;  ///< what they may go on from; null: nothing
 
   size_t frames() const { return heights.empty() ? images.size() : heights.size(); }
   /// The first frame, which says what all have in common.

@@ -11,7 +11,7 @@
 
 namespace tetrakis::inline groups {
 
-/// The stream of 2 to 32 frames. inputs: have passed the checks of the C interface. TKS_USAGE: the
+/// The stream of 1 to 32 frames. inputs: have passed the checks of the C interface. TKS_USAGE: the
 /// options ask for something impossible. TKS_UNSUPPORTED: frames together cannot meet them, and
 /// each by itself may.
 Result<std::vector<uint8_t>> encodeGroup(const GroupInputs& inputs);

@@ -191,6 +191,54 @@ Result<FrameSteps> stepsOfFrames(std::span<const tks_heights> frames,
   return cutApart(*steps, extent, frames.size());
 }
 
+namespace {
+
+/// valid: as of HeightSteps. The samples lie within 2^25 steps of the base.
+HeightSteps quantised(const tks_heights& heights, std::vector<uint8_t> valid, double base,
+                      double step) {
+  HeightSteps out;
+  out.base = base;
+  out.step = step;
+  out.exact = true;
+  withSampleType(heights.sample, [&](auto type) {
+    using T = decltype(type);
+    const auto* samples = static_cast<const T*>(heights.data);
+    out.steps.resize(extentOf(heights).samples());
+    for (size_t i = 0; i < out.steps.size(); ++i) {
+      if (!valid.empty() && valid[i] == 0) continue;
+      out.steps[i] =
+          static_cast<int32_t>(std::lround((static_cast<double>(samples[i]) - base) / step));
+      const T restored = restore<T>(base, step, out.steps[i]);
+      out.exact &= std::memcmp(&restored, &samples[i], sizeof restored) == 0;
+    }
+  });
+  out.valid = std::move(valid);
+  return out;
+}
+
+}  // namespace
+
+std::optional<FrameSteps> stepsLike(const GeometryHeader& before,
+                                    std::span<const tks_heights> frames,
+                                    const tks_encode_options& options) {
+  if (!before.frames.scales.empty()) return std::nullopt;
+  const StackedFrames stack(frames);
+  const Result<std::vector<uint8_t>> valid = findVoids(stack.heights);
+  if (!valid.ok()) return std::nullopt;
+  const SampleRange range = rangeOf(stack.heights, *valid);
+  const double most =
+      std::max(std::abs(range.low - before.base), std::abs(range.high - before.base));
+  if (!(most / before.step < (1 << (kMostRangeBits - 1)))) return std::nullopt;
+  HeightSteps steps = quantised(stack.heights, *valid, before.base, before.step);
+  const double error = errorsOf(stack.heights, steps).largest;
+  if (options.lossless != 0 && !steps.exact) return std::nullopt;
+  if (options.max_error > 0 && !(error * std::abs(frames.front().scale) <= options.max_error))
+    return std::nullopt;
+  const double span = (range.high - range.low) / before.step;
+  steps.range_bits = static_cast<int>(std::bit_width(static_cast<uint64_t>(span)));
+  return cutApart(steps, extentOf(frames.front()), frames.size());
+}
+
 FrameSteps filled(FrameSteps of) {
   const size_t frames = of.steps.size(), samples = of.steps.front().size();
   const auto none = [](const SharedBits& mask) { return mask == nullptr; };

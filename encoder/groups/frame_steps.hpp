@@ -5,9 +5,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "bitstream/stream/geometry_header.hpp"
 #include "codec/frames/frame_masks.hpp"
 #include "codec/frames/frames_encoder.hpp"
 #include "tetrakis/result.hpp"
@@ -33,6 +35,12 @@ struct FrameSteps {
 /// frame may restore in another way.
 Result<FrameSteps> stepsOfFrames(std::span<const tks_heights> frames,
                                  const tks_encode_options& options);
+
+/// Likewise with a base and a step that are given: those of the group before. Nothing if they do not
+/// suit the target, or if frames have scales.
+std::optional<FrameSteps> stepsLike(const GeometryHeader& before,
+                                    std::span<const tks_heights> frames,
+                                    const tks_encode_options& options);
 
 /// The steps with values for voids: between the valid samples before and after in time, or that of
 /// the only one. What is valid in no frame stays.

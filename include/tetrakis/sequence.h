@@ -35,6 +35,10 @@ typedef struct tks_clock {
   const char* calendar; /* UTF-8, of CF: "noleap", "360_day"; NULL: that of everyday life */
 } tks_clock;
 
+#define TKS_ALL_BYTES (~(uint64_t)0)
+/* The most groups between a group and the one that it is decoded from. */
+#define TKS_MOST_DEPTH 63
+
 /* How a sequence is encoded. */
 typedef struct tks_sequence_options {
   size_t size;    /* sizeof(tks_sequence_options) */
@@ -47,6 +51,12 @@ typedef struct tks_sequence_options {
   tks_clock clock;                  /* copied */
   int no_index; /* non-zero: groups have no index, which saves some bytes of each; a reader
                            of the file then passes over all groups before the one it looks for */
+  uint64_t reference; /* bytes of each frame of a group that every receiver is known to have. The
+                           next group goes on from what these bytes show of the last frame, so that
+                           what stands still takes next to no bytes, and is decoded only with the
+                           groups before it. 0: each group stands by itself; TKS_ALL_BYTES: all */
+  uint32_t entry; /* beside a reference: at least every so manyth group stands by itself, from 1
+                           to TKS_MOST_DEPTH + 1; 0: 16. Receivers begin there */
 } tks_sequence_options;
 
 /* Encodes frames as they come into a sequence: groups of frames, one behind the other. What it has
@@ -59,6 +69,15 @@ tks_status tks_sequence_encoder_open(const tks_sequence_options* options,
                                      tks_sequence_encoder** out, char* message,
                                      size_t message_size);
 void tks_sequence_encoder_close(tks_sequence_encoder* encoder);
+
+/* Lets an encoder that has taken no frame go on behind a sequence that was written before: its bytes
+ * follow those of that one. TKS_USAGE, with a sentence in message: the sequence ends inside a group
+ * (keep its first tks_sequence_info.whole_bytes), groups of it are missing or forgotten, its clock
+ * is another one; the encoder has taken frames. */
+typedef struct tks_sequence tks_sequence;
+tks_status tks_sequence_encoder_continue(tks_sequence_encoder* encoder,
+                                         const tks_sequence* written, char* message,
+                                         size_t message_size);
 
 /* Takes one frame, which it copies, at a time in ticks after that of the frame before, within
  * +-2^61. The last frame of a group is pushed when the group is encoded. All frames of a sequence
@@ -77,10 +96,8 @@ tks_status tks_sequence_flush(tks_sequence_encoder* encoder, char* message, size
  * Release them with tks_free_buffer. */
 tks_status tks_sequence_take(tks_sequence_encoder* encoder, tks_buffer* out);
 
-/* Decodes a sequence, or any prefix of it, or any groups of it in their order. */
-typedef struct tks_sequence tks_sequence;
-
-/* An empty one. limits: of the decoder of each group; may be NULL. */
+/* A tks_sequence decodes a sequence, or any prefix of it, or any groups of it in their order. This
+ * makes an empty one. limits: of the decoder of each group; may be NULL. */
 tks_status tks_sequence_open(const tks_limits* limits, tks_sequence** out);
 void tks_sequence_close(tks_sequence* sequence);
 
@@ -92,8 +109,8 @@ const char* tks_sequence_message(const tks_sequence* sequence);
  * more bytes are taken. */
 tks_status tks_sequence_append(tks_sequence* sequence, const uint8_t* data, size_t size);
 
-/* Gives up the bytes of all groups that end before a frame, and forgets these frames: their numbers
- * stay. A player of a live sequence takes no more memory with it however long that is. */
+/* Gives up the bytes of all groups that end before a frame and that its group does not go on from,
+ * and forgets these frames: their numbers stay. A player of a live sequence takes no more memory with it however long that is. */
 tks_status tks_sequence_forget(tks_sequence* sequence, uint64_t frame);
 
 typedef struct tks_sequence_info {
@@ -121,6 +138,9 @@ typedef struct tks_group {
   uint64_t stream_offset; /* of its stream */
   uint64_t stream_bytes;
   uint64_t available_bytes; /* of the group */
+  uint32_t depth;           /* so many groups before it, which follow one another and begin
+                               `bytes_back` before `offset`, have to be there as well; 0: none */
+  uint64_t bytes_back;
 } tks_group;
 /* The group of a frame. TKS_USAGE: there is no such frame. */
 tks_status tks_sequence_group(const tks_sequence* sequence, uint64_t frame, tks_group* out);
@@ -128,8 +148,18 @@ tks_status tks_sequence_group(const tks_sequence* sequence, uint64_t frame, tks_
 /* The decoder of the stream that holds a frame, with that frame set (tks_set_frame): all calls of
  * decoders show it. It belongs to the sequence, keeps its levels and threads while it stays the
  * same, and is there until the next call of tks_sequence_frame for a frame of another group,
- * tks_sequence_append, _forget or _close. TKS_USAGE: there is no such frame; else as tks_open. */
+ * tks_sequence_append, _forget or _close. The first call that decodes a group of tks_group.depth > 0
+ * decodes the last frame of each of so many groups before it as well, unless it comes behind the
+ * call for the group before. TKS_USAGE: there is no such frame; TKS_TRUNCATED: the frame goes on
+ * from a group that is not there; else as tks_open. */
 tks_status tks_sequence_frame(tks_sequence* sequence, uint64_t frame, tks_decoder** decoder);
+
+/* Writes a sequence for a thinner channel: of each whole group at most so many bytes a frame, head
+ * and index included, but the header of its stream and what the next group goes on from stay. Frames
+ * are what they were but for the bytes that are gone. Release `out` with tks_free_buffer. TKS_USAGE:
+ * there is no whole group, or groups are missing or forgotten. */
+tks_status tks_sequence_thin(const tks_sequence* sequence, uint64_t frame_bytes, tks_buffer* out,
+                             char* message, size_t message_size);
 
 /* What to read of a sequence on a host that gives ranges of bytes, to find a frame or a time: begin
  * with its last bytes (64 kB reach), and go on with the range that this gives, at most twice. tail:

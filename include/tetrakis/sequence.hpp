@@ -33,6 +33,14 @@ class SequenceEncoder {
     return SequenceEncoder(encoder);
   }
 
+  /// Goes on behind a sequence (tks_sequence_encoder_continue).
+  Status goOnBehind(const tks_sequence* written) {
+    char message[512] = "";
+    const tks_status status =
+        tks_sequence_encoder_continue(encoder_.get(), written, message, sizeof message);
+    return status == TKS_OK ? Status() : Status(status, message);
+  }
+
   /// Takes a frame at a time in ticks (tks_sequence_push).
   Status push(const tks_heights* heights, const tks_image* image, int64_t time) {
     char message[512] = "";
@@ -67,9 +75,11 @@ class SequenceEncoder {
 /// A sequence, or any prefix of it: tells where its groups and frames are. Move only.
 class Sequence {
  public:
-  static Result<Sequence> open(std::span<const uint8_t> bytes) {
+  /// limits: of the decoder of each group.
+  static Result<Sequence> open(std::span<const uint8_t> bytes,
+                               const tks_limits& limits = makeLimits()) {
     tks_sequence* sequence = nullptr;
-    if (const tks_status status = tks_sequence_open(nullptr, &sequence); status != TKS_OK)
+    if (const tks_status status = tks_sequence_open(&limits, &sequence); status != TKS_OK)
       return Status(status, "Not enough memory.");
     Sequence result(sequence);
     if (Status status = result.append(bytes); !status.ok()) return status;
@@ -107,6 +117,24 @@ class Sequence {
     const tks_status status = tks_sequence_group(sequence_.get(), frame, &group);
     if (status != TKS_OK) return noFrame(status, frame);
     return group;
+  }
+  /// Cut to so many bytes a frame (tks_sequence_thin).
+  Result<Buffer> thinned(uint64_t frame_bytes) const {
+    char message[512] = "";
+    tks_buffer buffer{};
+    const tks_status status =
+        tks_sequence_thin(sequence_.get(), frame_bytes, &buffer, message, sizeof message);
+    if (status != TKS_OK) return Status(status, message);
+    return Buffer(buffer);
+  }
+  /// For calls of sequence.h.
+  const tks_sequence* get() const { return sequence_.get(); }
+  /// The decoder that shows a frame. It belongs to the sequence (tks_sequence_frame).
+  Result<Decoder> decoder(uint64_t frame) {
+    tks_decoder* decoder = nullptr;
+    const tks_status status = tks_sequence_frame(sequence_.get(), frame, &decoder);
+    if (status != TKS_OK) return Status(status, tks_sequence_message(sequence_.get()));
+    return Decoder::borrow(decoder);
   }
 
  private:

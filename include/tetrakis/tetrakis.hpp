@@ -225,11 +225,11 @@ class Decoder {
     const tks_status status =
         tks_open(bytes.data(), bytes.size(), &limits, &decoder, message, sizeof message);
     if (status != TKS_OK) return Status(status, message);
-    Decoder result(decoder);
-    result.info_.size = sizeof(tks_info);
-    if (const tks_status got = tks_get_info(decoder, &result.info_); got != TKS_OK)
-      return result.failure(got);
-    return result;
+    return withInfo(Decoder(decoder, Close{true}));
+  }
+  /// A decoder that somebody else closes.
+  static Result<Decoder> borrow(tks_decoder* decoder) {
+    return withInfo(Decoder(decoder, Close{false}));
   }
 
   /// Sizes, types and metadata; its strings live as long as the decoder.
@@ -398,9 +398,19 @@ class Decoder {
 
  private:
   struct Close {
-    void operator()(tks_decoder* decoder) const { tks_close(decoder); }
+    bool owns = true;
+    void operator()(tks_decoder* decoder) const {
+      if (owns) tks_close(decoder);
+    }
   };
-  explicit Decoder(tks_decoder* decoder) : decoder_(decoder) {}
+  Decoder(tks_decoder* decoder, Close close) : decoder_(decoder, close) {}
+
+  static Result<Decoder> withInfo(Decoder decoder) {
+    decoder.info_.size = sizeof(tks_info);
+    if (const tks_status got = tks_get_info(decoder.decoder_.get(), &decoder.info_); got != TKS_OK)
+      return decoder.failure(got);
+    return decoder;
+  }
 
   /// status: not TKS_OK.
   Status failure(tks_status status) const { return {status, tks_message(decoder_.get())}; }

@@ -356,6 +356,7 @@ tks_status openEncoder(Desk& d) {
   options.group = 2;
   options.encode = &encode;
   options.clock.size = sizeof options.clock;
+  options.reference = TKS_ALL_BYTES;
   return tks_sequence_encoder_open(&options, &d.sequence_encoder, d.message, sizeof d.message);
 }
 
@@ -458,6 +459,21 @@ std::vector<Called> sequenceCalls() {
                   tks_decoder* decoder = nullptr;
                   return tks_sequence_frame(d.sequence, 3, &decoder);
                 }),
+          about("tks_sequence_thin",
+                [](Desk& d) {
+                  tks_free_buffer(&d.buffer);
+                  return tks_sequence_thin(d.sequence, 30, &d.buffer, d.message, sizeof d.message);
+                }),
+          {"tks_sequence_encoder_continue",
+           [](Desk& d) {
+             return tks_sequence_encoder_continue(d.sequence_encoder, d.sequence, d.message,
+                                                  sizeof d.message);
+           },
+           [filled](Desk& d) {
+             EXPECT_EQ(openEncoder(d), TKS_OK);
+             filled(d);
+           },
+           [](Desk&) {}, false},
           about("tks_sequence_locate", [](Desk&) {
             tks_range range = {};
             int found = 0;

@@ -2,87 +2,13 @@
 // Sequences: a chain of groups grows, is cut anywhere, and is found by ranges; memory stays that of
 // a group.
 #include <algorithm>
-#include <map>
-#include <memory>
 
-#include "tests/support/moving_frames.hpp"
+#include "tests/support/sequences.hpp"
 
 namespace tetrakis::test {
 namespace {
 
 using samples::Pattern;
-
-struct EncodedSequence {
-  Bytes bytes;
-  std::vector<int64_t> times;
-};
-
-tks_sequence_options optionsOf(const tks_encode_options& encode, uint32_t group) {
-  tks_sequence_options options = {};
-  options.size = sizeof options;
-  options.group = group;
-  options.encode = &encode;
-  options.clock = {sizeof options.clock, 3600, 1, "2019-03-01T00:00:00Z", "standard"};
-  return options;
-}
-
-EncodedSequence encodeSequence(const FrameRasters& frames, const tks_sequence_options& options) {
-  tks_sequence_encoder* encoder = nullptr;
-  char message[256] = "";
-  EXPECT_EQ(tks_sequence_encoder_open(&options, &encoder, message, 256), TKS_OK) << message;
-  EncodedSequence out;
-  const auto take = [&] {
-    tks_buffer buffer = {};
-    EXPECT_EQ(tks_sequence_take(encoder, &buffer), TKS_OK);
-    out.bytes.insert(out.bytes.end(), buffer.data, buffer.data + buffer.size);
-    tks_free_buffer(&buffer);
-  };
-  for (size_t t = 0; t < frames.size(); ++t) {
-    const tks_heights heights = frames[t].heights();
-    out.times.push_back(static_cast<int64_t>(3 * t + t * t % 3));
-    EXPECT_EQ(tks_sequence_push(encoder, &heights, nullptr, out.times.back(), message, 256), TKS_OK)
-        << message;
-    take();
-  }
-  EXPECT_EQ(tks_sequence_flush(encoder, message, 256), TKS_OK) << message;
-  take();
-  tks_sequence_encoder_close(encoder);
-  return out;
-}
-
-class Sequence {
- public:
-  explicit Sequence(Prefix bytes = {}) {
-    EXPECT_EQ(tks_sequence_open(nullptr, &sequence_), TKS_OK);
-    status = tks_sequence_append(sequence_, bytes.data(), bytes.size());
-  }
-  Sequence(const Sequence&) = delete;
-  Sequence& operator=(const Sequence&) = delete;
-  ~Sequence() { tks_sequence_close(sequence_); }
-
-  tks_sequence* get() const { return sequence_; }
-  tks_sequence_info info() const {
-    tks_sequence_info info = {};
-    info.size = sizeof info;
-    EXPECT_EQ(tks_sequence_get_info(sequence_, &info), TKS_OK);
-    return info;
-  }
-  std::vector<std::byte> heights(uint64_t frame) {
-    tks_decoder* decoder = nullptr;
-    EXPECT_EQ(tks_sequence_frame(sequence_, frame, &decoder), TKS_OK)
-        << tks_sequence_message(sequence_);
-    tks_info info = {};
-    info.size = sizeof info;
-    if (decoder == nullptr || tks_get_info(decoder, &info) != TKS_OK) return {};
-    std::vector<std::byte> out(size_t{info.width} * info.height * tks_sample_bytes(info.sample));
-    EXPECT_EQ(tks_decode_heights(decoder, out.data(), out.size()), TKS_OK);
-    return out;
-  }
-  tks_status status;
-
- private:
-  tks_sequence* sequence_ = nullptr;
-};
 
 FrameRasters frames(uint32_t count) {
   return movingFrames({Pattern::kHills, 21, 17, 1, TKS_I16}, count);
@@ -239,6 +165,72 @@ TEST(Sequences, WhatIsForgottenTakesNoFrames) {
   tks_decoder* decoder = nullptr;
   EXPECT_EQ(tks_sequence_frame(sequence.get(), 3, &decoder), TKS_USAGE);
   EXPECT_TRUE(sameBytes(sequence.heights(4), truth[4].data));
+}
+
+TEST(Sequences, GoOnBehindWhatWasWritten) {
+  const FrameRasters truth = frames(14);
+  const tks_encode_options encode = lossless();
+  const tks_sequence_options options = optionsOf(encode, 4);
+  const EncodedSequence whole = encodeSequence(truth, options);
+  const EncodedSequence first = encodeSequence({truth.begin(), truth.begin() + 8}, options);
+  Sequence written{first.bytes};
+  const EncodedSequence rest =
+      encodeSequence({truth.begin() + 8, truth.end()}, options, {}, written.get(), 8);
+  Bytes both = first.bytes;
+  both.insert(both.end(), rest.bytes.begin(), rest.bytes.end());
+  EXPECT_EQ(both, whole.bytes);
+}
+
+TEST(Sequences, GoOnBehindWholeGroupsOfTheirOwnKindAlone) {
+  const FrameRasters truth = frames(6);
+  const tks_encode_options encode = lossless();
+  tks_sequence_options options = optionsOf(encode, 2);
+  const EncodedSequence encoded = encodeSequence(truth, options);
+  const auto refusal = [&](const Sequence& written, uint32_t width) {
+    tks_sequence_encoder* encoder = nullptr;
+    char message[256] = "";
+    EXPECT_EQ(tks_sequence_encoder_open(&options, &encoder, message, 256), TKS_OK);
+    tks_status status = tks_sequence_encoder_continue(encoder, written.get(), message, 256);
+    const samples::Raster frame = samples::make({Pattern::kHills, width, 17, 1, TKS_I16});
+    const tks_heights heights = frame.heights();
+    if (status == TKS_OK)
+      status = tks_sequence_push(encoder, &heights, nullptr, 1 << 20, message, 256);
+    tks_sequence_encoder_close(encoder);
+    EXPECT_EQ(status == TKS_OK, std::string(message).empty());
+    return status;
+  };
+  EXPECT_EQ(refusal(Sequence{encoded.bytes}, 21), TKS_OK);
+  EXPECT_EQ(refusal(Sequence{encoded.bytes}, 20), TKS_USAGE);
+  EXPECT_EQ(refusal(Sequence{Prefix(encoded.bytes).first(encoded.bytes.size() - 1)}, 21),
+            TKS_USAGE);
+  EXPECT_EQ(refusal(Sequence{}, 21), TKS_USAGE);
+  options.clock.denominator = 7;
+  EXPECT_EQ(refusal(Sequence{encoded.bytes}, 21), TKS_USAGE);
+}
+
+TEST(Sequences, ThinOnesKeepTheirShare) {
+  const FrameRasters truth = frames(12);
+  const tks_encode_options encode = lossless();
+  const EncodedSequence encoded = encodeSequence(truth, optionsOf(encode, 4));
+  Sequence all{encoded.bytes};
+  for (const uint64_t bytes : {uint64_t{60}, uint64_t{150}, uint64_t{1} << 40}) {
+    tks_buffer buffer = {};
+    char message[256] = "";
+    ASSERT_EQ(tks_sequence_thin(all.get(), bytes, &buffer, message, 256), TKS_OK) << message;
+    const Bytes thin(buffer.data, buffer.data + buffer.size);
+    tks_free_buffer(&buffer);
+    if (bytes > 1000) {
+      EXPECT_EQ(thin, encoded.bytes);
+    }
+    Sequence sequence{thin};
+    ASSERT_EQ(sequence.info().end_frame, 12u);
+    for (uint64_t t = 0; t < 12; t += 4) EXPECT_LE(sequence.group(t).bytes, 4 * bytes);
+    for (uint64_t t = 0; t < 12; ++t) {
+      EXPECT_EQ(sequence.heights(t).size(), truth[t].data.size());
+      const Found found = find(thin, 0, static_cast<int64_t>(t), 300);
+      EXPECT_LE(found.requests, 3);
+    }
+  }
 }
 
 TEST(Sequences, DamageIsSafe) {

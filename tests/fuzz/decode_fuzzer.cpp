@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // libFuzzer target: everything a reader does with bytes from a stranger, and in planes that are too
 // large for all of it, how long that takes. Seeds: conformance/vectors.
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -149,7 +150,17 @@ void showFrames(tetrakis::Decoder& decoder) {
 
 /// The bytes as a sequence, or the end of one.
 void passGroups(std::span<const uint8_t> bytes) {
-  static_cast<void>(tetrakis::Sequence::open(bytes));
+  if (auto sequence = tetrakis::Sequence::open({}, fuzzLimits())) {
+    static_cast<void>(sequence->append(bytes));
+    const tks_sequence_info info = sequence->info();
+    const uint64_t last = info.end_frame - std::min<uint64_t>(info.end_frame, 1);
+    for (const uint64_t frame : {last, info.first_frame}) {
+      auto decoder = sequence->decoder(frame);
+      if (!decoder) continue;
+      if (decoder->info().has_heights) static_cast<void>(decoder->heights());
+      if (decoder->info().has_texture) static_cast<void>(decoder->texture());
+    }
+  }
   tks_range range = {};
   int found = 0;
   for (const int by_time : {0, 1})

@@ -69,7 +69,7 @@ if [[ -e "$libraries/libtetrakis_decoder.so" ]]; then
   declared="$(sed -n 's/.*\b\(tks_[a-z_]*\)(.*/\1/p' "$prefix"/include/tetrakis/{tetrakis,sequence}.h |
     grep -vx 'tks_cube_from_grid\|tks_encode\|tks_encode_object\|tks_fit_positions\|tks_find_[a-z_]*' |
     grep -vx 'tks_free_buffer\|tks_reorder\|tks_encode_frames\|tks_sequence_encoder_[a-z]*' |
-    grep -vx 'tks_sequence_push\|tks_sequence_flush\|tks_sequence_take' |
+    grep -vx 'tks_sequence_push\|tks_sequence_flush\|tks_sequence_take\|tks_sequence_thin' |
     sort -u)"
   for function in $declared; do
     nm -D --defined-only "$libraries/libtetrakis_decoder.so" | grep -q " $function$" ||

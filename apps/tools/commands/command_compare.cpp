@@ -241,14 +241,14 @@ Status compareFrames(const CompareArguments& arguments, bool quiet) {
     one.height = names->height(t);
     one.texture = names->texture(t);
     one.source.frame = t;
-    const Result<OpenStream> stream = openStream(one.source);
+    Result<OpenStream> stream = openStream(one.source);
     if (!stream.ok()) return stream.status();
     const tks_info& info = stream->decoder.info();
     const Result<Reference> reference = readReference(one, info, quiet || t > 0);
     if (!reference.ok()) return reference.status();
     Result<Comparer> comparer = Comparer::create(*reference, info);
     if (!comparer.ok()) return comparer.status();
-    const Result<Measurement> measured = comparer->measure(octets(stream->bytes), 0, info.frame);
+    const Result<Measurement> measured = comparer->measure(stream->decoder, 0);
     if (!measured.ok()) return measured.status();
     if (Status status = checkPromise(info, *measured); !status.ok()) return status;
     totals.add(*measured);
@@ -286,8 +286,7 @@ Status compare(const CompareArguments& arguments, bool quiet) {
     if (!planned.ok()) return planned.status();
     pictures = std::move(*planned);
   }
-  const Result<Measurement> measurement =
-      comparer->measure(octets(stream->bytes), arguments.triangles, info.frame);
+  const Result<Measurement> measurement = comparer->measure(stream->decoder, arguments.triangles);
   if (!measurement.ok()) return measurement.status();
   if (pictures)
     if (Status status = pictures->write(measurement->pictures, comparer->referencePictures());

@@ -188,7 +188,9 @@ Json sequenceJson(const SequencePlace& place) {
           {"seconds", is_timed ? Json(tick * static_cast<double>(place.time)) : Json()},
           {"group_first_frame", place.group.first_frame},
           {"group_offset", place.group.offset},
-          {"group_bytes", place.group.bytes}};
+          {"group_bytes", place.group.bytes},
+          {"group_depth", place.group.depth},
+          {"group_bytes_back", place.group.bytes_back}};
 }
 
 Status info(const InfoArguments& arguments) {

@@ -15,9 +15,9 @@
 namespace tetrakis::tools {
 namespace {
 
-/// Every group by itself.
+/// Every group.
 Status verifySequence(const std::string& path, std::span<const uint8_t> bytes, bool quiet) {
-  const Result<Sequence> sequence = Sequence::open(bytes);
+  Result<Sequence> sequence = Sequence::open(bytes, limitsOfTools());
   if (!sequence) return sequence.status();
   const tks_sequence_info info = sequence->info();
   if (info.whole_bytes < bytes.size())
@@ -25,7 +25,7 @@ Status verifySequence(const std::string& path, std::span<const uint8_t> bytes, b
   for (uint64_t frame = info.first_frame; frame < info.end_frame;) {
     const Result<tks_group> group = sequence->group(frame);
     if (!group) return group.status();
-    Result<Decoder> decoder = openDecoder(bytes.subspan(group->stream_offset, group->stream_bytes));
+    Result<Decoder> decoder = sequence->decoder(frame);
     Status status = decoder ? decoder->verify() : decoder.status();
     if (!status.ok())
       return Status(status.code(),

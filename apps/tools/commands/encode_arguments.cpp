@@ -96,6 +96,23 @@ void addSequence(CLI::App& verb, SequenceArguments& sequence) {
   verb.add_option("--group", sequence.group, "Frames that are coded together (16)")
       ->check(silent(CLI::Range(1, TKS_MOST_FRAMES)))
       ->type_name("N");
+  CLI::Option* const reference =
+      verb.add_option_function<std::string>(
+              "--reference",
+              [&sequence](const std::string& text) {
+                const Result<uint64_t> size =
+                    text == "all" ? Result<uint64_t>(TKS_ALL_BYTES) : parseSize(text);
+                if (!size.ok() || *size == 0)
+                  throw CLI::ValidationError("--reference", "takes a size above 0, or all");
+                sequence.reference = *size;
+              },
+              "Groups go on from so many bytes a frame of the one before: 2k, all")
+          ->type_name("SIZE");
+  verb.add_option("--entry", sequence.entry, "At least every Nth group stands by itself (16)")
+      ->check(silent(CLI::Range(1, TKS_MOST_DEPTH + 1)))
+      ->type_name("N")
+      ->needs(reference);
+  verb.add_flag("--append", sequence.append, "Add the frames to the sequence that OUT.tks is");
 }
 
 void addDescription(CLI::App& verb, EncodeArguments& arguments) {

@@ -17,9 +17,13 @@ struct SequenceArguments {
   std::string epoch, calendar;
   uint32_t group = 0;  ///< frames that are coded together; 0: chosen
   uint64_t rate = 0;   ///< bytes a second; 0: another target
+  uint64_t reference = 0;  ///< bytes a frame that later groups go on from; 0: none do
+  uint32_t entry = 0;      ///< every how manyth group stands by itself; 0: chosen
+  bool append = false;     ///< the frames follow those that the output has
 
   bool given() const {
-    return fps > 0 || every > 0 || group > 0 || rate > 0 || !epoch.empty() || !calendar.empty();
+    return append || fps > 0 || every > 0 || group > 0 || rate > 0 || reference > 0 || entry > 0 ||
+           !epoch.empty() || !calendar.empty();
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <numeric>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/frame_files.hpp"
+#include "apps/tools/files/stream.hpp"
 #include "apps/tools/output/output.hpp"
 #include "apps/tools/output/output_names.hpp"
 #include "apps/tools/output/progress.hpp"
@@ -71,6 +73,36 @@ class SequenceWriting {
 
   Status write(const std::string& path) {
     std::ofstream file(path, std::ios::binary);
+    return writeAll(file, path);
+  }
+
+  /// Adds groups to the sequence that a file is. What it had stays whatever happens.
+  Status append(const std::string& path) {
+    const Result<std::vector<std::byte>> bytes = readBytes(path);
+    if (!bytes.ok()) return bytes.status();
+    const Result<Sequence> all = Sequence::open(octets(*bytes), limitsOfTools());
+    if (!all) return all.status();
+    const auto whole = static_cast<size_t>(all->info().whole_bytes);
+    if (whole < bytes->size())
+      tellNote(quoted(path) + " ended inside a group: " + std::to_string(bytes->size() - whole) +
+                   " bytes of it are gone",
+               quiet_);
+    Result<Sequence> written = Sequence::open(octets(*bytes).first(whole), limitsOfTools());
+    if (!written) return written.status();
+    before_ = std::move(*written);
+    std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(static_cast<std::streamoff>(whole));
+    const Status status = writeAll(file, path);
+    file.close();
+    std::error_code error;
+    std::filesystem::resize_file(path, whole + bytes_, error);
+    if (status.ok() && error) return Status(TKS_IO, "cannot write " + quoted(path));
+    return status;
+  }
+  uint64_t bytes() const { return bytes_; }
+
+ private:
+  Status writeAll(std::ostream& file, const std::string& path) {
     Progress progress("encoding", quiet_);
     for (size_t t = 0; t < names_.count(); ++t) {
       if (Status status = push(t); !status.ok()) return status;
@@ -80,9 +112,14 @@ class SequenceWriting {
     if (Status status = encoder_->flush(); !status.ok()) return status;
     return writeReady(file, path);
   }
-  uint64_t bytes() const { return bytes_; }
 
- private:
+  /// The time of a frame: frames of a file that is added to come behind its last one.
+  int64_t tickOf(size_t frame) const {
+    const auto number = static_cast<int64_t>(frame);
+    if (!before_) return number;
+    return *before_->time(before_->info().end_frame - 1) + 1 + number;
+  }
+
   Status push(size_t frame) {
     const EncodeArguments arguments = argumentsOf(arguments_, names_, frame);
     const Result<Reference> inputs = readInputs(arguments, quiet_ || frame > 0);
@@ -94,7 +131,7 @@ class SequenceWriting {
     if (inputs->heights) heights = encodedHeights(arguments, *inputs->heights);
     const tks_image image = inputs->image ? asImage(*inputs->image) : tks_image{};
     Status status = encoder_->push(inputs->heights ? &heights : nullptr,
-                                   inputs->image ? &image : nullptr, static_cast<int64_t>(frame));
+                                   inputs->image ? &image : nullptr, tickOf(frame));
     if (status.ok()) return status;
     const std::string& name = inputs->heights ? arguments.height : arguments.texture;
     return Status(status.code(), quoted(name) + ": " + status.message());
@@ -111,26 +148,35 @@ class SequenceWriting {
     tks_sequence_options sequence = makeSequenceOptions();
     sequence.group = arguments_.sequence.group;
     sequence.encode = &*options;
-    sequence.clock = *clock;
+    sequence.clock = before_ && !clockGiven() ? before_->info().clock : *clock;
+    sequence.reference = arguments_.sequence.reference;
+    sequence.entry = arguments_.sequence.entry;
     Result<SequenceEncoder> encoder = SequenceEncoder::open(sequence);
     if (!encoder) return encoder.status();
     encoder_ = std::move(*encoder);
-    return Status();
+    return before_ ? encoder_->goOnBehind(before_->get()) : Status();
   }
 
-  Status writeReady(std::ofstream& file, const std::string& path) {
+  bool clockGiven() const {
+    const SequenceArguments& given = arguments_.sequence;
+    return given.fps > 0 || given.every > 0 || !given.epoch.empty() || !given.calendar.empty();
+  }
+
+  Status writeReady(std::ostream& file, const std::string& path) {
     const Result<Buffer> ready = encoder_->take();
     if (!ready) return ready.status();
     const std::span<const uint8_t> bytes = ready->bytes();
-    bytes_ += bytes.size();
     file.write(reinterpret_cast<const char*>(bytes.data()),
                static_cast<std::streamsize>(bytes.size()));
-    return file.flush() ? Status() : Status(TKS_IO, "cannot write " + quoted(path));
+    if (!file.flush()) return Status(TKS_IO, "cannot write " + quoted(path));
+    bytes_ += bytes.size();
+    return Status();
   }
 
   const EncodeArguments& arguments_;
   const FrameNames& names_;
   bool quiet_;
+  std::optional<Sequence> before_;  ///< that the frames are added to
   std::optional<SequenceEncoder> encoder_;
   uint64_t bytes_ = 0;
 };
@@ -149,6 +195,14 @@ Status checkSequence(const EncodeArguments& arguments) {
   return Status();
 }
 
+Status writeNew(const EncodeArguments& arguments, SequenceWriting& writing) {
+  Result<Output> output = Output::plan(arguments.output, arguments.force, ".tks");
+  if (!output.ok()) return output.status();
+  const Status written =
+      output->stage([&](const std::string& path) { return writing.write(path); });
+  return written.ok() ? output->commit() : written;
+}
+
 }  // namespace
 
 bool isSequence(const EncodeArguments& arguments) {
@@ -162,13 +216,10 @@ Status encodeSequence(const EncodeArguments& arguments, bool quiet) {
   std::vector<std::string> inputs = names->heights;
   inputs.insert(inputs.end(), names->textures.begin(), names->textures.end());
   if (Status status = checkInputsStay(inputs, arguments.output); !status.ok()) return status;
-  Result<Output> output = Output::plan(arguments.output, arguments.force, ".tks");
-  if (!output.ok()) return output.status();
   SequenceWriting writing(arguments, *names, quiet);
   const Status written =
-      output->stage([&](const std::string& path) { return writing.write(path); });
+      arguments.sequence.append ? writing.append(arguments.output) : writeNew(arguments, writing);
   if (!written.ok()) return written;
-  if (Status status = output->commit(); !status.ok()) return status;
   if (!quiet)
     tellLine(arguments.output + ": " + std::to_string(names->count()) + " frames, " +
              std::to_string(writing.bytes()) + " bytes");

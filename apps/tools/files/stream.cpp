@@ -83,22 +83,31 @@ Result<SequencePlace> placeOf(const Sequence& sequence, uint64_t frame) {
   return place;
 }
 
-/// Cuts bytes to the stream of the group that holds the frame.
-Result<SequencePlace> takeGroup(const StreamSource& source, std::vector<std::byte>& bytes) {
-  const Result<Sequence> sequence = Sequence::open(octets(bytes));
+/// Refuses a complete stream whose bytes have changed.
+Status checkSound(Decoder& decoder) {
+  const tks_info& info = decoder.info();
+  return info.available_bytes == info.stream_bytes ? decoder.verify() : Status();
+}
+
+/// The stream that holds the frame.
+Result<OpenStream> openFrame(const StreamSource& source, std::vector<std::byte> bytes) {
+  Result<Sequence> sequence = Sequence::open(octets(bytes), limitsOfTools());
   if (!sequence) return sequence.status();
   if (source.strict && sequence->info().whole_bytes < bytes.size())
     return Status(TKS_TRUNCATED, "the sequence ends inside a group");
   const Result<uint64_t> frame = frameOf(*sequence, source);
   if (!frame.ok()) return frame.status();
   Result<SequencePlace> place = placeOf(*sequence, *frame);
-  if (!place.ok()) return place;
+  if (!place.ok()) return place.status();
+  Result<Decoder> decoder = sequence->decoder(*frame);
+  if (!decoder) return decoder.status();
+  if (const Status sound = checkSound(*decoder); !sound.ok()) return sound;
   const tks_group& group = place->group;
   const uint64_t end =
       std::min(group.stream_offset + group.stream_bytes, group.offset + group.available_bytes);
   bytes.resize(end);
   bytes.erase(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(group.stream_offset));
-  return place;
+  return OpenStream{std::move(bytes), std::move(*sequence), std::move(*decoder), *std::move(place)};
 }
 
 }  // namespace
@@ -113,11 +122,15 @@ std::span<const uint8_t> octets(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
 }
 
-Result<Decoder> openDecoder(std::span<const uint8_t> bytes) {
+tks_limits limitsOfTools() {
   tks_limits limits = makeLimits();
   limits.max_samples = limits.max_texels = kMaxSamples;
   limits.max_memory = memoryLimit();
-  return Decoder::open(bytes, limits);
+  return limits;
+}
+
+Result<Decoder> openDecoder(std::span<const uint8_t> bytes) {
+  return Decoder::open(bytes, limitsOfTools());
 }
 
 namespace {
@@ -128,25 +141,17 @@ Result<OpenStream> openCut(const StreamSource& source, std::vector<std::byte> by
   if (source.strict && !is_sequence)
     if (Status status = checkWhole(octets(bytes)); !status.ok()) return status;
   if (source.bytes && *source.bytes < bytes.size()) bytes.resize(*source.bytes);
-  std::optional<SequencePlace> sequence;
-  if (is_sequence) {
-    Result<SequencePlace> place = takeGroup(source, bytes);
-    if (!place.ok()) return place.status();
-    sequence = *std::move(place);
-  } else if (source.seconds) {
+  if (is_sequence) return openFrame(source, std::move(bytes));
+  if (source.seconds)
     return Status(TKS_USAGE, quoted(source.path) + " is no sequence, so that no --time is in it");
-  }
   Result<Decoder> decoder = openDecoder(octets(bytes));
   if (!decoder) return decoder.status();
-  const uint64_t frame =
-      sequence ? sequence->frame - sequence->group.first_frame : source.frame.value_or(0);
-  if (frame > 0) {
+  if (const uint64_t frame = source.frame.value_or(0); frame > 0) {
     const auto asked = static_cast<uint32_t>(std::min<uint64_t>(frame, UINT32_MAX));
     if (Status status = decoder->setFrame(asked); !status.ok()) return status;
   }
-  const bool whole = bytes.size() == decoder->info().stream_bytes;
-  if (const auto sound = whole ? decoder->verify() : Status(); !sound.ok()) return sound;
-  return OpenStream{std::move(bytes), std::move(*decoder), std::move(sequence)};
+  if (const Status sound = checkSound(*decoder); !sound.ok()) return sound;
+  return OpenStream{std::move(bytes), std::nullopt, std::move(*decoder)};
 }
 
 }  // namespace
@@ -166,8 +171,7 @@ Result<std::vector<std::byte>> readCut(const StreamSource& source) {
     return std::move(stream->bytes);
   }
   if (source.bytes && *source.bytes < bytes->size()) bytes->resize(*source.bytes);
-  std::vector<std::byte> group = *bytes;
-  const Result<SequencePlace> first = takeGroup(source, group);
+  const Result<OpenStream> first = openFrame(source, *bytes);
   if (!first.ok()) return first.status();
   return bytes;
 }

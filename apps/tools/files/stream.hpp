@@ -39,7 +39,8 @@ struct SequencePlace {
 
 /// A stream in memory and its decoder. Move only.
 struct OpenStream {
-  std::vector<std::byte> bytes;  ///< of a sequence those of the group that holds the frame
+  std::vector<std::byte> bytes;         ///< of a sequence those of the stream that holds the frame
+  std::optional<Sequence> groups = {};  ///< of a sequence, which then owns the decoder
   Decoder decoder;
   std::optional<SequencePlace> sequence = {};
 };
@@ -47,8 +48,10 @@ struct OpenStream {
 /// The same bytes under the type that the library takes.
 std::span<const uint8_t> octets(std::span<const std::byte> bytes);
 
-/// A decoder of every size that the format holds, within the memory of this process
+/// Limits of decoders of every size that the format holds, within the memory of this process
 /// (memory_limit.hpp).
+tks_limits limitsOfTools();
+
 Result<Decoder> openDecoder(std::span<const uint8_t> bytes);
 
 /// Whether the bytes begin as a sequence does, and not as a stream.

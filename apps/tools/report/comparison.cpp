@@ -212,31 +212,33 @@ Result<std::vector<double>> Comparer::psnrWithEach(Decoder& stream, uint32_t tri
   return psnr;
 }
 
-Result<Measurement> Comparer::measure(std::span<const uint8_t> stream, uint32_t triangles,
-                                      uint32_t frame) {
+Result<Measurement> Comparer::measure(std::span<const uint8_t> stream, uint32_t triangles) {
   Result<Decoder> decoder = openDecoder(stream);
   if (!decoder) return decoder.status();
-  if (Status status = decoder->setFrame(frame); !status.ok()) return status;
+  return measure(*decoder, triangles);
+}
+
+Result<Measurement> Comparer::measure(Decoder& decoder, uint32_t triangles) {
   Measurement result;
-  result.bytes = stream.size();
-  result.geometry_bytes = decoder->info().geometry_bytes;
-  result.texture_bytes = decoder->info().texture_bytes;
+  result.bytes = decoder.info().available_bytes;
+  result.geometry_bytes = decoder.info().geometry_bytes;
+  result.texture_bytes = decoder.info().texture_bytes;
   const bool makes_mesh = reference_->heights && triangles > 0;
-  const bool shows_texture = decoder->info().has_texture && makes_mesh && !choice_.isDefault();
+  const bool shows_texture = decoder.info().has_texture && makes_mesh && !choice_.isDefault();
   std::optional<ImageFile> texture;
   if (reference_->image || shows_texture) {
     // Both as doubles, and the reference.
-    const uint64_t copies = imageBytes(decoder->info()) * (1 + 2 * sizeof(double));
-    Result<ImageFile> decoded = decodeImage(*decoder, {}, copies);
+    const uint64_t copies = imageBytes(decoder.info()) * (1 + 2 * sizeof(double));
+    Result<ImageFile> decoded = decodeImage(decoder, {}, copies);
     if (!decoded.ok()) return decoded.status();
     texture = std::move(*decoded);
   }
   if (reference_->image)
     result.texture_psnr =
-        imagePsnr(*reference_->image, *texture, hidesColours(*reference_->image, decoder->info()));
+        imagePsnr(*reference_->image, *texture, hidesColours(*reference_->image, decoder.info()));
   const ImageFile* const texels = texture ? &*texture : nullptr;
-  Result<MeshFile> mesh = makes_mesh            ? measureMesh(*decoder, triangles, texels, result)
-                          : reference_->heights ? measureSurface(*decoder, result)
+  Result<MeshFile> mesh = makes_mesh            ? measureMesh(decoder, triangles, texels, result)
+                          : reference_->heights ? measureSurface(decoder, result)
                                                 : fullGrid(surface_, frame_);
   if (!mesh.ok()) return mesh.status();
   if (renderer_)

@@ -56,9 +56,8 @@ class Comparer {
   /// makes of the stream, whose linear interpolation at every sample then counts for the height
   /// errors: for the cameras of look() and with the stream's texture, or, where none were chosen,
   /// the budget mesh.
-  /// frame: of a stream of several.
-  Result<Measurement> measure(std::span<const uint8_t> stream, uint32_t triangles,
-                              uint32_t frame = 0);
+  Result<Measurement> measure(Decoder& decoder, uint32_t triangles);
+  Result<Measurement> measure(std::span<const uint8_t> stream, uint32_t triangles);
 
   /// What is drawn of heights does not depend on the texture, as that of a mesh for cameras does.
   bool drawsApart(uint32_t triangles) const { return triangles == 0 || choice_.isDefault(); }
