@@ -23,10 +23,10 @@ struct KeptGroup {
 
   bool whole() const { return available == parsed.groupEnd(); }
   uint64_t endFrame() const { return parsed.head.first_frame + parsed.head.frames(); }
-  /// The header of its stream is there.
+  /// The header of its stream is there, or wrong.
   bool decodes() const {
     const Result<uint64_t> needed = headerBytes(stream);
-    return needed.ok() && *needed <= stream.size();
+    return !needed.ok() || *needed <= stream.size();
   }
 };
 

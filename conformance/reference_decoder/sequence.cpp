@@ -125,8 +125,10 @@ class Chain {
     if (head.depth > place || groups_[place - head.depth].head.number != head.number - head.depth)
       return stream;
     for (size_t p = place - head.depth; p < place; ++p) {
-      const uint64_t bytes = referenceOf(readStream(groups_[p + 1].stream, maxSamples_));
+      const Stream next = readStream(groups_[p + 1].stream, maxSamples_);
+      const uint64_t bytes = referenceOf(next);
       const std::span<const uint8_t> all = groups_[p].stream;
+      if (bytes == 0 && next.outcome != Outcome::kDone) return next;
       if (bytes == 0 || bytes > all.size()) return corrupt();
       stream = goingOn(readStream(all.first(bytes), maxSamples_), std::move(stream));
       if (stream.outcome != Outcome::kDone) return stream;
