@@ -81,7 +81,9 @@ tks_status web_open(const uint8_t* data, size_t size, double max_memory, tks_dec
   NUMBER(textureWhiteLevel, texture_white_level)           \
   NUMBER(voidsKnown, voids_known)                          \
   NUMBER(basePositionBits, base_mesh.position_bits)        \
-  NUMBER(objectTriangles, object_triangles)
+  NUMBER(objectTriangles, object_triangles)                \
+  NUMBER(frames, frames)                                   \
+  NUMBER(frame, frame)
 
 /// The names, in the order in which web_numbers() writes the numbers.
 const char* web_names() {

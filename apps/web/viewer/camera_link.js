@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page's address keeps where the camera is, so that a copy of it shows the same: behind #, as
-// eye, target (metres around the middle of the terrain) and height (the slider's value).
+// The page's address keeps where the camera is and which frame is shown, so that a copy of it shows
+// the same: behind #, as eye, target (metres around the middle of the terrain), height (the slider's
+// value) and frame (its number).
 
 const NAMES = ['eye', 'target'];
 
-/** Three numbers that the address gives under a name, behind # or else behind ?; null: none. */
+/** What the address gives under a name, behind # or else behind ?; null: nothing. */
+function given(name) {
+  const parts = [location.hash, location.search];
+  return parts.map((part) => new URLSearchParams(part.slice(1)).get(name)).find(Boolean) ?? null;
+}
+
+/** Three numbers of the address; null: none. */
 export function place(name) {
-  for (const part of [location.hash, location.search]) {
-    const given = new URLSearchParams(part.slice(1)).get(name);
-    const numbers = (given ?? '').split(',').map(Number);
-    if (given && numbers.length === 3 && numbers.every(isFinite)) return numbers;
-  }
-  return null;
+  const numbers = (given(name) ?? '').split(',').map(Number);
+  return numbers.length === 3 && numbers.every(isFinite) ? numbers : null;
+}
+
+/** The frame of a terrain that the address gives, else its first one. */
+export function givenFrame({firstFrame, frames}) {
+  const number = Number(given('frame') ?? NaN);
+  return Number.isInteger(number) && number >= firstFrame && number < frames ? number : firstFrame;
 }
 
 /** The value of the slider of heights that the address gives. */
@@ -23,12 +32,12 @@ export function givenHeight() {
 /** Six significant digits are less than a pixel. */
 const written = ({x, y, z}) => [x, y, z].map((v) => Number(v.toPrecision(6))).join();
 
-/** Keeps a camera in the address, without an entry in the history; `null`: none. */
-export function keep(camera) {
+/** Keeps a camera and the number of a frame in the address, without an entry in the history; `null`:
+ * none. */
+export function keep(camera, frame) {
   const {pathname, search} = location;
-  const hash = camera
-    ? `#${NAMES.map((name) => `${name}=${written(camera[name])}`).join('&')}` +
-      (camera.height ? `&height=${camera.height}` : '')
-    : '';
-  history.replaceState(null, '', pathname + search + hash);
+  const parts = camera ? NAMES.map((name) => `${name}=${written(camera[name])}`) : [];
+  if (camera?.height) parts.push(`height=${camera.height}`);
+  if (frame !== null) parts.push(`frame=${frame}`);
+  history.replaceState(null, '', pathname + search + (parts.length ? `#${parts.join('&')}` : ''));
 }

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// The groups of a sequence, as far as their heads were read: where each lies in the file, and which
+// frames it has at which times. The indices at the ends of groups lead to the others.
+import {askDecoder} from './decoders.js';
+import {TksError} from './error.js';
+import {FIRST_BYTES} from './pace.js';
+
+/** Of the end of a file: most groups with an index end in it. */
+const TAIL_BYTES = 2 ** 16;
+/** Heads take no more, but for long texts and far frames. */
+const HEAD_BYTES = 512;
+/** An index leads to any group through one more index at most. */
+const MOST_INDICES = 2;
+
+const endFrame = ({firstFrame, times}) => firstFrame + times.length;
+const endOf = ({offset, bytes}) => offset + bytes;
+
+/** How many of a rising list are not greater. */
+function countUpTo(list, value, of) {
+  let low = 0, high = list.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (of(list[middle]) <= value) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+export class Groups {
+  clock = null;
+  firstFrame = 0;
+  /** The number of the last frame, and one. */
+  frames = 0;
+  /** Of each frame whose group is known. */
+  times = [];
+  #source;
+  #decoder;
+  #known = [];  // in their order
+  #tail = null;  // {tail, end}, as locate() takes them
+  #end = 0;  // of the last group, where groups are passed one by one
+
+  constructor(source, decoder) {
+    [this.#source, this.#decoder] = [source, decoder];
+  }
+
+  /** Of a file that begins with these bytes. */
+  async begin(first, signal) {
+    const head = await this.#headAt(0, first, signal);
+    if (!head) throw new TksError('truncated', 'The file is cut short: it ends before a frame.');
+    this.#add(head.group);
+    const {size} = this.#source;
+    let end = endOf(head.group);
+    if (end < size && size < Infinity) end = await this.#readTail(size, end, signal);
+    await this.walk(end, signal);
+    return head;
+  }
+  /** Where the last group ends that an index tells of; `end`: none does. */
+  async #readTail(size, end, signal) {
+    const begin = Math.max(end, size - TAIL_BYTES);
+    const asked = {tail: await this.#source.scattered(begin, size, signal), end: size};
+    const last = await this.#ask('locate', {...asked, byTime: false, place: Infinity}, signal);
+    if (!last) return end;
+    this.#tail = asked;
+    this.frames = last.frames;
+    return last.lastEnd;
+  }
+  /** Passes from head to head, from one at `place` on, as far as frames can be decoded. */
+  async walk(place = this.#end, signal = undefined) {
+    for (;;) {
+      this.#end = place;
+      if (place >= this.#source.size) return;
+      const head = await this.#headAt(place, undefined, signal);
+      if (!head) return;
+      this.#add(head.group);
+      place = endOf(head.group);
+    }
+  }
+
+  #ask(operation, argument, signal) {
+    return askDecoder(this.#decoder, operation, argument, signal);
+  }
+  /** {group, stream}: stream: the first bytes of its stream, as far as they came with the head.
+   * null: the file ends before the header of the stream does. */
+  async #headAt(offset, bytes, signal, wanted = FIRST_BYTES) {
+    bytes ??= await this.#source.scattered(offset, offset + wanted, signal);
+    if (bytes.length === 0) return null;
+    try {
+      const head = await this.#ask('head', bytes, signal);
+      const headers = head.bytes + head.streamHeaderBytes;
+      if (headers > this.#source.size - offset) return null;
+      const group = {
+        offset, bytes: head.bytes + head.streamBytes + head.indexBytes,
+        firstFrame: head.firstFrame, times: head.times, clock: head.clock,
+        streamOffset: offset + head.bytes, streamBytes: head.streamBytes,
+      };
+      return {group, stream: bytes.subarray(head.bytes)};
+    } catch (error) {
+      if (error.code !== 'truncated') throw error;
+      if (offset + bytes.length >= this.#source.size) return null;
+      return this.#headAt(offset, undefined, signal, Math.max(error.needed, bytes.length) +
+        FIRST_BYTES);
+    }
+  }
+  #add(group) {
+    const place = countUpTo(this.#known, group.offset, ({offset}) => offset);
+    const before = this.#known[place - 1], after = this.#known[place];
+    if (before?.offset === group.offset) return;
+    const follows = (a, b) => !a || !b || (endFrame(a) <= b.firstFrame &&
+      a.times.at(-1) < b.times[0] && JSON.stringify(a.clock) === JSON.stringify(b.clock));
+    if (!follows(before, group) || !follows(group, after)) {
+      throw new TksError('corrupt', 'Corrupt sequence: a group does not follow the one before it.');
+    }
+    if (this.#known.length === 0) [this.clock, this.firstFrame] = [group.clock, group.firstFrame];
+    this.#known.splice(place, 0, group);
+    this.frames = Math.max(this.frames, endFrame(group));
+    group.times.forEach((time, i) => (this.times[group.firstFrame + i] = time));
+  }
+
+  /** The known group that holds a place; nothing where there may be a later one. */
+  #knownAt(place, byTime) {
+    const first = byTime ? ({times}) => times[0] : ({firstFrame}) => firstFrame;
+    const i = countUpTo(this.#known, place, first) - 1;
+    const group = this.#known[Math.max(i, 0)], after = this.#known[i + 1];
+    const last = byTime ? group.times.at(-1) : endFrame(group) - 1;
+    const isLast = endFrame(group) === this.frames || after?.offset === endOf(group);
+    return i < 0 || place <= last || isLast ? group : null;
+  }
+  /**
+   * {group, stream} of a frame or, `byTime`, of a time, of which `bytes` bytes are wanted: those of
+   * its stream that came with its head. Places before the first frame or behind the last are those.
+   */
+  async find(place, byTime, {bytes, signal}) {
+    const known = this.#knownAt(place, byTime);
+    if (known) return {group: known};
+    const range = this.#nextTo(place, byTime) ?? (await this.#locate(place, byTime, signal));
+    const wanted = Math.min(bytes + HEAD_BYTES, range.end - range.begin);
+    const head = await this.#headAt(range.begin, undefined, signal, wanted);
+    if (!head) throw new TksError('corrupt', 'Corrupt sequence: an index leads to no group.');
+    this.#add(head.group);
+    return head;
+  }
+  /** The group behind one that is known, which is taken to be about as long. */
+  #nextTo(place, byTime) {
+    const before = this.#known[countUpTo(this.#known, place, endFrame) - 1];
+    if (byTime || !before || endFrame(before) !== place) return null;
+    const begin = endOf(before);
+    return {begin, end: begin + before.bytes};
+  }
+  async #locate(place, byTime, signal) {
+    let asked = this.#tail;
+    for (let indices = 0; asked && indices < MOST_INDICES; ++indices) {
+      const range = await this.#ask('locate', {...asked, byTime, place}, signal);
+      if (range?.found) return range;
+      asked = range &&
+        {tail: await this.#source.scattered(range.begin, range.end, signal), end: range.end};
+    }
+    throw new TksError('corrupt', 'Corrupt sequence: its indices do not lead to all groups.');
+  }
+
+  /** Forgets groups that end before a frame, but not the last one; gives where the first one that
+   * is left begins. */
+  forget(frame) {
+    while (this.#known.length > 1 && endFrame(this.#known[0]) <= frame) {
+      const {firstFrame, times} = this.#known.shift();
+      for (let i = 0; i < times.length; ++i) delete this.times[firstFrame + i];
+    }
+    const [first] = this.#known;
+    if (first) this.firstFrame = first.firstFrame;
+    return first?.offset ?? 0;
+  }
+}
