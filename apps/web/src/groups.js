@@ -37,6 +37,7 @@ export class Groups {
   #decoder;
   #known = [];  // in their order
   #tail = null;  // {tail, end}, as locate() takes them
+  #reading = new Map();  // promises of heads, by their places
   #end = 0;  // of the last group, where groups are passed one by one
 
   constructor(source, decoder) {
@@ -126,18 +127,31 @@ export class Groups {
     return i < 0 || place <= last || isLast ? group : null;
   }
   /**
-   * {group, stream} of a frame or, `byTime`, of a time, of which `bytes` bytes are wanted: those of
-   * its stream that came with its head. Places before the first frame or behind the last are those.
+   * {group, stream} of a frame or, `byTime`, of a time; places before the first frame or behind the
+   * last one are those. `asked`: {bytes, signal}, how many bytes of the group are wanted; `stream`:
+   * those of its stream that came with its head.
    */
-  async find(place, byTime, {bytes, signal}) {
+  async find(place, byTime, asked) {
     const known = this.#knownAt(place, byTime);
     if (known) return {group: known};
-    const range = this.#nextTo(place, byTime) ?? (await this.#locate(place, byTime, signal));
-    const wanted = Math.min(bytes + HEAD_BYTES, range.end - range.begin);
-    const head = await this.#headAt(range.begin, undefined, signal, wanted);
-    if (!head) throw new TksError('corrupt', 'Corrupt sequence: an index leads to no group.');
-    this.#add(head.group);
-    return head;
+    const range = this.#nextTo(place, byTime) ?? (await this.#locate(place, byTime, asked.signal));
+    const reading = this.#reading.get(range.begin);
+    if (reading) return reading.catch(() => {}).then(() => this.find(place, byTime, asked));
+    const wanted = Math.min(asked.bytes + HEAD_BYTES, range.end - range.begin);
+    return this.#read(range.begin, wanted, asked.signal);
+  }
+  /** One at a time of a group: others wait for it. */
+  async #read(begin, wanted, signal) {
+    const reading = this.#headAt(begin, undefined, signal, wanted);
+    this.#reading.set(begin, reading);
+    try {
+      const head = await reading;
+      if (!head) throw new TksError('corrupt', 'Corrupt sequence: an index leads to no group.');
+      this.#add(head.group);
+      return head;
+    } finally {
+      this.#reading.delete(begin);
+    }
   }
   /** The group behind one that is known, which is taken to be about as long. */
   #nextTo(place, byTime) {

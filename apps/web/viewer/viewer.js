@@ -3,10 +3,10 @@
 import {MeshLambertMaterial} from 'three';
 
 import {goesRound, open} from '../src/index.js';
-import {TksTerrain, textureOf} from '../src/three.js';
+import {FIRST_FRAME, TksTerrain, textureOf} from '../src/three.js';
 import {nameOf} from './address.js';
 import {drawBearings} from './bearings.js';
-import {givenHeight, keep, place} from './camera_link.js';
+import {givenFrame, givenHeight, keep, place} from './camera_link.js';
 import {encodedFile, inputOf, isStream} from './coding.js';
 import {Comparison} from './comparison.js';
 import {decoder} from './decoder.js';
@@ -26,10 +26,13 @@ import {listenToSaves, offer} from './saving.js';
 import {Picture} from './scene.js';
 import {readSliders, setSliders} from './sliders.js';
 import {listenToSun} from './sun.js';
-import {tint} from './tint.js';
+import {Timeline} from './timeline.js';
+import {Range, hasTint, tint} from './tint.js';
 import {say} from './values.js';
 import {Visits} from './visits.js';
 
+/** Of the frames of a globe that play. */
+const PLAYED = {texels: 1024, samples: 512};
 const STILL = matchMedia('(prefers-reduced-motion: reduce)');
 
 const picture = new Picture($('picture'), freeArea);
@@ -37,6 +40,10 @@ const comparison = new Comparison(picture);
 const refiner = new Refiner(picture, {show, fail, signal: () => opening.signal});
 const visits = new Visits(picture, () => (object?.frame ? {object, info: terrain.info} : null));
 const map = new FetchMap($('fetched'), $('ground'));
+const timeline = new Timeline({
+  decode: decodeFrame, show: showPlayed, fail,
+  onplay: () => refiner.hold(), onrest: () => restFrame(),
+});
 
 let terrain = null, object = null;
 let opening = new AbortController();
@@ -48,6 +55,8 @@ const NOTHING = {name: 'Tetrakis', title: 'Tetrakis', size: ''};
 let reopen = () => {};
 /** The text of a point of the terrain. */
 let describe = () => '';
+/** What the colours of heights reach from and to. */
+let colours = new Range();
 
 const describerOf = ({isGlobe, isObject}) =>
   (isGlobe ? globeDescriber : isObject ? objectDescriber : describer);
@@ -55,7 +64,7 @@ const describerOf = ({isGlobe, isObject}) =>
 function show(frame) {
   const first = object.frame === null;
   object.show(frame, {glide: !STILL.matches});
-  if (frame.surface && $('textured').checked) object.setMap(textureOf(tint(frame.surface)));
+  if (frame.surface && $('textured').checked) object.setMap(textureOf(tinted(frame.surface)));
   if (object.isGlobe) picture.globe.keepAbove(object.radius);
   if (first) {
     exaggerate();
@@ -66,11 +75,50 @@ function show(frame) {
   }
   const empty = emptiness(frame);
   if (empty) tell(`${empty}: there is nothing to draw.`, true);
+  drawShown(frame);
+}
+/** What the page says of the frame that is shown, and its picture. */
+function drawShown(frame) {
   readOut(object.frame, terrain.loaded);
   describe = describerOf(object)(frame.info, object);
   map.draw();
-  document.body.dataset.bytes = frame.bytes;
+  Object.assign(document.body.dataset, {bytes: frame.bytes, frame: frame.number});
   picture.draw();
+}
+
+/** Of a sequence all frames have the same colours. */
+const tinted = (surface) => tint(surface, terrain.frames > 1 ? colours : undefined);
+
+/** A frame as it is played: a globe's mesh, else a grid. One that is to be soon has what the first
+ * bytes tell, or all that are here. */
+async function decodeFrame(number, signal, isSoon) {
+  const isWhole = $('bytes').value === $('bytes').max, of = {frame: number, signal};
+  let bytes = isWhole ? Infinity : readSliders(terrain.info).bytes;
+  if (isSoon) bytes = Math.min(bytes, await terrain.load(FIRST_FRAME.bytes, of).then(
+    (have) => Math.max(have, terrain.loaded.bytes)));
+  const {isGlobe, playing} = object, {info} = terrain, {texels, samples} = PLAYED;
+  const drawn = isGlobe
+    ? {globe: globeFor(info, Number($('exaggeration').value)), surface: hasTint(info), texels,
+      samples, normals: true}
+    : playing;
+  const texture = info.hasTexture && $('textured').checked;
+  return terrain.decode({...drawn, ...of, bytes, texture});
+}
+function showPlayed(frame) {
+  if (object.isGlobe) object.show(frame);
+  else object.play(frame);
+  if (hasTint(frame.info) && $('textured').checked) {
+    if (object.isGlobe) object.setMap(textureOf(tinted(frame.surface)));
+    else object.takeTurn(tinted(frame.surface));
+  }
+  refiner.took(frame);
+  drawShown(frame);
+}
+/** Where a frame stays, it is refined, and the address keeps it. */
+function restFrame() {
+  refiner.release();
+  keepLook();
+  setWanted();
 }
 
 function fail(error) {
@@ -90,6 +138,12 @@ function failToOpen(error) {
   if (terrain && !refiner.isShown) refiner.pump();
 }
 
+/** Looks from where the address says, at the frame that it says. */
+function followAddress() {
+  followLink();
+  const number = object?.frame ? givenFrame(terrain) : timeline.number;
+  if (number !== timeline.number) timeline.seek(number);
+}
 /** Looks from where the address says; false: it does not. */
 function followLink() {
   if (!object?.frame || !place('eye') || !place('target')) return false;
@@ -98,19 +152,20 @@ function followLink() {
 }
 
 function setWanted() {
-  if (!terrain) return;
+  if (!terrain || timeline.isPlaying) return;
   const height = object.isGlobe ? $('exaggeration').value : 0;  // flat ground is stretched as it is
-  refiner.want({...readSliders(terrain.info), height});
+  refiner.want({...readSliders(terrain.info), height, frame: timeline.number});
 }
 /** Where the camera rests, the address keeps it, and other bytes may help. */
 function rest() {
-  if (object?.frame) {
-    const {camera: {position}, orbit: {target}} = picture;
-    keep(picture.isMoved
-      ? {eye: position, target, height: Number($('exaggeration').value)} : null);
-  }
+  if (object?.frame) keepLook();
   if (object?.isObject) setWanted();
   else refiner.replan();
+}
+function keepLook() {
+  const {camera: {position}, orbit: {target}} = picture;
+  const camera = {eye: position, target, height: Number($('exaggeration').value)};
+  keep(picture.isMoved ? camera : null, timeline.kept);
 }
 /** Whether a metre of what is shown is known. */
 const isMeasured = (info) => (info.isObject ? isInMetres(info)
@@ -168,6 +223,9 @@ async function openInput(input, name, asked, original = null) {
     comparison.of(isFlat ? original : null, terrain.info);
     $('save').hidden = true;
     prepareControls(terrain.info);
+    colours = new Range();
+    timeline.begin(terrain);
+    refiner.release();
     refiner.begin({terrain, object, first: asked?.first});
     reopen = () => openInput(input, name, null, original);
     called = {name, title, size: sizeOf(terrain.info)};
@@ -254,7 +312,8 @@ function listenToControls() {
     rest();
   });
   $('north').addEventListener('click', () => object && picture.faceNorth());
-  listenToSaves(() => ({object, terrain, bytes: refiner.shown.bytes, name: called.name}));
+  listenToSaves(() => ({object, terrain, bytes: refiner.shown.bytes,
+    frame: timeline.number, name: called.name}));
   $('globe').addEventListener('change', () => {
     keepFlat(!$('globe').checked);
     reopen();
@@ -278,7 +337,7 @@ export function begin(asked) {
   };
   $('exaggeration').value = givenHeight();
   listenToSun(picture);
-  addEventListener('hashchange', followLink);
+  addEventListener('hashchange', followAddress);
   listenToPointer(picture, (point) => describe(point));
   listenToControls();
   listenToLooks(picture, () => object);
