@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bytes that the caller hands over as they come, and of which the first ones may be given up.
+import {gathered, inLarger} from './pieces.js';
 
 export class LiveSource {
   requests = 0;
@@ -17,20 +18,17 @@ export class LiveSource {
     this.#pieces.splice(0, first < 0 ? this.#pieces.length : first);
   }
   async next(begin, end, take) {
+    return inLarger(take, (give) => this.#bring(begin, end, give));
+  }
+  async scattered(begin, end) {
+    return gathered((take) => this.#bring(begin, end, take));
+  }
+  async #bring(begin, end, take) {
     for (const piece of this.#pieces) {
       const from = Math.max(begin - piece.begin, 0);
       const part = piece.bytes.subarray(from, Math.max(from, end - piece.begin));
       if (part.length > 0) await take(part);
     }
-  }
-  async scattered(begin, end) {
-    const all = new Uint8Array(Math.max(0, Math.min(end, this.size) - begin));
-    let place = 0;
-    await this.next(begin, end, async (part) => {
-      all.set(part, place);
-      place += part.length;
-    });
-    return all.subarray(0, place);
   }
   close() {
     this.#pieces = [];
