@@ -87,7 +87,7 @@ export class RefiningMesh extends Mesh {
    * bytes, where no other one follows soon. */
   tellPlayed(frame) {
     this.#playedAt = performance.now();
-    [this.#wanted, this.#texels, this.#served] = [frame.bytes, Infinity, ''];
+    [this.#wanted, this.#texels, this.#served] = [frame.bytes, 0, ''];
     this.tell({...frame, mesh: undefined});
   }
   setGeometry(geometry) {
