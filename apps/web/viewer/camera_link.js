@@ -12,7 +12,7 @@ function given(name) {
 }
 
 /** Three numbers of the address; null: none. */
-export function place(name) {
+function place(name) {
   const numbers = (given(name) ?? '').split(',').map(Number);
   return numbers.length === 3 && numbers.every(isFinite) ? numbers : null;
 }
@@ -29,15 +29,23 @@ export function givenHeight() {
   return isFinite(value) ? value : 0;
 }
 
+/** Looks from where the address says; false: it does not. */
+export function followLink(picture) {
+  const [eye, target] = NAMES.map(place);
+  if (!eye || !target) return false;
+  picture.look(eye, target);
+  return true;
+}
+
 /** Six significant digits are less than a pixel. */
 const written = ({x, y, z}) => [x, y, z].map((v) => Number(v.toPrecision(6))).join();
 
-/** Keeps a camera and the number of a frame in the address, without an entry in the history; `null`:
- * none. */
-export function keep(camera, frame) {
-  const {pathname, search} = location;
-  const parts = camera ? NAMES.map((name) => `${name}=${written(camera[name])}`) : [];
-  if (camera?.height) parts.push(`height=${camera.height}`);
+/** Keeps in the address, without an entry in the history, where somebody has moved the camera of a
+ * picture, `height` and the number of a frame; null: none. */
+export function keepLook({isMoved, camera, orbit}, height, frame) {
+  const {pathname, search} = location, look = {eye: camera.position, target: orbit.target};
+  const parts = isMoved ? NAMES.map((name) => `${name}=${written(look[name])}`) : [];
+  if (isMoved && height) parts.push(`height=${height}`);
   if (frame !== null) parts.push(`frame=${frame}`);
   history.replaceState(null, '', pathname + search + (parts.length ? `#${parts.join('&')}` : ''));
 }

@@ -21,14 +21,16 @@ export class Player {
   #decode;
   #show;
   #fail;
+  #onend;
   #terrain = null;
   #stop = null;  // of what is being played
   #prepared = null;  // the frame whose group was decoded ahead
 
-  /** `decode(number, signal, isSoon)` gives a frame, of few bytes where it is to be soon;
-   * `show(frame)` draws it; `fail(error)` hears why there is none. */
-  constructor({decode, show, fail}) {
-    [this.#decode, this.#show, this.#fail] = [decode, show, fail];
+  /** `decode({frame, signal, isSoon})` gives a frame, of few bytes where it is to be soon;
+   * `show(frame)` draws it; `fail(error)` hears why there is none; `onend()` is called behind the
+   * last one that is played. */
+  constructor({decode, show, fail, onend}) {
+    [this.#decode, this.#show, this.#fail, this.#onend] = [decode, show, fail, onend];
   }
   begin(terrain, number) {
     this.pause();
@@ -59,11 +61,10 @@ export class Player {
     return 1000 / (rate * this.speed);
   }
 
-  /** Resolves at the end, which pause() is, too. */
   async play() {
     const signal = this.#begin(true), {firstFrame, frames} = this.#terrain;
     const ask = (number) => {
-      const asked = this.#decode(number, signal);
+      const asked = this.#decode({frame: number, signal});
       asked.catch(() => {});
       return asked;
     };
@@ -78,11 +79,15 @@ export class Player {
         due += this.#period;
       }
       this.#stop = null;
+      this.#onend();
     } catch (error) {
-      if (signal.aborted) return;
-      this.#stop = null;
-      this.#fail(error);
+      this.#failed(signal, error);
     }
+  }
+  #failed(signal, error) {
+    if (signal.aborted) return;
+    this.#stop = null;
+    this.#fail(error);
   }
   #shown(frame) {
     this.number = frame.number;
@@ -100,16 +105,16 @@ export class Player {
 
   /** Shows a frame, and plays on from it if frames were playing. */
   async seek(number) {
-    const {isPlaying} = this, signal = this.#begin(false);
+    const {isPlaying} = this, signal = this.#begin(isPlaying);
     this.number = number;
     try {
-      const frame = await this.#decode(number, signal, !isPlaying);
+      const frame = await this.#decode({frame: number, signal, isSoon: !isPlaying});
       signal.throwIfAborted();
-      this.#stop = null;
+      if (!isPlaying) this.#stop = null;
       this.#shown(frame);
       if (isPlaying) this.play();
     } catch (error) {
-      if (!signal.aborted) this.#fail(error);
+      this.#failed(signal, error);
     }
   }
 }

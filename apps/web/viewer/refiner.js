@@ -42,6 +42,7 @@ export class Refiner {
   hold() {
     this.#hold.abort();
     this.shown.isWhole = false;
+    document.body.dataset.state = 'playing';
   }
   release() {
     if (this.#hold.signal.aborted) this.#hold = new AbortController();
@@ -91,7 +92,7 @@ export class Refiner {
         else if (this.#wanted.bytes > this.shown.bytes && this.#isSameFrame) await this.#refine(current);
         else await this.#redraw(current);
       }
-      document.body.dataset.state = 'done';
+      if (!signal.aborted) document.body.dataset.state = 'done';
     } catch (error) {
       if (current === this.#terrain && !signal.aborted) this.#fail(error);
     } finally {

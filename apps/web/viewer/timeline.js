@@ -8,35 +8,32 @@ import {say} from './values.js';
 
 export class Timeline {
   #player;
+  #onplay;
   #onrest;
   #terrain = null;
 
-  /** `decode`, `show` and `fail` as Player takes them; `onplay()` is called before frames play,
-   * `onrest()` where one stays. */
+  /** `decode`, `show` and `fail` as Player takes them; `onplay()` is called before frames play
+   * or another one is sought, `onrest()` where one stays. */
   constructor({decode, show, fail, onplay, onrest}) {
-    this.#onrest = onrest;
+    [this.#onplay, this.#onrest] = [onplay, onrest];
     const shown = (frame) => {
       this.#say(frame.number);
       show(frame);
       if (!this.#player.isPlaying) this.#rest();
     };
-    this.#player = new Player({decode, show: shown, fail: (error) => {
+    const failed = (error) => {
       this.#drawButton();
       fail(error);
-    }});
-    $('play').addEventListener('click', async () => {
-      if (this.#player.isPlaying) return this.pause();
-      onplay();
-      const played = this.#player.play();
-      this.#drawButton();
-      await played;
-      if (!this.#player.isPlaying) this.#rest();
-    });
+    };
+    this.#player =
+      new Player({decode, show: shown, fail: failed, onend: () => this.#rest()});
+    $('play').addEventListener('click', () =>
+      (this.isPlaying ? this.pause() : this.play()));
     $('frame').addEventListener('input', () => this.seek(Number($('frame').value)));
     $('speed').addEventListener('change', () => (this.#player.speed = Number($('speed').value)));
     $('loop').addEventListener('change', () => (this.#player.loops = $('loop').checked));
     $('picture').addEventListener('keydown', (event) => {
-      if (event.key !== ' ' || !this.isShown) return;
+      if (event.key !== ' ' || $('timeline').hidden) return;
       event.preventDefault();
       $('play').click();
     });
@@ -47,7 +44,7 @@ export class Timeline {
     this.#terrain = terrain;
     const {firstFrame, frames} = terrain;
     this.#player.begin(terrain, givenFrame(terrain));
-    $('timeline').hidden = !this.isShown;
+    $('timeline').hidden = true;
     [$('frame').min, $('frame').max] = [firstFrame, frames - 1];
     this.#say(this.number);
     this.#drawButton();
@@ -67,14 +64,28 @@ export class Timeline {
     return this.isShown && this.number !== this.#terrain.firstFrame ? this.number : null;
   }
 
+  /** Shows the bar, once there is a picture. */
+  reveal() {
+    $('timeline').hidden = !this.isShown;
+  }
+  play() {
+    this.#onplay();
+    this.#player.play();
+    this.#drawButton();
+  }
   pause() {
-    if (!this.#player.isPlaying) return;
     this.#player.pause();
     this.#rest();
   }
   seek(number) {
+    this.#onplay();
     this.#say(number);
     return this.#player.seek(number);
+  }
+  /** Goes to the frame of the address. */
+  follow() {
+    const number = this.#terrain ? givenFrame(this.#terrain) : this.number;
+    if (number !== this.number) this.seek(number);
   }
   #rest() {
     this.#drawButton();

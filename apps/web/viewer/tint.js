@@ -28,7 +28,7 @@ const TABLE = rampTable();
 
 /** What heights the colours reach from and to. It grows with what it colours, so that the frames of
  * a sequence have the same ones. */
-export class Range {
+class Range {
   least = Infinity;
   most = -Infinity;
   take(heights) {
@@ -41,6 +41,7 @@ export class Range {
   }
 }
 
+/** RGBA of a grid of heights. */
 export function tint({width, height, data}, range = new Range()) {
   range.take(data);
   const {least, most} = range, scale = most > least ? 255 / (most - least) : 0;
@@ -49,4 +50,12 @@ export function tint({width, height, data}, range = new Range()) {
     rgba[i] = TABLE[Math.round((data[i] - least) * scale) || 0];
   }
   return {width, height, data: new Uint8ClampedArray(rgba.buffer)};
+}
+
+const ranges = new WeakMap();  // of terrains with several frames
+
+/** The same of a surface of a terrain, whose frames have the same colours. */
+export function tinted(terrain, surface) {
+  if (terrain.frames > 1 && !ranges.has(terrain)) ranges.set(terrain, new Range());
+  return tint(surface, ranges.get(terrain));
 }

@@ -3,10 +3,10 @@
 import {MeshLambertMaterial} from 'three';
 
 import {goesRound, open} from '../src/index.js';
-import {FIRST_FRAME, TksTerrain, textureOf} from '../src/three.js';
+import {TksTerrain, textureOf} from '../src/three.js';
 import {nameOf} from './address.js';
 import {drawBearings} from './bearings.js';
-import {givenFrame, givenHeight, keep, place} from './camera_link.js';
+import {followLink, givenHeight, keepLook} from './camera_link.js';
 import {encodedFile, inputOf, isStream} from './coding.js';
 import {Comparison} from './comparison.js';
 import {decoder} from './decoder.js';
@@ -17,8 +17,8 @@ import {globeDescriber} from './globe_pointer.js';
 import {exaggerationOf, globeFor, keepFlat} from './globe_view.js';
 import {listenToLooks, setWireframe} from './looks.js';
 import {ViewedObject, hideControls, isInMetres, objectDescriber} from './object_view.js';
-import {originalInLink} from './original_link.js';
 import {$, entitle, explainMoves, freeArea, isSmallScreen, tell} from './page.js';
+import {decodePlayed, drawPlayed} from './played.js';
 import {describer, listenToPointer} from './pointer.js';
 import {emptiness, readOut, sizeOf} from './read_out.js';
 import {Refiner} from './refiner.js';
@@ -27,12 +27,10 @@ import {Picture} from './scene.js';
 import {readSliders, setSliders} from './sliders.js';
 import {listenToSun} from './sun.js';
 import {Timeline} from './timeline.js';
-import {Range, hasTint, tint} from './tint.js';
+import {tinted} from './tint.js';
 import {say} from './values.js';
 import {Visits} from './visits.js';
 
-/** Of the frames of a globe that play. */
-const PLAYED = {texels: 1024, samples: 512};
 const STILL = matchMedia('(prefers-reduced-motion: reduce)');
 
 const picture = new Picture($('picture'), freeArea);
@@ -41,8 +39,8 @@ const refiner = new Refiner(picture, {show, fail, signal: () => opening.signal})
 const visits = new Visits(picture, () => (object?.frame ? {object, info: terrain.info} : null));
 const map = new FetchMap($('fetched'), $('ground'));
 const timeline = new Timeline({
-  decode: decodeFrame, show: showPlayed, fail,
-  onplay: () => refiner.hold(), onrest: () => restFrame(),
+  decode: (asked) => decodePlayed({terrain, object}, asked),
+  show: showPlayed, fail, onplay: () => refiner.hold(), onrest: restFrame,
 });
 
 let terrain = null, object = null;
@@ -55,8 +53,6 @@ const NOTHING = {name: 'Tetrakis', title: 'Tetrakis', size: ''};
 let reopen = () => {};
 /** The text of a point of the terrain. */
 let describe = () => '';
-/** What the colours of heights reach from and to. */
-let colours = new Range();
 
 const describerOf = ({isGlobe, isObject}) =>
   (isGlobe ? globeDescriber : isObject ? objectDescriber : describer);
@@ -64,13 +60,14 @@ const describerOf = ({isGlobe, isObject}) =>
 function show(frame) {
   const first = object.frame === null;
   object.show(frame, {glide: !STILL.matches});
-  if (frame.surface && $('textured').checked) object.setMap(textureOf(tinted(frame.surface)));
+  if (frame.surface && $('textured').checked) object.setMap(textureOf(tinted(terrain, frame.surface)));
   if (object.isGlobe) picture.globe.keepAbove(object.radius);
   if (first) {
+    timeline.reveal();
     exaggerate();
     picture.home();
     $('bearings').hidden = false;
-    if (!followLink()) visits.follow();
+    if (!followLink(picture)) visits.follow();
     if (object.isObject) setWanted();  // the texels that are seen
   }
   const empty = emptiness(frame);
@@ -86,38 +83,16 @@ function drawShown(frame) {
   picture.draw();
 }
 
-/** Of a sequence all frames have the same colours. */
-const tinted = (surface) => tint(surface, terrain.frames > 1 ? colours : undefined);
-
-/** A frame as it is played: a globe's mesh, else a grid. One that is to be soon has what the first
- * bytes tell, or all that are here. */
-async function decodeFrame(number, signal, isSoon) {
-  const isWhole = $('bytes').value === $('bytes').max, of = {frame: number, signal};
-  let bytes = isWhole ? Infinity : readSliders(terrain.info).bytes;
-  if (isSoon) bytes = Math.min(bytes, await terrain.load(FIRST_FRAME.bytes, of).then(
-    (have) => Math.max(have, terrain.loaded.bytes)));
-  const {isGlobe, playing} = object, {info} = terrain, {texels, samples} = PLAYED;
-  const drawn = isGlobe
-    ? {globe: globeFor(info, Number($('exaggeration').value)), surface: hasTint(info), texels,
-      samples, normals: true}
-    : playing;
-  const texture = info.hasTexture && $('textured').checked;
-  return terrain.decode({...drawn, ...of, bytes, texture});
-}
 function showPlayed(frame) {
-  if (object.isGlobe) object.show(frame);
-  else object.play(frame);
-  if (hasTint(frame.info) && $('textured').checked) {
-    if (object.isGlobe) object.setMap(textureOf(tinted(frame.surface)));
-    else object.takeTurn(tinted(frame.surface));
-  }
+  drawPlayed({terrain, object}, frame);
   refiner.took(frame);
   drawShown(frame);
 }
+const keep = () => keepLook(picture, Number($('exaggeration').value), timeline.kept);
 /** Where a frame stays, it is refined, and the address keeps it. */
 function restFrame() {
   refiner.release();
-  keepLook();
+  keep();
   setWanted();
 }
 
@@ -138,19 +113,6 @@ function failToOpen(error) {
   if (terrain && !refiner.isShown) refiner.pump();
 }
 
-/** Looks from where the address says, at the frame that it says. */
-function followAddress() {
-  followLink();
-  const number = object?.frame ? givenFrame(terrain) : timeline.number;
-  if (number !== timeline.number) timeline.seek(number);
-}
-/** Looks from where the address says; false: it does not. */
-function followLink() {
-  if (!object?.frame || !place('eye') || !place('target')) return false;
-  picture.look(place('eye'), place('target'));
-  return true;
-}
-
 function setWanted() {
   if (!terrain || timeline.isPlaying) return;
   const height = object.isGlobe ? $('exaggeration').value : 0;  // flat ground is stretched as it is
@@ -158,14 +120,9 @@ function setWanted() {
 }
 /** Where the camera rests, the address keeps it, and other bytes may help. */
 function rest() {
-  if (object?.frame) keepLook();
+  if (object?.frame) keep();
   if (object?.isObject) setWanted();
   else refiner.replan();
-}
-function keepLook() {
-  const {camera: {position}, orbit: {target}} = picture;
-  const camera = {eye: position, target, height: Number($('exaggeration').value)};
-  keep(picture.isMoved ? camera : null, timeline.kept);
 }
 /** Whether a metre of what is shown is known. */
 const isMeasured = (info) => (info.isObject ? isInMetres(info)
@@ -223,7 +180,6 @@ async function openInput(input, name, asked, original = null) {
     comparison.of(isFlat ? original : null, terrain.info);
     $('save').hidden = true;
     prepareControls(terrain.info);
-    colours = new Range();
     timeline.begin(terrain);
     refiner.release();
     refiner.begin({terrain, object, first: asked?.first});
@@ -231,19 +187,9 @@ async function openInput(input, name, asked, original = null) {
     called = {name, title, size: sizeOf(terrain.info)};
     entitle(called);
     setWanted();
-    if (asked && isFlat) compareWithLink(terrain);
+    if (asked && isFlat) comparison.ofLink(terrain.info, () => terrain === opened);
   } catch (error) {
     if (!signal.aborted) failToOpen(error);
-  }
-}
-
-/** Fetches what the stream of the page's address was made of, if the address says so. */
-async function compareWithLink(opened) {
-  try {
-    const original = await originalInLink(opened.info);
-    if (original && terrain === opened) comparison.of(original, opened.info);
-  } catch (error) {
-    if (terrain === opened) tell(error.message);
   }
 }
 
@@ -312,8 +258,8 @@ function listenToControls() {
     rest();
   });
   $('north').addEventListener('click', () => object && picture.faceNorth());
-  listenToSaves(() => ({object, terrain, bytes: refiner.shown.bytes,
-    frame: timeline.number, name: called.name}));
+  listenToSaves(() => ({object, terrain, bytes: refiner.shown.bytes, frame: timeline.number,
+    name: called.name}));
   $('globe').addEventListener('change', () => {
     keepFlat(!$('globe').checked);
     reopen();
@@ -337,7 +283,10 @@ export function begin(asked) {
   };
   $('exaggeration').value = givenHeight();
   listenToSun(picture);
-  addEventListener('hashchange', followAddress);
+  addEventListener('hashchange', () => {
+    if (object?.frame) followLink(picture);
+    timeline.follow();
+  });
   listenToPointer(picture, (point) => describe(point));
   listenToControls();
   listenToLooks(picture, () => object);
