@@ -64,9 +64,10 @@ export class Timeline {
     return this.isShown && this.number !== this.#terrain.firstFrame ? this.number : null;
   }
 
-  /** Shows the bar, once there is a picture. */
+  /** Shows the bar, once there is a picture, and with it the time of its frame. */
   reveal() {
     $('timeline').hidden = !this.isShown;
+    this.#say(this.number);
   }
   play() {
     this.#onplay();
