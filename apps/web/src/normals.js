@@ -5,7 +5,7 @@
 /** Nothing beside voids: cells there count as flat. */
 const slope = (a, b, distance) => (distance > 0 && a === a && b === b ? (b - a) / distance : 0);
 
-/** Writes the normal at (x, y) of a surface to normals[at], … `scale`: as groundScale() gives it. */
+/** Writes the normal at (x, y) of a surface from normals[at] on. `scale`: that of groundScale(). */
 function putNormal({data, width, height, level}, x, y, scale, normals, at) {
   const side = 2 ** level, row = y * width;
   const left = Math.max(x - 1, 0), right = Math.min(x + 1, width - 1);

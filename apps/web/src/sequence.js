@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sequence that is open, as users have it: what a Terrain is, of frames in groups that are fetched
-// and decoded as they are asked for.
+// A sequence that is open, as users have it: what a Terrain is, of frames in groups that are
+// fetched and decoded as they are asked for.
 import {TksError} from './error.js';
 import {Groups} from './groups.js';
 import {HeldGroups} from './held_groups.js';

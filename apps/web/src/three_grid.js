@@ -69,8 +69,9 @@ export class Grid {
   #placed({width, height, level}) {
     const info = this.#info, scale = this.#scale, drape = drapeOf(info);
     const placed = placedOn(this.#axes), side = 2 ** level;
-    const positions = new Float32Array(3 * width * height), uvs = new Float32Array(2 * width * height);
-    for (let i = 0; i < width * height; ++i) {
+    const count = width * height;
+    const positions = new Float32Array(3 * count), uvs = new Float32Array(2 * count);
+    for (let i = 0; i < count; ++i) {
       const column = side * (i % width), row = side * Math.floor(i / width);
       const [east, south] = placed(
         (column - (info.width - 1) / 2) * scale.x, (row - (info.height - 1) / 2) * scale.y);
@@ -128,7 +129,8 @@ export class Grid {
     const column = (along / scale.x + (info.width - 1) / 2) / side;
     const row = (down / scale.y + (info.height - 1) / 2) / side;
     if (!(column >= 0 && row >= 0 && column <= width - 1 && row <= height - 1)) return NaN;
-    const left = Math.min(Math.floor(column), width - 2), above = Math.min(Math.floor(row), height - 2);
+    const left = Math.min(Math.floor(column), width - 2);
+    const above = Math.min(Math.floor(row), height - 2);
     const i = above * width + left, u = column - left, v = row - above;
     const [a, b, c, d] = [data[i], data[i + 1], data[i + width], data[i + width + 1]];
     const mixed = u + v <= 1 ? a + u * (b - a) + v * (c - a)

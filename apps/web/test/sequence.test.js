@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sequences, and streams of several frames: which frames come, of how many requests, in how much
-// memory.
+// memory. It needs a built `tetrakis` (TETRAKIS_CLI).
 import assert from 'node:assert/strict';
 import {mkdtemp, readFile, rm, writeFile} from 'node:fs/promises';
 import {tmpdir} from 'node:os';

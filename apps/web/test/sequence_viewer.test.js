@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The viewer's timeline in headless Chromium: sequences play, are sought, and refine where they
-// rest.
+// rest. It needs a built `tetrakis` (TETRAKIS_CLI).
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
 import {mkdtemp, readFile, rm, writeFile} from 'node:fs/promises';
@@ -77,7 +77,7 @@ test('a sequence shows its first frame, and says when that is', async () => {
   });
 });
 
-test('the bar goes to a frame, which is drawn and refined, and which the address keeps', async () => {
+test('the bar goes to a frame, which is refined, and which the address keeps', async () => {
   await site.withPage('tks=flood.tks', async (page) => {
     const before = await picture(page);
     await page.locator('#frame').fill('10');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of a sequence in three.js, without a screen: they change heights and texels in buffers that
-// stay, and refine where one rests.
+// Frames of a sequence in three.js, without a screen: they change heights and texels in buffers
+// that stay, and refine where one rests. It needs a built `tetrakis` (TETRAKIS_CLI).
 import assert from 'node:assert/strict';
 import {before, test} from 'node:test';
 import {PerspectiveCamera} from 'three';

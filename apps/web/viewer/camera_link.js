@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page's address keeps where the camera is and which frame is shown, so that a copy of it shows
-// the same: behind #, as eye, target (metres around the middle of the terrain), height (the slider's
-// value) and frame (its number).
+// the same: behind #, as eye, target (metres around the middle of the terrain), height (the
+// slider's value) and frame (its number).
 
 const NAMES = ['eye', 'target'];
 

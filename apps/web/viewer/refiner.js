@@ -73,6 +73,9 @@ export class Refiner {
   get #isSameFrame() {
     return this.#wanted.frame === this.shown.frame;
   }
+  get #lacksBytes() {
+    return this.#isSameFrame && this.#wanted.bytes > this.shown.bytes;
+  }
   /** Whether it is what is wanted. */
   get isShown() {
     const {shown} = this, wanted = this.#wanted;
@@ -89,7 +92,7 @@ export class Refiner {
     try {
       while (current === this.#terrain && !this.isShown) {
         if (!this.shown.bytes) await this.#drawFirst(current);
-        else if (this.#wanted.bytes > this.shown.bytes && this.#isSameFrame) await this.#refine(current);
+        else if (this.#lacksBytes) await this.#refine(current);
         else await this.#redraw(current);
       }
       if (!signal.aborted) document.body.dataset.state = 'done';

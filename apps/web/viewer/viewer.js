@@ -60,7 +60,8 @@ const describerOf = ({isGlobe, isObject}) =>
 function show(frame) {
   const first = object.frame === null;
   object.show(frame, {glide: !STILL.matches});
-  if (frame.surface && $('textured').checked) object.setMap(textureOf(tinted(terrain, frame.surface)));
+  const {surface} = frame;
+  if (surface && $('textured').checked) object.setMap(textureOf(tinted(terrain, surface)));
   if (object.isGlobe) picture.globe.keepAbove(object.radius);
   if (first) {
     timeline.reveal();
