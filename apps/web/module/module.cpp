@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What JavaScript calls beside tetrakis.h: it spares the loader (apps/web/src/module.js) the layout
-// of structs and numbers of 64 bits.
+// What JavaScript calls beside tetrakis.h: it spares the loader (apps/web/src/instance.js) the
+// layout of structs and numbers of 64 bits.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

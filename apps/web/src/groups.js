@@ -26,6 +26,14 @@ function countUpTo(list, value, of) {
   return low;
 }
 
+/** What a head at a place tells. */
+function groupOf({bytes, firstFrame, times, clock, streamBytes, indexBytes}, offset) {
+  return {
+    offset, bytes: bytes + streamBytes + indexBytes, firstFrame, times, clock,
+    streamOffset: offset + bytes, streamBytes,
+  };
+}
+
 export class Groups {
   clock = null;
   firstFrame = 0;
@@ -46,7 +54,7 @@ export class Groups {
 
   /** Of a file that begins with these bytes. */
   async begin(first, signal) {
-    const head = await this.#headAt(0, first, signal);
+    const head = await this.#headAt(0, {bytes: first, signal});
     if (!head) throw new TksError('truncated', 'The file is cut short: it ends before a frame.');
     this.#add(head.group);
     const {size} = this.#source;
@@ -70,7 +78,7 @@ export class Groups {
     for (;;) {
       this.#end = place;
       if (place >= this.#source.size) return;
-      const head = await this.#headAt(place, undefined, signal);
+      const head = await this.#headAt(place, {signal});
       if (!head) return;
       this.#add(head.group);
       place = endOf(head.group);
@@ -80,26 +88,20 @@ export class Groups {
   #ask(operation, argument, signal) {
     return askDecoder(this.#decoder, operation, argument, signal);
   }
-  /** {group, stream}: stream: the first bytes of its stream, as far as they came with the head.
-   * null: the file ends before the header of the stream does. */
-  async #headAt(offset, bytes, signal, wanted = FIRST_BYTES) {
-    bytes ??= await this.#source.scattered(offset, offset + wanted, signal);
-    if (bytes.length === 0) return null;
+  /** {group, stream} of the group at a place, of which these bytes are here, or `wanted` are to
+   * come. `stream`: those of its stream. null: the file ends before the header of that does. */
+  async #headAt(offset, {bytes, wanted = FIRST_BYTES, signal}, most = FIRST_BYTES) {
+    const here = bytes ??
+      (await this.#source.scattered(offset, offset + Math.max(wanted, most), signal));
     try {
-      const head = await this.#ask('head', bytes, signal);
-      const headers = head.bytes + head.streamHeaderBytes;
-      if (headers > this.#source.size - offset) return null;
-      const group = {
-        offset, bytes: head.bytes + head.streamBytes + head.indexBytes,
-        firstFrame: head.firstFrame, times: head.times, clock: head.clock,
-        streamOffset: offset + head.bytes, streamBytes: head.streamBytes,
-      };
-      return {group, stream: bytes.subarray(head.bytes)};
+      const head = await this.#ask('head', here.slice(0, most), signal);
+      if (head.bytes + head.streamHeaderBytes > this.#source.size - offset) return null;
+      return {group: groupOf(head, offset), stream: here.subarray(head.bytes)};
     } catch (error) {
       if (error.code !== 'truncated') throw error;
-      if (offset + bytes.length >= this.#source.size) return null;
-      return this.#headAt(offset, undefined, signal, Math.max(error.needed, bytes.length) +
-        FIRST_BYTES);
+      if (here.length <= most && offset + here.length >= this.#source.size) return null;
+      const more = Math.max(2 * most, error.needed);
+      return this.#headAt(offset, {bytes: here.length > most ? here : null, wanted, signal}, more);
     }
   }
   #add(group) {
@@ -142,7 +144,7 @@ export class Groups {
   }
   /** One at a time of a group: others wait for it. */
   async #read(begin, wanted, signal) {
-    const reading = this.#headAt(begin, undefined, signal, wanted);
+    const reading = this.#headAt(begin, {wanted, signal});
     this.#reading.set(begin, reading);
     try {
       const head = await reading;

@@ -324,8 +324,8 @@ export interface Terrain {
 
 /** A terrain whose frames come in groups, each of which is fetched and decoded when a frame of it
  * is asked for. Two groups are held at a time, so that one can be made while frames of the other
- * are shown. `info`, `loaded` and `truncated`, and bytes of calls, are those of one group, which was
- * asked for last; until then `info` of a live one is null. */
+ * are shown. `info`, `loaded` and `truncated`, and bytes of calls, are those of one group, which
+ * was asked for last; until then `info` of a live one is null. */
 export interface Sequence extends Terrain {
   /** Of openLive(): takes the bytes that follow those before, and resolves to `frames`. A group
    * shows all its frames once its header is there. What is no group, or does not follow, is refused

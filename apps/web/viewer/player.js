@@ -55,10 +55,11 @@ export class Player {
     const {firstFrame, frames} = this.#terrain;
     return number + 1 < frames ? number + 1 : this.loops ? firstFrame : null;
   }
+  /** Milliseconds until the next frame, or as many as since the one before. */
   get #period() {
-    const {clock, times, firstFrame} = this.#terrain;
-    const rate = rateOf(clock, times[firstFrame], times[firstFrame + 1]);
-    return 1000 / (rate * this.speed);
+    const {clock, times} = this.#terrain, {number} = this;
+    const first = times[number + 1] === undefined ? number - 1 : number;
+    return 1000 / (rateOf(clock, times[first], times[first + 1]) * this.speed);
   }
 
   async play() {

@@ -58,9 +58,8 @@ const describerOf = ({isGlobe, isObject}) =>
   (isGlobe ? globeDescriber : isObject ? objectDescriber : describer);
 
 function show(frame) {
-  const first = object.frame === null;
+  const first = object.frame === null, {surface} = frame;
   object.show(frame, {glide: !STILL.matches});
-  const {surface} = frame;
   if (surface && $('textured').checked) object.setMap(textureOf(tinted(terrain, surface)));
   if (object.isGlobe) picture.globe.keepAbove(object.radius);
   if (first) {
