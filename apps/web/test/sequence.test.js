@@ -7,7 +7,10 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 
+import {startDecoder} from '../src/decoders.js';
 import {open, openLive} from '../src/index.js';
+import {Sequence} from '../src/sequence.js';
+import {sourceOf} from '../src/source.js';
 import {sequenceOf} from './sequences.js';
 import {serve} from './server.js';
 
@@ -23,7 +26,7 @@ before(async () => {
   // Groups whose tail leads to all of them through further indices.
   many = await sequenceOf({heights: 'erosion', frames: 90, size: 64}, '--lossless', '--group', 1);
   // Groups that are longer than the tail.
-  large = await sequenceOf({texture: 'clouds', frames: 6, size: 128}, '--lossless', '--group', 3);
+  large = await sequenceOf({texture: 'clouds', frames: 9, size: 128}, '--lossless', '--group', 3);
   const files = {whole, many: many.bytes, large: large.bytes};
   for (const [name, bytes] of Object.entries(files)) {
     await writeFile(join(folder, `${name}.tks`), bytes);
@@ -137,6 +140,38 @@ test('more groups at once than are held', async () => {
   });
 });
 
+test('with one decoder groups take turns', async () => {
+  const alone = new Sequence(sourceOf(whole), startDecoder(), {another: () => null});
+  await alone.begin(whole.slice(0, 4096));
+  await using(alone, async (sequence) => {
+    const numbers = [9, 0, 5, 8];
+    const frames = await Promise.all(
+      numbers.map((frame) => sequence.decode({...HEIGHTS, frame})));
+    frames.forEach(({surface}, i) => equal(surface, rasters[numbers[i]]));
+  });
+});
+
+test('a group that is given up for others says so to who refines it, and comes again', async () => {
+  await using(open(`${site.url}large.tks`), async (sequence) => {
+    const refining = sequence.refine({frame: 0});
+    assert.equal((await refining.next()).value.complete, false);
+    for (const frame of [3, 6]) await sequence.decode({frame});
+    await assert.rejects(refining.next(), isUsage);
+    assert.ok((await sequence.decode({frame: 0})).complete);
+  });
+});
+
+test('who waits for a group that another one has stopped asking for gets it', async () => {
+  await using(open(`${site.url}large.tks`), async (sequence) => {
+    const stop = new AbortController();
+    const first = sequence.decode({frame: 4, signal: stop.signal});
+    const second = sequence.decode({frame: 5});
+    stop.abort();
+    await assert.rejects(first, {name: 'AbortError'});
+    assert.equal((await second).number, 5);
+  });
+});
+
 test('an aborted frame says why, and others come', async () => {
   await using(open(`${site.url}large.tks`), async (sequence) => {
     const stop = new AbortController(), reason = new Error('enough');
@@ -150,14 +185,14 @@ test('an aborted frame says why, and others come', async () => {
 test('a sequence that is cut ends with the last group whose header is there', async () => {
   const last = Buffer.from(large.bytes).lastIndexOf('TKG\x1a');
   assert.ok(large.bytes.length - last > 2 ** 17, 'the tail has no index');
-  for (const [end, frames] of [[last + 70000, 6], [last + 2000, 6], [last + 20, 3], [last, 3]]) {
+  for (const [end, frames] of [[last + 70000, 9], [last + 2000, 9], [last + 20, 6], [last, 6]]) {
     await writeFile(join(folder, 'cut.tks'), large.bytes.subarray(0, end));
     for (const input of [large.bytes.subarray(0, end), `${site.url}cut.tks`]) {
       await using(open(input), async (sequence) => {
         assert.equal(sequence.frames, frames);
         const frame = await sequence.decode({frame: frames - 1});
-        assert.equal(frame.complete, frames === 3);
-        assert.equal(sequence.truncated, frames === 6);
+        assert.equal(frame.complete, frames === 6);
+        assert.equal(sequence.truncated, frames === 9);
       });
     }
   }

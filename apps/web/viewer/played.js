@@ -19,7 +19,7 @@ function bytesOf(info) {
 /** A frame, by its number. One that is to be soon has what the first bytes of its group tell, or
  * all that are here. */
 export async function decodePlayed({terrain, object}, {frame, signal, isSoon}) {
-  const {info} = terrain, asked = {frame, signal}, height = Number($('exaggeration').value);
+  const {info} = object.frame, asked = {frame, signal}, height = Number($('exaggeration').value);
   let bytes = bytesOf(info);
   if (isSoon) {
     const have = await terrain.load(Math.min(bytes, FIRST_FRAME.bytes), asked);
