@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// tetrakis view: shows a stream in the browser. A server only on this machine's loopback address
-// hands out the stream, by byte ranges, and the files of the viewer, and nothing else.
+// tetrakis view: shows a stream or a sequence in the browser. A server only on this machine's
+// loopback address hands out the file, by byte ranges, and the files of the viewer, and nothing
+// else.
 #include <httplib.h>
 #include <algorithm>
 #include <array>
@@ -190,8 +191,8 @@ Result<int> bind(httplib::Server& server, int port) {
 }
 
 Status view(const ViewArguments& arguments) {
-  const Result<OpenStream> stream = openStream(arguments.source);
-  if (!stream.ok()) return stream.status();
+  const Result<std::vector<std::byte>> bytes = readCut(arguments.source);
+  if (!bytes.ok()) return bytes.status();
   const Result<fs::path> folder = viewerFolder();
   if (!folder.ok()) return folder.status();
   httplib::Server server;
@@ -202,7 +203,7 @@ Status view(const ViewArguments& arguments) {
     return httplib::Server::HandlerResponse::Handled;
   });
   const std::string name = nameInViewer(arguments.source.path);
-  addStream(server, name, stream->bytes);
+  addStream(server, name, *bytes);
   const Result<int> port = bind(server, arguments.port);
   if (!port.ok()) return port.status();
   const std::string address = "http://" + std::string(kLoopback) + ":" + std::to_string(*port) +

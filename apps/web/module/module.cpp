@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What JavaScript calls beside tetrakis.h: it spares the loader (apps/web/src/module.js) the layout
-// of structs and numbers of 64 bits.
+// What JavaScript calls beside tetrakis.h: it spares the loader (apps/web/src/instance.js) the
+// layout of structs and numbers of 64 bits.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -81,7 +81,9 @@ tks_status web_open(const uint8_t* data, size_t size, double max_memory, tks_dec
   NUMBER(textureWhiteLevel, texture_white_level)           \
   NUMBER(voidsKnown, voids_known)                          \
   NUMBER(basePositionBits, base_mesh.position_bits)        \
-  NUMBER(objectTriangles, object_triangles)
+  NUMBER(objectTriangles, object_triangles)                \
+  NUMBER(frames, frames)                                   \
+  NUMBER(frame, frame)
 
 /// The names, in the order in which web_numbers() writes the numbers.
 const char* web_names() {

@@ -3,6 +3,7 @@
 import {bodyOf} from './body.js';
 import {groundScale} from './ground.js';
 import {joinedNormals} from './joined_normals.js';
+import {gridNormals, meshNormals} from './normals.js';
 import {atlasOf, objectOf} from './object.js';
 import {PARTS} from './parts.js';
 
@@ -11,29 +12,6 @@ function levelFor(width, height, most, coarsest) {
   let level = 0;
   while (level < coarsest && Math.max(width, height) / 2 ** level > most) ++level;
   return level;
-}
-
-/**
- * Unit normals of a mesh's vertices by central differences of a surface: x along the rows, y up,
- * z down the rows. Cells beside voids count as flat.
- */
-function normalsOf(mesh, width, level, surface, scale) {
-  const normals = new Float32Array(3 * mesh.gridIndex.length);
-  const side = 2 ** level, {data, width: w, height: h} = surface;
-  const slope = (a, b, distance) => (distance > 0 && a === a && b === b ? (b - a) / distance : 0);
-  mesh.gridIndex.forEach((index, i) => {
-    const x = Math.min(Math.round((index % width) / side), w - 1);
-    const y = Math.min(Math.round(Math.floor(index / width) / side), h - 1);
-    const left = Math.max(x - 1, 0), right = Math.min(x + 1, w - 1);
-    const above = Math.max(y - 1, 0), below = Math.min(y + 1, h - 1);
-    const across = data[y * w + x];
-    const dx = slope(data[y * w + left] ?? across, data[y * w + right], (right - left) * side);
-    const dz = slope(data[above * w + x] ?? across, data[below * w + x], (below - above) * side);
-    const nx = (-dx * scale.height) / scale.x, nz = (-dz * scale.height) / scale.y;
-    const length = Math.hypot(nx, 1, nz);
-    normals.set([nx / length, 1 / length, nz / length], 3 * i);
-  });
-  return normals;
 }
 
 /** Enough for shading, in the time of a first picture. */
@@ -100,11 +78,15 @@ export function* partsOf(opened, info, request) {
   if (request.surface && info.hasHeights) {
     parts.surface = surfaceAt(surfaceLevel);
     yield;
+    if (request.normals && !request.mesh) {
+      parts.surface.normals = gridNormals(parts.surface, groundScale(info));
+      yield;
+    }
   }
   if (request.normals && parts.mesh) {
     const level = levelFor(info.width, info.height, NORMAL_SAMPLES, info.coarsestLevel);
     const surface = parts.surface?.level === level ? parts.surface : surfaceAt(level);
-    parts.mesh.normals = normalsOf(parts.mesh, info.width, level, surface, groundScale(info));
+    parts.mesh.normals = meshNormals(parts.mesh, info.width, surface, groundScale(info));
     yield;
   }
   if (request.texture && info.hasTexture) {

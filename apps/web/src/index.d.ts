@@ -47,6 +47,8 @@ export interface View {
 }
 
 export interface FrameOptions {
+  /** Of a sequence, or of a stream of several frames: which, by its number. Default: the first. */
+  frame?: number;
   /** Use no more than the first bytes that came: of the stream, or for views. Default: all. */
   bytes?: number;
   /** Ends the call with its requests, and rejects it with its reason; what is being decoded ends at
@@ -64,7 +66,8 @@ export interface FrameOptions {
   /** A mesh round a globe in the place of the flat one, of heights that go round it (goesRound()).
    * The view of a picture still says which bytes are fetched, but cuts nothing off. */
   globe?: GlobeOptions | null;
-  /** Unit normals for the vertices of the mesh. Default false. */
+  /** Unit normals for the vertices of the mesh; where `mesh` is false, for the samples of the
+   * surface. Default false. */
   normals?: boolean;
   texture?: boolean;
   /** The heights as a grid. Default false. */
@@ -104,6 +107,9 @@ export interface TerrainInfo {
   formatVersion: number;
   headerBytes: number;
   streamBytes: number;
+  /** How many frames the stream has, and which of them this is. */
+  frames: number;
+  frame: number;
   /** Payload of either component in this prefix. */
   geometryBytes: number;
   textureBytes: number;
@@ -225,8 +231,12 @@ export interface Raster<T> {
 }
 
 export interface Frame {
+  /** Its number in the sequence, or in the stream. */
+  number: number;
+  /** In ticks of the clock; of a stream its number. */
+  time: number;
   bytes: number;
-  /** These are all bytes of the stream. */
+  /** These are all bytes of the stream; of a sequence, of the group that holds the frame. */
   complete: boolean;
   info: TerrainInfo;
   mesh?: Mesh;
@@ -238,7 +248,33 @@ export interface Frame {
    * of one texel that repeats its border. */
   texture?: Raster<Uint8ClampedArray>;
   /** In info.unit; voids are NaN. */
-  surface?: Raster<Float32Array> & {spacingX: number; spacingY: number};
+  surface?: Surface;
+}
+
+export interface Surface extends Raster<Float32Array> {
+  spacingX: number;
+  spacingY: number;
+  /** Of each sample, as those of a mesh; where `mesh` was false, with `normals`. */
+  normals?: Float32Array;
+}
+
+/** What the times of frames mean: a tick lasts numerator / denominator seconds, and tick 0 is the
+ * epoch. */
+export interface Clock {
+  numerator: number;
+  denominator: number;
+  /** As RFC 3339 or CF has it; '': unknown. */
+  epoch: string;
+  /** Of CF: 'noleap', '360_day'; '': that of everyday life. */
+  calendar: string;
+}
+
+/** Frames that are coded together: [firstFrame, endFrame). */
+export interface FrameGroup {
+  firstFrame: number;
+  endFrame: number;
+  /** Of its stream. */
+  bytes: number;
 }
 
 export interface Terrain {
@@ -247,6 +283,20 @@ export interface Terrain {
   readonly info: TerrainInfo;
   /** `ranges`: which bytes are here, [begin, end) each. */
   readonly loaded: {requests: number; bytes: number; ranges: [number, number][]};
+  /** Of a file of groups of frames; `frames` of a stream may be several as well. */
+  readonly isSequence: boolean;
+  /** Frames have the numbers from `firstFrame` on, 0 of most, to below `frames`. */
+  readonly firstFrame: number;
+  readonly frames: number;
+  /** null: nobody knows what a tick is. */
+  readonly clock: Clock | null;
+  /** By the numbers of frames, in ticks (exact below 2^53); of a sequence at a URL, those of groups
+   * that were asked for. */
+  readonly times: readonly (number | undefined)[];
+  /** The last frame whose time is not after this one, in ticks; before all frames the first. */
+  at(time: number, options?: Pick<FrameOptions, 'signal'>): Promise<number>;
+  /** The group that holds a frame. */
+  group(frame: number, options?: Pick<FrameOptions, 'signal'>): Promise<FrameGroup>;
   /** The file ends before the stream does: frames are good, but not complete. */
   readonly truncated: boolean;
   /** Of the file, once its size is known; Infinity before. */
@@ -255,7 +305,7 @@ export interface Terrain {
    * that help a view most. Resolves to how many there are. Fewer: the file ends, no other byte
    * helps the view, or what is left of `bytes` is worth no request (`requestBytes`). Where nothing
    * came, another call with this view brings nothing either. */
-  load(bytes: number, options?: Pick<FrameOptions, 'signal' | 'view' | 'triangles'>):
+  load(bytes: number, options?: Pick<FrameOptions, 'signal' | 'view' | 'triangles' | 'frame'>):
     Promise<number>;
   /** One frame of `bytes` bytes; fetches those that are missing, as load(). */
   decode(options?: FrameOptions): Promise<Frame>;
@@ -266,9 +316,24 @@ export interface Terrain {
   /** Which bytes, [begin, end) each, a window of samples or texels takes; needs an index. */
   needed(options: {
     part?: 'heights' | 'texture'; window: {x: number; y: number; width: number; height: number};
+    frame?: number;
   }): Promise<[number, number][]>;
   dispose(): void;
   [Symbol.dispose](): void;
+}
+
+/** A terrain whose frames come in groups, each of which is fetched and decoded when a frame of it
+ * is asked for. Two groups are held at a time, so that one can be made while frames of the other
+ * are shown. `info`, `loaded` and `truncated`, and bytes of calls, are those of one group, which
+ * was asked for last; until then `info` of a live one is null. */
+export interface Sequence extends Terrain {
+  /** Of openLive(): takes the bytes that follow those before, and resolves to `frames`. A group
+   * shows all its frames once its header is there. What is no group, or does not follow, is refused
+   * (`corrupt`), and so is all behind it. */
+  append(bytes: Uint8Array): Promise<number>;
+  /** Of openLive(): gives up all groups that end before a frame, so that memory stays where it was.
+   * The numbers of frames stay. */
+  forget(frame: number): void;
 }
 
 /** Where adapters put a stream on the globe. Default: where it says, if this package knows its CRS
@@ -288,6 +353,9 @@ export const FIRST_FRAME: {bytes: number; triangles: number; texels: number};
 export function open(
   input: string | URL | ArrayBuffer | ArrayBufferView | Blob, options?: OpenOptions,
 ): Promise<Terrain>;
+
+/** A sequence whose bytes come from somewhere else, in pieces of any size. */
+export function openLive(options?: Omit<OpenOptions, 'request' | 'signal'>): Promise<Sequence>;
 
 /**
  * Metres of one unit of height, of one column and of one row: as the stream states them, or as its

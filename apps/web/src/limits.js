@@ -25,6 +25,13 @@ export function trianglesOf(triangles) {
   return Math.min(triangles, MOST_TRIANGLES);
 }
 
+/** A frame, by its number. */
+export function checkFrame(frame, first, end) {
+  if (Number.isInteger(frame) && frame >= first && frame < end) return;
+  refuse('frame', end > first + 1 ? `the number of a frame, from ${first} to ${end - 1}`
+    : `${first}, as there is no other frame`);
+}
+
 /** Mip levels, where they are given in the place of sides. */
 export function checkLevels({textureLevel, surfaceLevel}, info) {
   const check = (name, level, coarsest) => {

@@ -105,6 +105,10 @@ export class Opened {
   setLevels(heights, texture) {
     this.check(this.instance.calls.tks_set_levels(this.decoder, heights, texture));
   }
+  /** Which of info().frames is decoded from now on. */
+  setFrame(frame) {
+    this.check(this.instance.calls.tks_set_frame(this.decoder, frame));
+  }
 
   /** The finest mip level of a part of tks_part that the bytes feed. */
   fedLevel(part) {

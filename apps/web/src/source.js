@@ -2,6 +2,7 @@
 // Where the bytes of a stream come from: memory, a Blob, or a URL. All have the same calls: next()
 // brings bytes from a place on, scattered() those of one range of a view's.
 import {TksError} from './error.js';
+import {gathered, joined} from './pieces.js';
 import {UrlSource, checkMagic} from './url_source.js';
 
 class MemorySource {
@@ -37,4 +38,13 @@ export function sourceOf(input, request) {
   }
   if (input instanceof Blob) return new MemorySource(input);
   throw new TksError('usage', 'open() takes a URL, bytes or a Blob.');
+}
+
+/** A source whose bytes come in any order, of one that began so: of a server without ranges all of
+ * them are read. */
+export async function anyOrder(source, first, signal) {
+  if (!source.sequential) return source;
+  const rest = await gathered((take) => source.next(first.length, Infinity, take, signal));
+  source.close();
+  return Object.assign(new MemorySource(joined([first, rest])), {requests: source.requests});
 }

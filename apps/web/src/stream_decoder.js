@@ -2,6 +2,7 @@
 // The decoder of one stream, whose bytes come bit by bit. Nothing here waits: workers run it, too.
 import {TksError} from './error.js';
 import {partsOf} from './frame.js';
+import {locate, readHead} from './group_calls.js';
 import {Instance, failureOf} from './instance.js';
 import {Opened} from './opened.js';
 
@@ -52,6 +53,12 @@ export class Decoder {
   /** The same, of bytes that come in the order of the stream. */
   append(bytes) {
     this.put({place: this.#length, chunk: bytes});
+  }
+
+  /** Forgets the stream for another one. The memory of the instance stays for it. */
+  forget() {
+    this.#close();
+    [this.#chunks, this.#length, this.#centre] = [[], 0, null];
   }
 
   #first(size) {
@@ -117,6 +124,7 @@ export class Decoder {
     const decoder = this;
     return this.#steps(request.bytes, function* (opened) {
       yield;
+      opened.setFrame(request.frame ?? 0);
       const info = opened.info();
       const parts = yield* partsOf(opened, info, {...request, centre: decoder.#centre});
       decoder.#centre ??= parts.object?.centre;
@@ -134,9 +142,25 @@ export class Decoder {
     return this.opened(Infinity, (opened) => opened.needed(part, window));
   }
 
-  /** The very samples, as the conformance vectors state them. */
-  samples(bytes, level) {
+  /** What readHead() and locate() give, of bytes of a sequence. */
+  head(bytes) {
+    return this.#called((instance) => readHead(instance, bytes));
+  }
+  locate(request) {
+    return this.#called((instance) => locate(instance, request));
+  }
+  #called(use) {
+    try {
+      return use(this.#instance ??= new Instance(this.module));
+    } catch (error) {
+      throw failureOf(error, EXHAUSTED);
+    }
+  }
+
+  /** The very samples of a frame, as the conformance vectors state them. */
+  samples(bytes, level, frame = 0) {
     return this.opened(bytes, (opened) => {
+      opened.setFrame(frame);
       const whole = opened.info();
       opened.setLevels(Math.min(level, whole.coarsestLevel),
         Math.min(level, whole.textureCoarsestLevel));

@@ -4,12 +4,13 @@ import {abortable} from './abort.js';
 import {askDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {Fetcher} from './fetcher.js';
-import {checkBytes, checkLevels, checkSides, trianglesOf} from './limits.js';
+import {checkBytes, checkFrame, checkLevels, checkSides, trianglesOf} from './limits.js';
 import {FIRST_BYTES, GROWTH, nextBytes} from './pace.js';
 import {PARTS} from './parts.js';
 import {cutOf, plannedView} from './view.js';
 
 const DEFAULTS = {
+  frame: 0,
   triangles: 20000,
   view: null,
   mesh: true,
@@ -53,6 +54,23 @@ export class Terrain {
     return this.#fetcher.fileBytes;
   }
 
+  isSequence = false;
+  /** Nobody knows when the frames of a stream are: a tick is taken to lie between them. */
+  clock = null;
+  firstFrame = 0;
+  get frames() {
+    return this.info.frames;
+  }
+  get times() {
+    return Array.from({length: this.frames}, (_, frame) => frame);
+  }
+  async at(time) {
+    return Math.min(Math.max(Math.floor(time), 0), this.frames - 1) || 0;
+  }
+  async group() {
+    return {firstFrame: 0, endFrame: this.frames, bytes: this.info.streamBytes};
+  }
+
   async load(bytes, {signal, view, triangles = DEFAULTS.triangles} = {}) {
     signal?.throwIfAborted();
     checkBytes(bytes);
@@ -75,11 +93,12 @@ export class Terrain {
     const asked = {...DEFAULTS, ...options};
     checkSides(asked);
     checkLevels(asked, this.info ?? {});
+    checkFrame(asked.frame, 0, this.info?.frames ?? 1);
     const triangles = trianglesOf(asked.triangles), cut = cutOf(asked.view);
     const frame = await askDecoder(
       this.#decoder, 'decode', {...asked, view: null, triangles, cut, bytes}, signal);
     if (frame.bytes >= this.#told) [this.#told, this.#fetcher.info] = [frame.bytes, frame.info];
-    return frame;
+    return {...frame, number: asked.frame, time: asked.frame};
   }
 
   /** While a frame is decoded and shown, bytes come on; the next one takes what is here by then. */
@@ -89,8 +108,7 @@ export class Terrain {
     const limit = Math.min(Math.max(bytes, headerBytes), streamBytes);
     let shown = after, beginning = null;
     if (!after) {
-      const bytesOfFirst = Math.max(this.#fetcher.bytes, FIRST_BYTES);
-      shown = await this.load(Math.min(bytesOfFirst, limit), {signal});
+      shown = await this.load(Math.min(this.#fetcher.bytes, limit), {signal});
       beginning = this.#frame(shown, {...options, ...first, signal});
       beginning.catch(() => {});
     }
@@ -131,8 +149,8 @@ export class Terrain {
   }
 
   /** Reads the header, which may be longer than the first request: the second brings a picture. */
-  async begin(signal) {
-    for (let bytes = FIRST_BYTES; ; ) {
+  async begin(signal, bytes = FIRST_BYTES) {
+    for (;;) {
       const have = await this.load(bytes, {signal});
       try {
         await this.decode({bytes, signal, mesh: false, texture: false});

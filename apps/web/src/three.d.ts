@@ -3,7 +3,7 @@ import type {
   BufferGeometry, Camera, DataTexture, Loader, Material, Mesh, Object3DEventMap,
   OrthographicCamera, PerspectiveCamera, Vector3,
 } from 'three';
-import type {Frame, OpenOptions, Raster, Terrain, TksError, View} from './index.js';
+import type {Frame, FrameOptions, OpenOptions, Raster, Terrain, TksError, View} from './index.js';
 
 export interface TerrainOptions {
   /** As of decode(): the mesh has at most so many. Default 20000. */
@@ -15,13 +15,16 @@ export interface TerrainOptions {
   /** Milliseconds in which the surface moves from one frame to the next, where update() is called
    * for each picture. Default 300; 0: it jumps. */
   glideTime?: number;
+  /** Longest side of the grid of heights that frames of a sequence are drawn with while they play.
+   * Default 512. */
+  samples?: number;
   /** Default: one that needs no lights, as a photograph holds its own. Give a MeshLambertMaterial
    * or MeshStandardMaterial for your lights. A TksTerrain draws its texture with it and disposes
    * it, so that it serves no other one; a TksLoader gives each terrain a copy. */
   material?: Material;
 }
 
-export type ObjectOptions = Omit<TerrainOptions, 'glideTime'>;
+export type ObjectOptions = Omit<TerrainOptions, 'glideTime' | 'samples'>;
 
 export interface TksTerrainEventMap extends Object3DEventMap {
   frame: {frame: Frame};
@@ -32,6 +35,8 @@ export interface TksTerrainEventMap extends Object3DEventMap {
 declare class RefiningMesh extends Mesh<BufferGeometry, Material, TksTerrainEventMap> {
   readonly terrain: Terrain;
   readonly frame: Frame | null;
+  /** Of the frame that is shown, or is about to be: update() refines this one. */
+  number: number;
   triangles: number;
   bytes: number;
   pixelError: number;
@@ -59,6 +64,15 @@ declare class RefiningMesh extends Mesh<BufferGeometry, Material, TksTerrainEven
 export class TksTerrain extends RefiningMesh {
   constructor(terrain: Terrain, options?: TerrainOptions);
   glideTime: number;
+  samples: number;
+  /** Fetches and plays a frame of a sequence or of a stream of several: the heights of a grid, and
+   * the texels, change in the buffers of the frame before. Resolves when it is drawn, or another
+   * one was asked for. Where no other follows within 300 ms, update() refines it. */
+  setFrame(number: number, options?: Pick<FrameOptions, 'signal'>): Promise<void>;
+  /** What setFrame() does with a frame, which `terrain.decode({...playing, frame})` gives: so one
+   * can be made while another is shown. */
+  play(frame: Frame): void;
+  readonly playing: FrameOptions;
   /** Moves the surface on its way to the frame; update() does so as well. False: it is there. */
   glide(): boolean;
   /** Height of what is drawn at a place of this object: metres, as its vertices have them before

@@ -6,6 +6,7 @@ import {
 } from 'three';
 
 import {FIRST_FRAME, GROWTH} from './pace.js';
+import {Turns} from './three_turns.js';
 import {Upload, isSliced} from './three_upload.js';
 import {isDrawable} from './view.js';
 
@@ -20,6 +21,8 @@ export const GOOD_PSNR = 40;
 /** Milliseconds between calls of update() by which a page is taken to draw all the time, and to
  * draw on, however slowly. */
 const STEADY = 100, SLOW = 1000;
+/** So long behind a frame that was played update() takes it that no other follows. */
+const PLAYED = 300;
 
 /**
  * Those that extend it have draw(frame, {glide}), which shows the parts of a frame, and
@@ -36,6 +39,8 @@ export class RefiningMesh extends Mesh {
   #texels = Infinity;
   #map = null;  // of its own
   #upload = null;  // of the next one
+  #turns = new Turns();
+  #playedAt = -Infinity;
   #renderer = null;  // that drew last
   #served = '';  // the view for which all is here
   #updated = [-Infinity, -Infinity];  // when update() was called last, and before that
@@ -48,6 +53,7 @@ export class RefiningMesh extends Mesh {
     this.bytes = bytes;
     this.pixelError = pixelError;
     this.frame = null;
+    this.number = terrain.firstFrame;
     if (terrain.info.hasTexture && !terrain.info.textureOpaque) this.material.alphaTest = 0.5;
   }
   /** Whether bytes are fetched for views. */
@@ -64,14 +70,25 @@ export class RefiningMesh extends Mesh {
   async begin() {
     const triangles = Math.min(FIRST_FRAME.triangles, this.triangles);
     this.show(await this.terrain.decode(
-      {...FIRST_FRAME, bytes: this.#firstBytes(), triangles, normals: true}));
+      {...FIRST_FRAME, frame: this.number, bytes: this.#firstBytes(), triangles, normals: true}));
   }
 
   /** Draws a frame of `terrain`. Parts that it lacks stay as they are. */
   show(frame, options = {}) {
     this.draw(frame, options);
+    this.tell(frame);
+  }
+  tell(frame) {
+    this.number = frame.number;
     this.frame = {...this.frame, ...frame};
     this.dispatchEvent({type: 'frame', frame});
+  }
+  /** The same of a frame that was played, which has no mesh. update() refines it, without fewer
+   * bytes, where no other one follows soon. */
+  tellPlayed(frame) {
+    this.#playedAt = performance.now();
+    [this.#wanted, this.#texels, this.#served] = [frame.bytes, 0, ''];
+    this.tell({...frame, mesh: undefined});
   }
   setGeometry(geometry) {
     this.geometry.dispose();
@@ -84,7 +101,7 @@ export class RefiningMesh extends Mesh {
   /** Shows a texture, and calls `shown`: at once, or once update() has brought the slices of a
    * large one. */
   take(texture, shown = () => {}) {
-    this.#upload?.texture.dispose();
+    this.#discard(this.#upload?.texture);
     this.#upload = null;
     const show = () => {
       this.#upload = null;
@@ -94,6 +111,14 @@ export class RefiningMesh extends Mesh {
     if (!isSliced(texture, this.#renderer) || !this.#isDrawn(SLOW)) return show();
     this.#upload = new Upload(texture, show);
     this.#awaitUpdates(this.#upload);
+  }
+  /** Shows texels of a frame that is played, in a texture that is here already. They are left out
+   * while slices of one before are still on their way. */
+  takeTurn(raster) {
+    if (!this.#upload) this.take(this.#turns.next(raster, this.#map));
+  }
+  #discard(texture) {
+    if (texture && !this.#turns.has(texture)) texture.dispose();
   }
   /** Of a page that does not call update() any more the rest comes at once. */
   #awaitUpdates(upload) {
@@ -106,7 +131,7 @@ export class RefiningMesh extends Mesh {
   }
 
   setMap(texture) {
-    this.#map?.dispose();
+    this.#discard(this.#map);
     this.#map = texture;
     if (!this.material.map) this.material.needsUpdate = true;
     this.material.map = texture;
@@ -161,6 +186,7 @@ export class RefiningMesh extends Mesh {
     this.#updated = [performance.now(), this.#updated[0]];
     this.#upload?.step(this.#renderer);
     if (this.#reading || this.#stop.signal.aborted) return;
+    if (performance.now() - this.#playedAt < PLAYED) return;
     const {info, fileBytes} = this.terrain;
     const limit = Math.min(this.bytes, info.streamBytes, fileBytes);
     const seen = this.viewOf(camera, viewportHeight);
@@ -182,13 +208,13 @@ export class RefiningMesh extends Mesh {
   /** Whether no byte came: where only fewer came than were asked for, others still help a view. */
   async #read(bytes, texels, view) {
     try {
-      const {triangles} = this, {signal} = this.#stop, here = this.terrain.loaded.bytes;
-      const have = await this.terrain.load(bytes, {view, triangles, signal});
+      const {triangles, number} = this, {signal} = this.#stop, here = this.terrain.loaded.bytes;
+      const have = await this.terrain.load(bytes, {frame: number, view, triangles, signal});
       if (have !== this.#wanted || texels !== this.#texels || !this.frame) {
         const mesh = !this.hasFinalMesh;
-        const frame =
-          await this.terrain.decode({bytes: have, texels, triangles, mesh, normals: true, signal});
-        if (signal.aborted) return false;
+        const frame = await this.terrain.decode(
+          {frame: number, bytes: have, texels, triangles, mesh, normals: true, signal});
+        if (signal.aborted || number !== this.number) return false;
         this.show(frame, {glide: this.#isDrawn(STEADY)});
       }
       this.#wanted = have === bytes || view ? have : bytes;
@@ -214,6 +240,7 @@ export class RefiningMesh extends Mesh {
     this.#map?.dispose();
     this.#upload?.texture.dispose();
     this.#upload = null;
+    this.#turns.dispose();
     this.material.dispose();
     this.terrain.dispose();
   }

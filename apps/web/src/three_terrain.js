@@ -9,19 +9,25 @@ import {surfaceUnder} from './glide.js';
 import {groundScale} from './ground.js';
 import {HeightLookup} from './height_lookup.js';
 import {geometryOf, meshOf, textureOf} from './three_frame.js';
+import {Grid} from './three_grid.js';
 import {GOOD_PSNR, RefiningMesh} from './three_refining.js';
 
 /** Triangles of a mesh that has time to glide: to begin takes some 20 ms for as many. */
 const MOST_GLIDING = 1e5;
 
+/** Of the texture of frames that play: the longest side. More would not be there in time. */
+const PLAYED_TEXELS = 1024;
+
 export class TksTerrain extends RefiningMesh {
   #lookup = null;  // of the geometry that is drawn, once it is asked for
+  #grid = null;  // of frames that were played
   #glidesSince = -Infinity;
 
   /** `terrain`: of open(). It is disposed with this object, as its material is. */
-  constructor(terrain, {glideTime = 300, ...options} = {}) {
+  constructor(terrain, {glideTime = 300, samples = 512, ...options} = {}) {
     super(terrain, options);
     this.glideTime = glideTime;
+    this.samples = samples;
   }
 
   draw(frame, {glide = false}) {
@@ -35,6 +41,37 @@ export class TksTerrain extends RefiningMesh {
     }
     if (frame.texture) this.take(textureOf(frame.texture));
   }
+  /** Draws a frame with a surface, normals and no mesh, or a texture alone, as one of several that
+   * follow each other: in the buffers of the one before. */
+  play(frame) {
+    if (frame.surface) this.#moveGrid(frame);
+    else if (!this.frame) this.setGeometry(geometryOf(frame));
+    if (frame.texture) this.takeTurn(frame.texture);
+    this.tellPlayed(frame);
+  }
+  #moveGrid(frame) {
+    if (this.#grid?.fits(frame)) this.#grid.put(frame.surface);
+    else {
+      this.#grid?.geometry.dispose();
+      this.#grid = new Grid(frame);
+    }
+    if (this.geometry === this.#grid.geometry) return;
+    this.setGeometry(this.#grid.geometry);
+    this.#lookup = null;
+  }
+  /** What play() takes of a frame, as options of decode(). */
+  get playing() {
+    return {mesh: false, surface: true, normals: true, samples: this.samples,
+      texels: PLAYED_TEXELS};
+  }
+  /** Fetches and plays a frame, by its number; resolves when it is drawn, or another is wanted. */
+  async setFrame(number, {signal} = {}) {
+    this.number = number;
+    const {bytes, playing} = this;
+    const frame = await this.terrain.decode({...playing, frame: number, bytes, signal});
+    if (this.number === number) this.play(frame);
+  }
+
   #glideTo(geometry) {
     if (Math.max(this.geometry.index.count, geometry.index.count) > 3 * MOST_GLIDING) return;
     const from = meshOf(this.geometry, this.#left()), to = meshOf(geometry, 0);
@@ -63,6 +100,7 @@ export class TksTerrain extends RefiningMesh {
   /** Metres above (x, z), in the coordinates of this object; NaN where nothing is drawn. */
   heightAt(x, z) {
     if (!this.geometry.index) return NaN;
+    if (this.geometry === this.#grid?.geometry) return this.#grid.heightAt(x, z);
     this.#lookup ??=
       new HeightLookup(this.geometry.getAttribute('position').array, this.geometry.index.array);
     return this.#lookup.at(x, z);

@@ -10,12 +10,19 @@ import {WholeAnswer} from './whole_answer.js';
 const BROKE = ': the connection broke.';
 /** Of an answer that ended before it told what it is: codes of Node's errors. */
 const BROKEN = ['UND_ERR_SOCKET', 'ECONNRESET', 'EPIPE'];
-const MAGIC = [0x54, 0x4b, 0x53, 0x1a];
+const MAGICS = ['TKS\x1a', 'TKG\x1a'];
 
-/** Refuses what is no stream, as far as its first bytes tell. `what` says where it is from. */
+const textOf = (bytes) => String.fromCharCode(...bytes);
+
+/** Whether a file that begins so is a sequence of groups of frames. */
+export const isSequence = (bytes) => textOf(bytes.subarray(0, 4)) === MAGICS[1];
+
+/** Refuses what is neither a stream nor a sequence of them, as far as its first bytes tell. `what`
+ * says where it is from. */
 export function checkMagic(bytes, what) {
-  if (MAGIC.every((byte, i) => i >= bytes.length || bytes[i] === byte)) return;
-  const text = String.fromCharCode(...bytes.subarray(0, 16)).replace(/[^ -~]/g, '.');
+  const first = textOf(bytes.subarray(0, 4));
+  if (MAGICS.some((magic) => magic.startsWith(first))) return;
+  const text = textOf(bytes.subarray(0, 16)).replace(/[^ -~]/g, '.');
   throw new TksError('corrupt', `${what} is not a Tetrakis stream: it begins with "${text}".`);
 }
 

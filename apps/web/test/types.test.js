@@ -31,6 +31,9 @@ const GIVEN = {
   'MapLibre GL JS': `import * as maplibregl from 'maplibre-gl'; declare const map: maplibregl.Map;`,
   'Cesium': `import type {Scene} from '@cesium/engine'; declare const scene: Scene;`,
   'Any renderer': 'declare const signal: AbortSignal;',
+  'Sequences': `import type {Scene} from 'three'; import type {Frame} from 'tetrakis';
+    declare const scene: Scene, socket: AsyncIterable<Uint8Array>;
+    declare function show(frame: Frame): void;`,
   'Encoding': `declare const data: Int16Array, width: number, height: number, nodata: number;
     declare const geotransform: number[], imageData: ImageData, bar: HTMLProgressElement;
     declare const positions: Float32Array, triangles: number[], texcoords: Float32Array;
@@ -57,7 +60,7 @@ test('the examples of README are accepted', async () => {
         await writeFile(web + files.at(-1), `${GIVEN[heading]}\n${besides}\n${example}`);
       }
     }
-    assert.equal(files.length, 10);
+    assert.equal(files.length, 13);
     assert.deepEqual(complaints(files, RESOLUTIONS[0]), []);
   } finally {
     await rm(folder, {recursive: true});

@@ -4,7 +4,8 @@ import type {Scene as Globe} from '@cesium/engine';
 import {load, loadInBatches} from '@loaders.gl/core';
 import {Map as WebMap, addProtocol} from 'maplibre-gl';
 import {
-  FIRST_FRAME, TksError, goesRound, groundAxes, groundScale, open, type Frame,
+  FIRST_FRAME, TksError, goesRound, groundAxes, groundScale, open, openLive, type Frame,
+  type Sequence,
 } from 'tetrakis';
 import {TksTerrainProvider} from 'tetrakis/cesium';
 import {TksLoader as DeckLoader, imageOf, meshOf} from 'tetrakis/deck';
@@ -84,6 +85,26 @@ export async function round(): Promise<Float64Array | undefined> {
   const earth = await open('earth.tks');
   if (!goesRound(earth.info)) return undefined;
   return (await earth.decode({globe: {exaggeration: 15}, normals: true})).globe?.positions;
+}
+
+export async function played(terrain: TksTerrain): Promise<number> {
+  const {clock, firstFrame, frames, times} = terrain.terrain;
+  const ahead = await terrain.terrain.decode({...terrain.playing, frame: firstFrame});
+  terrain.play(ahead);
+  await terrain.setFrame(await terrain.terrain.at(12.5));
+  console.log(times[frames - 1], clock?.epoch, ahead.number, ahead.time);
+  console.log(ahead.surface?.normals?.length, terrain.number);
+  return (await terrain.terrain.group(firstFrame)).endFrame;
+}
+
+export async function live(body: AsyncIterable<Uint8Array>): Promise<Sequence> {
+  const sequence = await openLive({memory: 2 ** 28});
+  for await (const bytes of body) {
+    const frames = await sequence.append(bytes);
+    if (frames > 0) await sequence.decode({frame: frames - 1, surface: true, mesh: false});
+    sequence.forget(frames - 1);
+  }
+  return sequence;
 }
 
 export async function scoped(): Promise<number> {

@@ -1,17 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page's address keeps where the camera is, so that a copy of it shows the same: behind #, as
-// eye, target (metres around the middle of the terrain) and height (the slider's value).
+// The page's address keeps where the camera is and which frame is shown, so that a copy of it shows
+// the same: behind #, as eye, target (metres around the middle of the terrain), height (the
+// slider's value) and frame (its number).
 
 const NAMES = ['eye', 'target'];
 
-/** Three numbers that the address gives under a name, behind # or else behind ?; null: none. */
-export function place(name) {
-  for (const part of [location.hash, location.search]) {
-    const given = new URLSearchParams(part.slice(1)).get(name);
-    const numbers = (given ?? '').split(',').map(Number);
-    if (given && numbers.length === 3 && numbers.every(isFinite)) return numbers;
-  }
-  return null;
+/** What the address gives under a name, behind # or else behind ?; null: nothing. */
+function given(name) {
+  const parts = [location.hash, location.search];
+  return parts.map((part) => new URLSearchParams(part.slice(1)).get(name)).find(Boolean) ?? null;
+}
+
+/** Three numbers of the address; null: none. */
+function place(name) {
+  const numbers = (given(name) ?? '').split(',').map(Number);
+  return numbers.length === 3 && numbers.every(isFinite) ? numbers : null;
+}
+
+/** The frame of a terrain that the address gives, else its first one. */
+export function givenFrame({firstFrame, frames}) {
+  const number = Number(given('frame') ?? NaN);
+  return Number.isInteger(number) && number >= firstFrame && number < frames ? number : firstFrame;
 }
 
 /** The value of the slider of heights that the address gives. */
@@ -20,15 +29,23 @@ export function givenHeight() {
   return isFinite(value) ? value : 0;
 }
 
+/** Looks from where the address says; false: it does not. */
+export function followLink(picture) {
+  const [eye, target] = NAMES.map(place);
+  if (!eye || !target) return false;
+  picture.look(eye, target);
+  return true;
+}
+
 /** Six significant digits are less than a pixel. */
 const written = ({x, y, z}) => [x, y, z].map((v) => Number(v.toPrecision(6))).join();
 
-/** Keeps a camera in the address, without an entry in the history; `null`: none. */
-export function keep(camera) {
-  const {pathname, search} = location;
-  const hash = camera
-    ? `#${NAMES.map((name) => `${name}=${written(camera[name])}`).join('&')}` +
-      (camera.height ? `&height=${camera.height}` : '')
-    : '';
-  history.replaceState(null, '', pathname + search + hash);
+/** Keeps in the address, without an entry in the history, where somebody has moved the camera of a
+ * picture, `height` and the number of a frame; null: none. */
+export function keepLook({isMoved, camera, orbit}, height, frame) {
+  const {pathname, search} = location, look = {eye: camera.position, target: orbit.target};
+  const parts = isMoved ? NAMES.map((name) => `${name}=${written(look[name])}`) : [];
+  if (isMoved && height) parts.push(`height=${height}`);
+  if (frame !== null) parts.push(`frame=${frame}`);
+  history.replaceState(null, '', pathname + search + (parts.length ? `#${parts.join('&')}` : ''));
 }

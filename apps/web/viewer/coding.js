@@ -14,7 +14,7 @@ const beginning = async (file, length) => new TextDecoder().decode(
 
 /** Whether there is nothing to code. */
 export async function isStream(file) {
-  return /\.tks$/i.test(file.name) || (await beginning(file, 3)) === 'TKS';
+  return /\.tks$/i.test(file.name) || /^TK[SG]/.test(await beginning(file, 3));
 }
 
 const isMesh = async (file) =>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The original right of an edge, and the stream left of it: where the page has coded the stream.
 import {originalOf} from './original.js';
-import {$} from './page.js';
+import {originalInLink} from './original_link.js';
+import {$, tell} from './page.js';
 
 export class Comparison {
   #picture;
@@ -20,6 +21,16 @@ export class Comparison {
     $('compare').hidden = source === null;
     $('compared').checked = false;
     this.#show();
+  }
+  /** Fetches what the stream of the page's address was made of, if the address says so; `isOpen()`:
+   * whether that is still shown then. */
+  async ofLink(info, isOpen) {
+    try {
+      const original = await originalInLink(info);
+      if (original && isOpen()) this.of(original, info);
+    } catch (error) {
+      if (isOpen()) tell(error.message);
+    }
   }
   #show() {
     const isShown = this.#source !== null && $('compared').checked;

@@ -18,12 +18,14 @@ export function globeFor(info, height = givenHeight()) {
   return goesRound(info) && !isFlat() ? {exaggeration: exaggerationOf(height, info)} : null;
 }
 
-/** Keeps in the address what is wanted, without the camera, which is that of the other one. */
+/** Keeps in the address what is wanted, and the frame, without the camera, which is that of the
+ * other one. */
 export function keepFlat(flat) {
   const address = new URL(location.href);
+  const frame = new URLSearchParams(address.hash.slice(1)).get('frame');
   if (flat) address.searchParams.set('view', 'flat');
   else address.searchParams.delete('view');
   for (const name of ['eye', 'target']) address.searchParams.delete(name);
-  address.hash = '';
+  address.hash = frame ? `frame=${frame}` : '';
   history.replaceState(null, '', address);
 }

@@ -2,7 +2,7 @@
 // The switches of the panel: how the terrain is drawn, and how the camera moves.
 import {textureOf} from '../src/three.js';
 import {$, explainMoves} from './page.js';
-import {tint} from './tint.js';
+import {tinted} from './tint.js';
 
 /** A globe on a cube has a material for each patch. */
 const materialsOf = (object) => [object.material].flat();
@@ -16,7 +16,7 @@ function setTexture(object) {
   object.setMap(null);
   const {texture, surface} = object.frame ?? {};
   if ($('textured').checked && (texture || surface))
-    object.setMap(textureOf(texture ?? tint(surface)));
+    object.setMap(textureOf(texture ?? tinted(object.terrain, surface)));
   for (const material of materialsOf(object)) material.needsUpdate = true;
 }
 

@@ -13,9 +13,12 @@ export function freeArea() {
   const margin = 24, name = document.querySelector('header').getBoundingClientRect();
   const panel = $('panel').getBoundingClientRect();
   const isBelow = panel.width >= innerWidth, isBeside = panel.width > 0 && !isBelow;
+  const bar = $('timeline').getBoundingClientRect(), bottom = isBelow ? panel.top : innerHeight;
+  const isUnder = bar.width > 0 && bar.top > innerHeight / 2;
   return {
     left: margin, right: (isBeside ? panel.left : innerWidth) - margin,
-    top: name.bottom + margin, bottom: (isBelow ? panel.top : innerHeight) - margin,
+    top: (isBelow && bar.width > 0 ? bar.bottom : name.bottom) + margin,
+    bottom: Math.min(bottom, isUnder ? bar.top : bottom) - margin,
   };
 }
 

@@ -43,11 +43,13 @@ function readFetched({requests, bytes}) {
 }
 
 /** `loaded`: of its terrain. */
-export function readOut({info, bytes, mesh, globe, object}, loaded) {
+export function readOut({info, bytes, mesh, globe, object, surface: grid}, loaded) {
   $('bytes-here').textContent = formatBytes(bytes);
   $('bytes-of').textContent = `of ${formatBytes(info.streamBytes)}`;
   const surface = mesh ?? globe ?? object;
-  $('triangles-here').textContent = formatCount(surface ? surface.triangles.length / 3 : 2);
+  const ofGrid = grid ? 2 * (grid.width - 1) * (grid.height - 1) : 2;
+  $('triangles-here').textContent =
+    formatCount(surface ? surface.triangles.length / 3 : ofGrid);
   readQuality(info, loaded.ranges.length > 1);
   readShares(info);
   readFetched(loaded);

@@ -17,6 +17,7 @@ export class Refiner {
   #first = null;  // a promise of the first frame, where that is being made already
   #wanted = {};
   #isPumping = false;
+  #hold = new AbortController();  // of what is being made; it is aborted while frames play
   /** Bytes, triangles and texels of the frame that is shown, of a globe its exaggeration, and
    * whether it has all texels that are wanted. */
   shown = {};
@@ -32,10 +33,23 @@ export class Refiner {
     this.shown = {};
     [this.#terrain, this.#object, this.#first] = [terrain, object, first];
   }
-  /** {bytes, triangles, height}: as the sliders say. */
+  /** {bytes, triangles, height, frame}: as the sliders say. */
   want(wanted) {
     this.#wanted = {...wanted, texels: this.#texels};
     this.pump();
+  }
+  /** Makes nothing until release(): frames play. */
+  hold() {
+    this.#hold.abort();
+    this.shown.isWhole = false;
+    document.body.dataset.state = 'playing';
+  }
+  release() {
+    if (this.#hold.signal.aborted) this.#hold = new AbortController();
+  }
+  /** A frame that somebody else has drawn, roughly. */
+  took({number, bytes}) {
+    this.shown = {...this.#wanted, frame: number, bytes, isWhole: false};
   }
   /** As many a side as the card takes, of an object as it is seen. */
   get #texels() {
@@ -56,31 +70,42 @@ export class Refiner {
     const {frame, isGlobe, isObject} = this.#object;
     return this.#terrain.info.hasIndex && frame !== null && !isGlobe && !isObject;
   }
+  get #isSameFrame() {
+    return this.#wanted.frame === this.shown.frame;
+  }
+  get #lacksBytes() {
+    return this.#isSameFrame && this.#wanted.bytes > this.shown.bytes;
+  }
   /** Whether it is what is wanted. */
   get isShown() {
     const {shown} = this, wanted = this.#wanted;
     return shown.isWhole &&
-      ['bytes', 'triangles', 'height', 'texels'].every((name) => shown[name] === wanted[name]);
+      ['bytes', 'triangles', 'height', 'texels', 'frame']
+        .every((name) => shown[name] === wanted[name]);
   }
 
   async pump() {
-    if (this.#isPumping || !this.#terrain) return;
+    if (this.#isPumping || !this.#terrain || this.#hold.signal.aborted) return;
     this.#isPumping = true;
-    const current = this.#terrain, signal = this.#signal();
+    const current = this.#terrain, held = this.#hold, signal = this.#ended();
     document.body.dataset.state = 'refining';
     try {
       while (current === this.#terrain && !this.isShown) {
         if (!this.shown.bytes) await this.#drawFirst(current);
-        else if (this.#wanted.bytes > this.shown.bytes) await this.#refine(current);
+        else if (this.#lacksBytes) await this.#refine(current);
         else await this.#redraw(current);
       }
-      document.body.dataset.state = 'done';
+      if (!signal.aborted) document.body.dataset.state = 'done';
     } catch (error) {
       if (current === this.#terrain && !signal.aborted) this.#fail(error);
     } finally {
       this.#isPumping = false;
-      if (current !== this.#terrain) this.pump();
+      if (current !== this.#terrain || held !== this.#hold) this.pump();
     }
+  }
+  /** Aborts once something else is opened, or frames play. */
+  #ended() {
+    return AbortSignal.any([this.#signal(), this.#hold.signal]);
   }
 
   /** What frames are made of, but for bytes. */
@@ -89,12 +114,12 @@ export class Refiner {
     return {
       triangles, texels, mesh: !this.#object.hasFinalMesh, normals: true,
       surface: hasTint(info), samples: 1024,
-      signal: this.#signal(), globe: globeFor(info, Number(height)),
+      signal: this.#ended(), globe: globeFor(info, Number(height)), frame: this.#wanted.frame,
     };
   }
   /** Shows what opening brought, roughly; other bytes come meanwhile. */
   async #drawFirst(current) {
-    const {info} = current, {texels} = FIRST_FRAME, wanted = this.#wanted;
+    const {info} = current, {texels} = FIRST_FRAME, wanted = this.#wanted, signal = this.#ended();
     const bytes = Math.min(wanted.bytes, current.loaded.bytes);
     const triangles = Math.min(wanted.triangles, FIRST_FRAME.triangles);
     const options = this.#options(triangles);
@@ -102,7 +127,7 @@ export class Refiner {
     const frame = await (this.#first ?? current.decode({...options, texels, bytes}));
     // The camera is placed for its size, and for what is seen bytes come.
     await this.#picture.sized();
-    if (current !== this.#terrain) return;
+    if (current !== this.#terrain || signal.aborted) return;
     this.#first = null;
     this.#show(frame);
     const isWhole = Math.max(info.textureWidth, info.textureHeight) <= texels;
@@ -114,7 +139,7 @@ export class Refiner {
     const view = this.#isPlanned ? this.#object.viewOf(camera, pixels) : null;
     const options = this.#options(goal.triangles), after = this.shown.bytes;
     for await (const frame of current.refine({...options, bytes: goal.bytes, after, view})) {
-      if (current !== this.#terrain) return;
+      if (current !== this.#terrain || options.signal.aborted) return;
       this.#show(frame);
       this.shown = {...goal, bytes: frame.bytes, isWhole: true};
       if (goal !== this.#wanted) return;
@@ -131,11 +156,13 @@ export class Refiner {
   async #redraw(current) {
     const wanted = this.#wanted, {bytes, triangles, texels} = wanted;
     const {shown} = this;
-    const kept = bytes === shown.bytes && shown.isWhole && texels === shown.texels
+    const isSame = this.#isSameFrame;
+    const kept = isSame && bytes === shown.bytes && shown.isWhole && texels === shown.texels
       ? {texture: false, surface: false} : {};
-    const here = Math.min(bytes, current.loaded.bytes);
-    const frame = await current.decode({...this.#options(triangles), bytes: here, ...kept});
-    if (current !== this.#terrain) return;
+    const here = isSame ? Math.min(bytes, current.loaded.bytes) : bytes;
+    const options = {...this.#options(triangles), bytes: here, ...kept};
+    const frame = await current.decode(options);
+    if (current !== this.#terrain || options.signal.aborted) return;
     this.#show(frame);
     this.shown = {...wanted, isWhole: true};
   }

@@ -16,10 +16,11 @@ async function pngOf({width, height, data}) {
 
 /** The mesh as it is drawn, in metres, an object in its unit, without the exaggeration of the
  * page. */
-async function meshFile({geometry: {attributes, index}, frame}) {
+async function meshFile({geometry: {attributes, index, drawRange}, frame}) {
   const {array: positions, count} = attributes.position;
+  const drawn = Math.min(index.count, drawRange.count);
   const mesh = {
-    positions, normals: attributes.normal.array, triangles: index.array,
+    positions, normals: attributes.normal.array, triangles: index.array.subarray(0, drawn),
     places: attributes.uv?.array ?? new Float32Array(2 * count), centre: frame.object?.centre,
   };
   if (!frame.texture) return new Blob([glbOf(mesh)], {type: 'model/gltf-binary'});
@@ -32,23 +33,24 @@ async function meshFile({geometry: {attributes, index}, frame}) {
 }
 
 /** All heights that the bytes tell. */
-async function heightsFile(terrain, bytes) {
+async function heightsFile({terrain, bytes, frame}) {
   const {surface, info} = await terrain.decode(
-    {bytes, mesh: false, texture: false, surface: true, samples: MOST_SAMPLES});
+    {frame, bytes, mesh: false, texture: false, surface: true, samples: MOST_SAMPLES});
   // That of a forest is the place of the grid that it was made of.
   const hasGeotransform = info.hasGeotransform && !isForest(info.domain);
   const placed = {...info, hasGeotransform, geotransform: surface.geotransform};
   return new Blob([geoTiffOf(surface, placed)], {type: 'image/tiff'});
 }
 
-async function textureFile(terrain, bytes) {
-  return pngOf((await terrain.decode({bytes, mesh: false, texels: MOST_SAMPLES})).texture);
+async function textureFile({terrain, bytes, frame}) {
+  return pngOf((await terrain.decode({frame, bytes, mesh: false, texels: MOST_SAMPLES})).texture);
 }
 
-/** The file of a kind, 'glb', 'tif' or 'png', of a terrain whose `bytes` first bytes are shown. */
-function fileOf(kind, {object, terrain, bytes}) {
+/** The file of a kind, 'glb', 'tif' or 'png', of the frame of a terrain whose `bytes` first bytes
+ * are shown. */
+function fileOf(kind, {object, ...shown}) {
   if (kind === 'glb') return meshFile(object);
-  return kind === 'tif' ? heightsFile(terrain, bytes) : textureFile(terrain, bytes);
+  return kind === 'tif' ? heightsFile(shown) : textureFile(shown);
 }
 
 /** Has the browser keep a file. */
@@ -60,7 +62,7 @@ function download(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
-/** Buttons save what `shown()` gives: {object, terrain, bytes, name}. */
+/** Buttons save what `shown()` gives: {object, terrain, bytes, frame, name}. */
 export function listenToSaves(shown) {
   const save = async ({currentTarget: {dataset: {kind}}}) => {
     const {name, ...parts} = shown();

@@ -2,6 +2,7 @@
 // The first script of the page: asks for the stream (?tks=URL) and decodes a first frame of it
 // while what draws it is still on its way.
 import {FIRST_FRAME, open} from '../src/index.js';
+import {givenFrame} from './camera_link.js';
 import {decoder} from './decoder.js';
 import {globeFor} from './globe_view.js';
 import {hasTint} from './tint.js';
@@ -12,7 +13,8 @@ if (address) {
   const stop = new AbortController();
   const {signal} = stop, terrain = open(address, {...decoder, signal});
   const first = terrain.then((opened) => opened.decode({
-    ...FIRST_FRAME, bytes: opened.loaded.bytes, samples: 1024, normals: true,
+    ...FIRST_FRAME, frame: givenFrame(opened), bytes: opened.loaded.bytes, samples: 1024,
+    normals: true,
     surface: hasTint(opened.info), globe: globeFor(opened.info), signal,
   }));
   asked = {address, stop, terrain, first};

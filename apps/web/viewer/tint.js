@@ -18,20 +18,44 @@ function colourAt(share) {
 /** Heights of objects are told by their shape. */
 export const hasTint = ({hasTexture, isObject}) => !hasTexture && !isObject;
 
-export function tint({width, height, data}) {
-  let least = Infinity, most = -Infinity;
-  for (const value of data) {
-    if (value < least) least = value;
-    if (value > most) most = value;
+/** The colours of RAMP in 256 steps, each as four bytes of RGBA. */
+function rampTable() {
+  const table = new Uint8Array(4 * 256);
+  for (let i = 0; i < 256; ++i) table.set([...colourAt(i / 255), 255], 4 * i);
+  return new Uint32Array(table.buffer);
+}
+const TABLE = rampTable();
+
+/** What heights the colours reach from and to. It grows with what it colours, so that the frames of
+ * a sequence have the same ones. */
+class Range {
+  least = Infinity;
+  most = -Infinity;
+  take(heights) {
+    let {least, most} = this;
+    for (const value of heights) {
+      if (value < least) least = value;
+      if (value > most) most = value;
+    }
+    [this.least, this.most] = [least, most];
   }
-  const table = new Uint8Array(3 * 256);
-  for (let i = 0; i < 256; ++i) table.set(colourAt(i / 255), 3 * i);
-  const rgba = new Uint8ClampedArray(4 * width * height);
-  const scale = most > least ? 255 / (most - least) : 0;
-  data.forEach((value, i) => {
-    const entry = 3 * Math.round((value - least) * scale || 0);
-    rgba.set(table.subarray(entry, entry + 3), 4 * i);
-    rgba[4 * i + 3] = 255;
-  });
-  return {width, height, data: rgba};
+}
+
+/** RGBA of a grid of heights. */
+export function tint({width, height, data}, range = new Range()) {
+  range.take(data);
+  const {least, most} = range, scale = most > least ? 255 / (most - least) : 0;
+  const rgba = new Uint32Array(width * height);
+  for (let i = 0; i < rgba.length; ++i) {
+    rgba[i] = TABLE[Math.round((data[i] - least) * scale) || 0];
+  }
+  return {width, height, data: new Uint8ClampedArray(rgba.buffer)};
+}
+
+const ranges = new WeakMap();  // of terrains with several frames
+
+/** The same of a surface of a terrain, whose frames have the same colours. */
+export function tinted(terrain, surface) {
+  if (terrain.frames > 1 && !ranges.has(terrain)) ranges.set(terrain, new Range());
+  return tint(surface, ranges.get(terrain));
 }

@@ -6,7 +6,7 @@ import {goesRound, open} from '../src/index.js';
 import {TksTerrain, textureOf} from '../src/three.js';
 import {nameOf} from './address.js';
 import {drawBearings} from './bearings.js';
-import {givenHeight, keep, place} from './camera_link.js';
+import {followLink, givenHeight, keepLook} from './camera_link.js';
 import {encodedFile, inputOf, isStream} from './coding.js';
 import {Comparison} from './comparison.js';
 import {decoder} from './decoder.js';
@@ -17,8 +17,8 @@ import {globeDescriber} from './globe_pointer.js';
 import {exaggerationOf, globeFor, keepFlat} from './globe_view.js';
 import {listenToLooks, setWireframe} from './looks.js';
 import {ViewedObject, hideControls, isInMetres, objectDescriber} from './object_view.js';
-import {originalInLink} from './original_link.js';
 import {$, entitle, explainMoves, freeArea, isSmallScreen, tell} from './page.js';
+import {decodePlayed, drawPlayed} from './played.js';
 import {describer, listenToPointer} from './pointer.js';
 import {emptiness, readOut, sizeOf} from './read_out.js';
 import {Refiner} from './refiner.js';
@@ -26,7 +26,8 @@ import {listenToSaves, offer} from './saving.js';
 import {Picture} from './scene.js';
 import {readSliders, setSliders} from './sliders.js';
 import {listenToSun} from './sun.js';
-import {tint} from './tint.js';
+import {Timeline} from './timeline.js';
+import {tinted} from './tint.js';
 import {say} from './values.js';
 import {Visits} from './visits.js';
 
@@ -37,6 +38,10 @@ const comparison = new Comparison(picture);
 const refiner = new Refiner(picture, {show, fail, signal: () => opening.signal});
 const visits = new Visits(picture, () => (object?.frame ? {object, info: terrain.info} : null));
 const map = new FetchMap($('fetched'), $('ground'));
+const timeline = new Timeline({
+  decode: (asked) => decodePlayed({terrain, object}, asked),
+  show: showPlayed, fail, onplay: () => refiner.hold(), onrest: restFrame,
+});
 
 let terrain = null, object = null;
 let opening = new AbortController();
@@ -53,24 +58,42 @@ const describerOf = ({isGlobe, isObject}) =>
   (isGlobe ? globeDescriber : isObject ? objectDescriber : describer);
 
 function show(frame) {
-  const first = object.frame === null;
+  const first = object.frame === null, {surface} = frame;
   object.show(frame, {glide: !STILL.matches});
-  if (frame.surface && $('textured').checked) object.setMap(textureOf(tint(frame.surface)));
+  if (surface && $('textured').checked) object.setMap(textureOf(tinted(terrain, surface)));
   if (object.isGlobe) picture.globe.keepAbove(object.radius);
   if (first) {
+    timeline.reveal();
     exaggerate();
     picture.home();
     $('bearings').hidden = false;
-    if (!followLink()) visits.follow();
+    if (!followLink(picture)) visits.follow();
     if (object.isObject) setWanted();  // the texels that are seen
   }
   const empty = emptiness(frame);
   if (empty) tell(`${empty}: there is nothing to draw.`, true);
+  drawShown(frame);
+}
+/** What the page says of the frame that is shown, and its picture. */
+function drawShown(frame) {
   readOut(object.frame, terrain.loaded);
   describe = describerOf(object)(frame.info, object);
   map.draw();
-  document.body.dataset.bytes = frame.bytes;
+  Object.assign(document.body.dataset, {bytes: frame.bytes, frame: frame.number});
   picture.draw();
+}
+
+function showPlayed(frame) {
+  drawPlayed({terrain, object}, frame);
+  refiner.took(frame);
+  drawShown(frame);
+}
+const keep = () => keepLook(picture, Number($('exaggeration').value), timeline.kept);
+/** Where a frame stays, it is refined, and the address keeps it. */
+function restFrame() {
+  refiner.release();
+  keep();
+  setWanted();
 }
 
 function fail(error) {
@@ -90,25 +113,14 @@ function failToOpen(error) {
   if (terrain && !refiner.isShown) refiner.pump();
 }
 
-/** Looks from where the address says; false: it does not. */
-function followLink() {
-  if (!object?.frame || !place('eye') || !place('target')) return false;
-  picture.look(place('eye'), place('target'));
-  return true;
-}
-
 function setWanted() {
-  if (!terrain) return;
+  if (!terrain || timeline.isPlaying) return;
   const height = object.isGlobe ? $('exaggeration').value : 0;  // flat ground is stretched as it is
-  refiner.want({...readSliders(terrain.info), height});
+  refiner.want({...readSliders(terrain.info), height, frame: timeline.number});
 }
 /** Where the camera rests, the address keeps it, and other bytes may help. */
 function rest() {
-  if (object?.frame) {
-    const {camera: {position}, orbit: {target}} = picture;
-    keep(picture.isMoved
-      ? {eye: position, target, height: Number($('exaggeration').value)} : null);
-  }
+  if (object?.frame) keep();
   if (object?.isObject) setWanted();
   else refiner.replan();
 }
@@ -168,24 +180,16 @@ async function openInput(input, name, asked, original = null) {
     comparison.of(isFlat ? original : null, terrain.info);
     $('save').hidden = true;
     prepareControls(terrain.info);
+    timeline.begin(terrain);
+    refiner.release();
     refiner.begin({terrain, object, first: asked?.first});
     reopen = () => openInput(input, name, null, original);
     called = {name, title, size: sizeOf(terrain.info)};
     entitle(called);
     setWanted();
-    if (asked && isFlat) compareWithLink(terrain);
+    if (asked && isFlat) comparison.ofLink(terrain.info, () => terrain === opened);
   } catch (error) {
     if (!signal.aborted) failToOpen(error);
-  }
-}
-
-/** Fetches what the stream of the page's address was made of, if the address says so. */
-async function compareWithLink(opened) {
-  try {
-    const original = await originalInLink(opened.info);
-    if (original && terrain === opened) comparison.of(original, opened.info);
-  } catch (error) {
-    if (terrain === opened) tell(error.message);
   }
 }
 
@@ -254,7 +258,8 @@ function listenToControls() {
     rest();
   });
   $('north').addEventListener('click', () => object && picture.faceNorth());
-  listenToSaves(() => ({object, terrain, bytes: refiner.shown.bytes, name: called.name}));
+  listenToSaves(() => ({object, terrain, bytes: refiner.shown.bytes, frame: timeline.number,
+    name: called.name}));
   $('globe').addEventListener('change', () => {
     keepFlat(!$('globe').checked);
     reopen();
@@ -278,7 +283,10 @@ export function begin(asked) {
   };
   $('exaggeration').value = givenHeight();
   listenToSun(picture);
-  addEventListener('hashchange', followLink);
+  addEventListener('hashchange', () => {
+    if (object?.frame) followLink(picture);
+    timeline.follow();
+  });
   listenToPointer(picture, (point) => describe(point));
   listenToControls();
   listenToLooks(picture, () => object);

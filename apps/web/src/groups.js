@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// The groups of a sequence, as far as their heads were read: where each lies in the file, and which
+// frames it has at which times. The indices at the ends of groups lead to the others.
+import {askDecoder} from './decoders.js';
+import {TksError} from './error.js';
+import {FIRST_BYTES} from './pace.js';
+
+/** Of the end of a file: most groups with an index end in it. */
+const TAIL_BYTES = 2 ** 16;
+/** Heads take no more, but for long texts and far frames. */
+const HEAD_BYTES = 512;
+/** An index leads to any group through one more index at most. */
+const MOST_INDICES = 2;
+
+const endFrame = ({firstFrame, times}) => firstFrame + times.length;
+const endOf = ({offset, bytes}) => offset + bytes;
+
+/** How many of a rising list are not greater. */
+function countUpTo(list, value, of) {
+  let low = 0, high = list.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (of(list[middle]) <= value) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/** What a head at a place tells. */
+function groupOf({bytes, firstFrame, times, clock, streamBytes, indexBytes}, offset) {
+  return {
+    offset, bytes: bytes + streamBytes + indexBytes, firstFrame, times, clock,
+    streamOffset: offset + bytes, streamBytes,
+  };
+}
+
+export class Groups {
+  clock = null;
+  firstFrame = 0;
+  /** The number of the last frame, and one. */
+  frames = 0;
+  /** Of each frame whose group is known. */
+  times = [];
+  #source;
+  #decoder;
+  #known = [];  // in their order
+  #tail = null;  // {tail, end}, as locate() takes them
+  #reading = new Map();  // promises of heads, by their places
+  #end = 0;  // of the last group, where groups are passed one by one
+
+  constructor(source, decoder) {
+    [this.#source, this.#decoder] = [source, decoder];
+  }
+
+  /** Of a file that begins with these bytes. */
+  async begin(first, signal) {
+    const head = await this.#headAt(0, {bytes: first, signal});
+    if (!head) throw new TksError('truncated', 'The file is cut short: it ends before a frame.');
+    this.#add(head.group);
+    const {size} = this.#source;
+    let end = endOf(head.group);
+    if (end < size && size < Infinity) end = await this.#readTail(size, end, signal);
+    await this.walk(end, signal);
+    return head;
+  }
+  /** Where the last group ends that an index tells of; `end`: none does. */
+  async #readTail(size, end, signal) {
+    const begin = Math.max(end, size - TAIL_BYTES);
+    const asked = {tail: await this.#source.scattered(begin, size, signal), end: size};
+    const last = await this.#ask('locate', {...asked, byTime: false, place: Infinity}, signal);
+    if (!last) return end;
+    this.#tail = asked;
+    this.frames = last.frames;
+    return last.lastEnd;
+  }
+  /** Passes from head to head, from one at `place` on, as far as frames can be decoded. */
+  async walk(place = this.#end, signal = undefined) {
+    for (;;) {
+      this.#end = place;
+      if (place >= this.#source.size) return;
+      const head = await this.#headAt(place, {signal});
+      if (!head) return;
+      this.#add(head.group);
+      place = endOf(head.group);
+    }
+  }
+
+  #ask(operation, argument, signal) {
+    return askDecoder(this.#decoder, operation, argument, signal);
+  }
+  /** {group, stream} of the group at a place, of which these bytes are here, or `wanted` are to
+   * come. `stream`: those of its stream. null: the file ends before the header of that does. */
+  async #headAt(offset, {bytes, wanted = FIRST_BYTES, signal}, most = FIRST_BYTES) {
+    const here = bytes ??
+      (await this.#source.scattered(offset, offset + Math.max(wanted, most), signal));
+    try {
+      const head = await this.#ask('head', here.slice(0, most), signal);
+      if (head.bytes + head.streamHeaderBytes > this.#source.size - offset) return null;
+      return {group: groupOf(head, offset), stream: here.subarray(head.bytes)};
+    } catch (error) {
+      if (error.code !== 'truncated') throw error;
+      if (here.length <= most && offset + here.length >= this.#source.size) return null;
+      const more = Math.max(2 * most, error.needed);
+      return this.#headAt(offset, {bytes: here.length > most ? here : null, wanted, signal}, more);
+    }
+  }
+  #add(group) {
+    const place = countUpTo(this.#known, group.offset, ({offset}) => offset);
+    const before = this.#known[place - 1], after = this.#known[place];
+    if (before?.offset === group.offset) return;
+    const follows = (a, b) => !a || !b || (endFrame(a) <= b.firstFrame &&
+      a.times.at(-1) < b.times[0] && JSON.stringify(a.clock) === JSON.stringify(b.clock));
+    if (!follows(before, group) || !follows(group, after)) {
+      throw new TksError('corrupt', 'Corrupt sequence: a group does not follow the one before it.');
+    }
+    if (this.#known.length === 0) [this.clock, this.firstFrame] = [group.clock, group.firstFrame];
+    this.#known.splice(place, 0, group);
+    this.frames = Math.max(this.frames, endFrame(group));
+    group.times.forEach((time, i) => (this.times[group.firstFrame + i] = time));
+  }
+
+  /** The known group that holds a place; nothing where there may be a later one. */
+  #knownAt(place, byTime) {
+    const first = byTime ? ({times}) => times[0] : ({firstFrame}) => firstFrame;
+    const i = countUpTo(this.#known, place, first) - 1;
+    const group = this.#known[Math.max(i, 0)], after = this.#known[i + 1];
+    const last = byTime ? group.times.at(-1) : endFrame(group) - 1;
+    const isLast = endFrame(group) === this.frames || after?.offset === endOf(group);
+    return i < 0 || place <= last || isLast ? group : null;
+  }
+  /**
+   * {group, stream} of a frame or, `byTime`, of a time; places before the first frame or behind the
+   * last one are those. `asked`: {bytes, signal}, how many bytes of the group are wanted; `stream`:
+   * those of its stream that came with its head.
+   */
+  async find(place, byTime, asked) {
+    const known = this.#knownAt(place, byTime);
+    if (known) return {group: known};
+    const range = this.#nextTo(place, byTime) ?? (await this.#locate(place, byTime, asked.signal));
+    const reading = this.#reading.get(range.begin);
+    if (reading) return reading.catch(() => {}).then(() => this.find(place, byTime, asked));
+    const wanted = Math.min(asked.bytes + HEAD_BYTES, range.end - range.begin);
+    return this.#read(range.begin, wanted, asked.signal);
+  }
+  /** One at a time of a group: others wait for it. */
+  async #read(begin, wanted, signal) {
+    const reading = this.#headAt(begin, {wanted, signal});
+    this.#reading.set(begin, reading);
+    try {
+      const head = await reading;
+      if (!head) throw new TksError('corrupt', 'Corrupt sequence: an index leads to no group.');
+      this.#add(head.group);
+      return head;
+    } finally {
+      this.#reading.delete(begin);
+    }
+  }
+  /** The group behind one that is known, which is taken to be about as long. */
+  #nextTo(place, byTime) {
+    const before = this.#known[countUpTo(this.#known, place, endFrame) - 1];
+    if (byTime || !before || endFrame(before) !== place) return null;
+    const begin = endOf(before);
+    return {begin, end: begin + before.bytes};
+  }
+  async #locate(place, byTime, signal) {
+    let asked = this.#tail;
+    for (let indices = 0; asked && indices < MOST_INDICES; ++indices) {
+      const range = await this.#ask('locate', {...asked, byTime, place}, signal);
+      if (range?.found) return range;
+      asked = range &&
+        {tail: await this.#source.scattered(range.begin, range.end, signal), end: range.end};
+    }
+    throw new TksError('corrupt', 'Corrupt sequence: its indices do not lead to all groups.');
+  }
+
+  /** Forgets groups that end before a frame, but not the last one; gives where the first one that
+   * is left begins. */
+  forget(frame) {
+    while (this.#known.length > 1 && endFrame(this.#known[0]) <= frame) {
+      const {firstFrame, times} = this.#known.shift();
+      for (let i = 0; i < times.length; ++i) delete this.times[firstFrame + i];
+    }
+    const [first] = this.#known;
+    if (first) this.firstFrame = first.firstFrame;
+    return first?.offset ?? 0;
+  }
+}

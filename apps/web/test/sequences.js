@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sequences for tests, which the command line makes (TETRAKIS_CLI: a built `tetrakis`).
+import {execFile} from 'node:child_process';
+import {mkdtemp, readFile, readdir, rm} from 'node:fs/promises';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {promisify} from 'node:util';
+import {fromArrayBuffer} from 'geotiff';
+
+export const CLI = process.env.TETRAKIS_CLI ??
+  new URL('../../../build/tetrakis', import.meta.url).pathname;
+const run = promisify(execFile);
+
+async function samplesOf(file) {
+  const tiff = await fromArrayBuffer((await readFile(file)).buffer);
+  return (await (await tiff.getImage()).readRasters())[0];
+}
+
+/**
+ * Frames of synth's kind `heights` with, or without it alone, a texture of kind `texture`, coded
+ * with further arguments of encode: {bytes, rasters}, rasters being the samples of the heights.
+ */
+export async function sequenceOf({heights, texture, frames, size}, ...options) {
+  const folder = await mkdtemp(join(tmpdir(), 'tetrakis-'));
+  try {
+    const inputs = [];
+    for (const [kind, ending, first] of
+      [[heights, 'tif', []], [texture, 'png', ['--texture']]]) {
+      if (!kind) continue;
+      await run(CLI, ['synth', '-q', '--kind', kind, '--frames', frames, '--size', size,
+        '-o', join(folder, kind)].map(String));
+      inputs.push(...first, join(folder, kind, `*.${ending}`));
+    }
+    const out = join(folder, 'out.tks');
+    await run(CLI, ['encode', '-q', ...inputs, ...options.map(String), '-o', out]);
+    const names = heights ? (await readdir(join(folder, heights))).sort() : [];
+    const rasters = await Promise.all(names.map((name) => samplesOf(join(folder, heights, name))));
+    return {bytes: new Uint8Array(await readFile(out)), rasters};
+  } finally {
+    await rm(folder, {recursive: true});
+  }
+}
