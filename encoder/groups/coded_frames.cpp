@@ -113,7 +113,8 @@ bool needsAllSteps(const tks_encode_options& options) {
 /// reference: what the frames go on from; null: nothing.
 HeightWay wayOf(const GroupInputs& inputs, FrameSteps truth,
                 const std::shared_ptr<const FrameReference>& reference) {
-  HeightWay way{std::move(truth), {}, {}, {}, {}};
+  HeightWay way;
+  way.truth = std::move(truth);
   way.header = headerOf(inputs.heights.front(), way.truth);
   if (reference != nullptr) {
     way.header.frames.reference = inputs.before->bytes;

@@ -6,9 +6,9 @@
 #include <functional>
 #include <string>
 
-#include "tetrakis/sequence.h"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/stream_fixture.hpp"
+#include "tetrakis/sequence.h"
 
 namespace tetrakis::test {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "conformance/samples/moving_frames.hpp"
-#include "tetrakis/sequence.hpp"
 #include "tests/support/stream_fixture.hpp"
+#include "tetrakis/sequence.hpp"
 
 namespace tetrakis::test {
 
