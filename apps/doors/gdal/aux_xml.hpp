@@ -18,7 +18,7 @@ inline constexpr std::array kOwnDomains = {"IMAGE_STRUCTURE", "SUBDATASETS", "TK
 /// What a stream says in places where others may say something else.
 struct StreamTexts {
   std::string registration;  ///< AREA_OR_POINT
-  std::string description;   ///< of the first band
+  std::string description;   ///< of its bands
 };
 
 /// Drops what the stream says from what is to be written. Null if nothing else is left.

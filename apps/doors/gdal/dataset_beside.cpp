@@ -35,9 +35,9 @@ void Dataset::loadBeside(char** siblings) {
     if (band->GetMetadata("IMAGE_STRUCTURE") != nullptr)
       band->GDALRasterBand::SetMetadata(of_bands.List(), "IMAGE_STRUCTURE");
   // GDAL empties it where the file says nothing.
-  GDALRasterBand& first = *GetRasterBand(1);
-  if (*first.GetDescription() == '\0')
-    first.GDALRasterBand::SetDescription(texts_.description.c_str());
+  for (auto&& band : GetBands())
+    if (isHeights() && *band->GetDescription() == '\0')
+      band->GDALRasterBand::SetDescription(texts_.description.c_str());
   takeRounding();
 }
 

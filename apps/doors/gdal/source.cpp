@@ -2,6 +2,7 @@
 #include "apps/doors/gdal/source.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <new>
 #include <utility>
@@ -51,14 +52,22 @@ void reportFailure(tks_status status, const std::string& name, const std::string
   CPLError(CE_Failure, errorNumber(status), "%s: %s", shownText(name).c_str(), told.c_str());
 }
 
-std::unique_ptr<Source> Source::open(const std::string& name, const OpenSettings& settings) {
-  File file(VSIFOpenL(name.c_str(), "rb"));
-  if (!file) {
-    reportFailure(TKS_IO, name, "The file cannot be opened.");
+std::string hexadecimal(std::span<const uint8_t, 4> bytes) {
+  return CPLSPrintf("%02X%02X%02X%02X", bytes[3], bytes[2], bytes[1], bytes[0]);
+}
+
+std::unique_ptr<Source> Source::open(const std::string& name, const File& file,
+                                     const Extent& extent, const OpenSettings& settings) {
+  const std::optional<uint64_t> length = lengthOf(file);
+  if (!length) {
+    reportFailure(TKS_IO, name, "The length of the file cannot be found.");
     return nullptr;
   }
-  std::unique_ptr<Source> source(new Source(name, settings, std::move(file)));
-  if (!source->readHeader() || !source->checkLength()) return nullptr;
+  const uint64_t end = std::min(*length, settings.bytes.value_or(UINT64_MAX));
+  const uint64_t there = std::min(end - std::min(end, extent.begin), extent.size);
+  std::unique_ptr<Source> source(new Source(name, settings, FileBytes(file, extent.begin)));
+  if (!source->readHeader(there) || !source->checkLength()) return nullptr;
+  source->checksum_ = extent.checksum.empty() ? source->checksumOfHeader() : extent.checksum;
   if (isGridOnCube(source->info_)) source->cube_depth_ = source->info_.forest.depth;
   return source;
 }
@@ -75,18 +84,29 @@ std::optional<uint64_t> Source::findHeader() {
   return there;
 }
 
-bool Source::readHeader() {
-  if (VSIFSeekL(bytes_.file(), 0, SEEK_END) != 0) {
-    reportFailure(TKS_IO, name_, "The length of the file cannot be found.");
-    return false;
-  }
-  end_ = std::min<uint64_t>(VSIFTellL(bytes_.file()), settings_.bytes.value_or(UINT64_MAX));
+bool Source::readHeader(uint64_t there) {
+  end_ = there;
   const std::optional<uint64_t> header = findHeader();
   if (!header) return false;
   const tks_status status = openPrefix(std::min(end_, std::max(kHeaderGuess, *header)));
   if (end_ == 0) message_ = "There are no bytes.";
   if (status != TKS_OK && status != TKS_IO) reportFailure(status, name_, message_);
   return status == TKS_OK;
+}
+
+std::string Source::checksumOfHeader() const {
+  // The last four bytes of the header (docs/FORMAT.md, section 2).
+  constexpr size_t kBytes = 4;
+  return hexadecimal(bytes_.at(info_.header_bytes - kBytes).first<kBytes>());
+}
+
+void Source::rest() {
+  decoder_.reset();
+  opened_ = 0;
+  has_whole_ = false;
+  kept_.clear();
+  cube_.clear();
+  bytes_.forget();
 }
 
 bool Source::checkLength() {
@@ -250,17 +270,46 @@ StatedQuality Source::statedQuality() {
   return quality;
 }
 
+tks_status Source::decodeFrame(uint32_t frame, const tks_window* window, std::span<std::byte> out) {
+  tks_decoder* const decoder = decoder_.get();
+  if (const tks_status status = tks_set_frame(decoder, frame); status != TKS_OK) return status;
+  void* const data = out.data();
+  if (part_ == TKS_PART_HEIGHTS) {
+    return window == nullptr ? tks_decode_heights(decoder, data, out.size())
+                             : tks_decode_heights_window(decoder, window, data, out.size());
+  }
+  return window == nullptr ? tks_decode_texture(decoder, data, out.size())
+                           : tks_decode_texture_window(decoder, window, data, out.size());
+}
+
+bool Source::decode(const tks_window* window, uint64_t pixels, std::vector<std::byte>& out) {
+  out.resize(pixels * pixelBytes());
+  if (frames() == 1) {
+    const tks_status status = decodeFrame(frame_.value_or(0), window, out);
+    return status == TKS_OK || failed(status);
+  }
+  const size_t sample = tks_sample_bytes(this->sample());
+  std::vector<std::byte> plane(pixels * sample);
+  for (uint32_t frame = 0; frame < frames(); ++frame) {
+    if (const tks_status status = decodeFrame(frame, window, plane); status != TKS_OK)
+      return failed(status);
+    std::byte* to = out.data() + frame * sample;
+    for (const std::byte* from = plane.data(); from != plane.data() + plane.size();
+         from += sample, to += pixelBytes())
+      std::memcpy(to, from, sample);
+  }
+  return true;
+}
+
 bool Source::decodeLevel(uint32_t level, std::vector<std::byte>& out) {
   const bool heights = part_ == TKS_PART_HEIGHTS;
-  const uint64_t bytes = uint64_t{width(level)} * height(level) * pixelBytes();
+  const uint64_t pixels = uint64_t{width(level)} * height(level);
   tks_decoder* const decoder = decoder_.get();
+  const uint64_t beside = pixels * pixelBytes();
   tks_status status = tks_set_levels(decoder, heights ? level : 0, heights ? 0 : level);
-  if (status == TKS_OK) status = tks_check_memory(decoder, part_, nullptr, 0, bytes, nullptr);
+  if (status == TKS_OK) status = tks_check_memory(decoder, part_, nullptr, 0, beside, nullptr);
   if (status != TKS_OK) return failed(status);
-  out.resize(bytes);
-  status = heights ? tks_decode_heights(decoder, out.data(), bytes)
-                   : tks_decode_texture(decoder, out.data(), bytes);
-  return status == TKS_OK || failed(status);
+  return decode(nullptr, pixels, out);
 }
 
 const std::byte* Source::level(uint32_t level) {
@@ -283,14 +332,9 @@ bool Source::window(const tks_window& window, std::vector<std::byte>& out) {
            window.x, window.y);
   if (cubeDepth() > 0) return gridWindow(window, out);
   if (!load(0, &window)) return false;
-  tks_decoder* const decoder = decoder_.get();
-  tks_status status = tks_set_levels(decoder, 0, 0);
+  const tks_status status = tks_set_levels(decoder_.get(), 0, 0);
   if (status != TKS_OK) return failed(status);
-  out.resize(size_t{window.width} * window.height * pixelBytes());
-  status = part_ == TKS_PART_HEIGHTS
-               ? tks_decode_heights_window(decoder, &window, out.data(), out.size())
-               : tks_decode_texture_window(decoder, &window, out.data(), out.size());
-  return status == TKS_OK || failed(status);
+  return decode(&window, uint64_t{window.width} * window.height, out);
 }
 
 }  // namespace tetrakis::gdal
