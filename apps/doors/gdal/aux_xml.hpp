@@ -31,6 +31,10 @@ CPLXMLNode* withSubdatasets(CPLXMLNode* tree, const char* file, const std::strin
 /// Binds what is to be written to its stream. `tree` may be null.
 void tellChecksum(CPLXMLNode* tree, const std::string& checksum);
 
+/// Whether the list of the folder of `name`, which may be null, lacks a file there: GDAL does not
+/// open it then.
+bool lacks(char** siblings, const std::string& name, const char* file);
+
 /// Whether the file says that it is about another stream: of a subdataset, or with "" of the rest.
 /// What other programs write says nothing of that.
 bool isOfAnotherStream(const char* file, const char* subdataset, const std::string& checksum);

@@ -44,11 +44,7 @@ void Dataset::loadBeside(char** siblings) {
 bool Dataset::isBesideOfAnother(char** siblings) {
   PamInitialize();
   const char* const file = BuildPamFilename();
-  if (file == nullptr) return false;
-  // GDAL does the same: it does not open a file that the list of the folder lacks.
-  const std::string folder = CPLGetPath(source_->name().c_str());
-  const bool listed = siblings != nullptr && folder == CPLGetPath(file);
-  if (listed && CSLFindString(siblings, CPLGetFilename(file)) < 0) return false;
+  if (file == nullptr || lacks(siblings, source_->name(), file)) return false;
   return isOfAnotherStream(file, GetSubdatasetName(), source_->checksum());
 }
 

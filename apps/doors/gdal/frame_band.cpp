@@ -38,16 +38,21 @@ class FrameBand final : public GDALPamRasterBand {
   GDALColorInterp GetColorInterpretation() override { return GCI_Undefined; }
 
   const char* GetDescription() const override {
+    if (is_written_) return GDALPamRasterBand::GetDescription();
     const_cast<FrameBand*>(this)->tellTime();
-    return GDALPamRasterBand::GetDescription();
+    return description_.c_str();
   }
   char** GetMetadata(const char* domain) override {
+    char** const kept = GDALPamRasterBand::GetMetadata(domain);
+    if (!ToldItems::areIn(domain)) return kept;
     tellTime();
-    return GDALPamRasterBand::GetMetadata(domain);
+    return time_.with(kept);
   }
   const char* GetMetadataItem(const char* name, const char* domain) override {
+    const char* const kept = GDALPamRasterBand::GetMetadataItem(name, domain);
+    if (kept != nullptr || !ToldItems::areIn(domain)) return kept;
     tellTime();
-    return GDALPamRasterBand::GetMetadataItem(name, domain);
+    return time_.find(name);
   }
 
   int GetOverviewCount() override { return like().GetOverviewCount(); }
@@ -76,6 +81,13 @@ class FrameBand final : public GDALPamRasterBand {
                               extra);
   }
 
+  CPLXMLNode* SerializeToXML(const char* path) override {
+    is_written_ = true;
+    CPLXMLNode* const tree = GDALPamRasterBand::SerializeToXML(path);
+    is_written_ = false;
+    return tree;
+  }
+
  private:
   FramesDataset& dataset() const { return static_cast<FramesDataset&>(*poDS); }
   GDALRasterBand& like() const { return dataset().like(); }
@@ -90,14 +102,16 @@ class FrameBand final : public GDALPamRasterBand {
     const std::optional<CfUnit> unit = cfUnit(clock);
     const double number = static_cast<double>(*time) * (unit ? unit->per_tick : 1);
     const std::string of_netcdf = CPLSPrintf("%.15g", number), text = rfc3339(clock, *time);
-    GDALRasterBand::SetMetadataItem("NETCDF_DIM_time", of_netcdf.c_str());
-    if (*dataset().like().GetDescription() != '\0')
-      GDALRasterBand::SetMetadataItem("long_name", dataset().like().GetDescription());
-    if (!text.empty()) GDALRasterBand::SetMetadataItem("TIME", text.c_str());
-    GDALRasterBand::SetDescription(text.empty() ? ("time " + of_netcdf).c_str() : text.c_str());
+    time_.tell("NETCDF_DIM_time", of_netcdf);
+    const std::string name = dataset().like().GetDescription();
+    if (!name.empty()) time_.tell("long_name", name);
+    if (!text.empty()) time_.tell("TIME", text);
+    description_ = text.empty() ? "time " + of_netcdf : text;
   }
 
-  bool time_told_ = false;
+  ToldItems time_;
+  std::string description_;
+  bool time_told_ = false, is_written_ = false;
 };
 
 }  // namespace

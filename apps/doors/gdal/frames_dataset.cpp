@@ -15,10 +15,6 @@ namespace {
 constexpr size_t kAwake = 2;
 constexpr uint64_t kMostBands = 65535;
 
-bool isPlain(const char* domain) {
-  return domain == nullptr || *domain == '\0';
-}
-
 }  // namespace
 
 std::unique_ptr<FramesDataset> FramesDataset::of(OpenSequence sequence,
@@ -35,8 +31,9 @@ std::unique_ptr<FramesDataset> FramesDataset::of(OpenSequence sequence,
   dataset->PamInitialize();
   const char* const beside = dataset->BuildPamFilename();
   const std::string& checksum = dataset->like_->source().checksum();
-  if (beside == nullptr || !isOfAnotherStream(beside, "", checksum))
-    dataset->TryLoadXML(file == description ? siblings : nullptr);
+  char** const listed = file == description ? siblings : nullptr;
+  const bool there = beside != nullptr && !lacks(listed, file, beside);
+  if (!there || !isOfAnotherStream(beside, "", checksum)) dataset->TryLoadXML(listed);
   if (prefix) dataset->nPamFlags |= GPF_NOSAVE;
   return dataset;
 }
@@ -95,9 +92,7 @@ void FramesDataset::tellTimes() {
     const double number = static_cast<double>(*time) * (unit ? unit->per_tick : 1);
     numbers += CPLSPrintf(band > 1 ? ",%.15g" : "%.15g", number);
   }
-  const auto tell = [this](const char* key, const std::string& value) {
-    GDALDataset::SetMetadataItem(key, value.c_str());
-  };
+  const auto tell = [this](const char* key, const std::string& value) { times_.tell(key, value); };
   constexpr int kDouble = 6;  // NC_DOUBLE
   tell("NETCDF_DIM_EXTRA", "{time}");
   tell("NETCDF_DIM_time_DEF", CPLSPrintf("{%d,%d}", nBands, kDouble));
@@ -182,13 +177,17 @@ char** FramesDataset::GetFileList() {
 }
 
 char** FramesDataset::GetMetadata(const char* domain) {
-  if (isPlain(domain)) tellTimes();
-  return GDALPamDataset::GetMetadata(domain);
+  char** const kept = GDALPamDataset::GetMetadata(domain);
+  if (!ToldItems::areIn(domain)) return kept;
+  tellTimes();
+  return times_.with(kept);
 }
 
 const char* FramesDataset::GetMetadataItem(const char* item, const char* domain) {
-  if (isPlain(domain)) tellTimes();
-  return GDALPamDataset::GetMetadataItem(item, domain);
+  if (!ToldItems::areIn(domain)) return GDALPamDataset::GetMetadataItem(item, domain);
+  tellTimes();
+  const char* const told = times_.find(item);
+  return told != nullptr ? told : GDALPamDataset::GetMetadataItem(item, domain);
 }
 
 CPLXMLNode* FramesDataset::SerializeToXML(const char* path) {

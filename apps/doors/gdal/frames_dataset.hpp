@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include <cpl_string.h>
 #include <gdal_pam.h>
 #include "apps/doors/gdal/dataset.hpp"
 #include "apps/doors/gdal/sequence_groups.hpp"
@@ -19,6 +20,24 @@ struct OpenSequence {
   std::unique_ptr<SequenceGroups> groups;
   File file;
   OpenSettings settings;
+};
+
+/// Items of the plain domain that the stream tells once they are asked for. They are not PAM's, which
+/// would keep them beside the file.
+class ToldItems {
+ public:
+  static bool areIn(const char* domain) { return domain == nullptr || *domain == '\0'; }
+
+  void tell(const char* key, const std::string& value) { told_.SetNameValue(key, value.c_str()); }
+  const char* find(const char* key) const { return told_.FetchNameValue(key); }
+  /// With others. Valid until the next call.
+  char** with(CSLConstList others) {
+    all_.Assign(CSLMerge(CSLDuplicate(others), told_.List()), TRUE);
+    return all_.List();
+  }
+
+ private:
+  CPLStringList told_, all_;
 };
 
 class FramesDataset final : public GDALPamDataset {
@@ -64,6 +83,7 @@ class FramesDataset final : public GDALPamDataset {
   std::map<uint64_t, std::unique_ptr<Dataset>> groups_;  ///< by the first frames
   Dataset* like_;
   std::deque<Dataset*> awake_;
+  ToldItems times_;
   bool times_told_ = false;
 };
 
