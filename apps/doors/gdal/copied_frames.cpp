@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/doors/gdal/copied_frames.hpp"
-
+// The bands of a dataset as the frames of a sequence.
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -10,9 +9,10 @@
 #include <cpl_error.h>
 #include "apps/doors/gdal/copied_samples.hpp"
 #include "apps/doors/gdal/copied_voids.hpp"
+#include "apps/doors/gdal/create_copy.hpp"
+#include "apps/doors/gdal/frame_times.hpp"
 #include "apps/doors/gdal/ground_positions.hpp"
 #include "apps/doors/gdal/output_file.hpp"
-#include "apps/doors/gdal/source_times.hpp"
 #include "tetrakis/sequence.hpp"
 
 namespace tetrakis::gdal {

@@ -12,14 +12,12 @@
 #include <vector>
 
 #include <gdal_pam.h>
-#include "apps/doors/gdal/copied_frames.hpp"
 #include "apps/doors/gdal/copied_raster.hpp"
 #include "apps/doors/gdal/copied_samples.hpp"
 #include "apps/doors/gdal/cube.hpp"
 #include "apps/doors/gdal/dataset.hpp"
 #include "apps/doors/gdal/ground_positions.hpp"
 #include "apps/doors/gdal/mosaic_copy.hpp"
-#include "apps/doors/gdal/open.hpp"
 #include "apps/doors/gdal/output_file.hpp"
 
 namespace tetrakis::gdal {
@@ -195,7 +193,7 @@ void cloneInfo(GDALPamDataset& copy, GDALDataset& source, bool heights) {
 GDALDataset* openCopy(const std::string& name, GDALDataset& source, double rounding) {
   VSIUnlink((name + ".aux.xml").c_str());  // of a file that was there before
   GDALOpenInfo info(name.c_str(), GA_ReadOnly);
-  auto* const copy = static_cast<Dataset*>(open(&info));
+  auto* const copy = static_cast<Dataset*>(Dataset::Open(&info));
   if (copy == nullptr) return nullptr;
   cloneInfo(*copy, source, copy->isHeights());
   const OGRSpatialReference* const wanted = source.GetSpatialRef();
@@ -214,7 +212,7 @@ GDALDataset* openPassedOn(const Stream& stream) {
       CPLSPrintf("/vsimem/tetrakis-%p.tks", static_cast<void*>(stream.buffer.data));
   if (!writeFile(name, stream.bytes())) return nullptr;
   GDALOpenInfo info(name.c_str(), GA_ReadOnly);
-  GDALDataset* const copy = open(&info);
+  GDALDataset* const copy = Dataset::Open(&info);
   VSIUnlink(name.c_str());  // it stays as long as it is open
   return copy;
 }
@@ -251,7 +249,7 @@ GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
       return nullptr;
     VSIUnlink((name + ".aux.xml").c_str());  // of a file that was there before
     GDALOpenInfo info(name.c_str(), GA_ReadOnly);
-    return open(&info);
+    return Dataset::Open(&info);
   }
   if (!wantsMosaic(source, settings)) return copyInMemory(name, source, strict, settings, progress);
   const MosaicCopy mosaic = writeMosaic(name, source, strict, settings, progress);

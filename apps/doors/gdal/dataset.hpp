@@ -36,6 +36,11 @@ class Dataset final : public GDALPamDataset {
   /// What is kept beside is written while SerializeToXML is still this class's.
   ~Dataset() override { FlushCache(true); }
 
+  /// What a name opens: a stream, a sequence of frames, or a part of either. Null after a reported
+  /// error, or where Identify() is 0.
+  static GDALDataset* Open(GDALOpenInfo* info);
+  static int Identify(GDALOpenInfo* info);
+
   /// A component of a stream, and one of its frames; without a number all frames of heights, as
   /// bands, and the first one of a texture. Null after a reported error.
   static std::unique_ptr<Dataset> of(std::shared_ptr<Source> source, tks_part part,

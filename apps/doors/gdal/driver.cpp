@@ -3,7 +3,7 @@
 #include <gdal_frmts.h>
 #include "apps/doors/gdal/create.hpp"
 #include "apps/doors/gdal/create_copy.hpp"
-#include "apps/doors/gdal/open.hpp"
+#include "apps/doors/gdal/dataset.hpp"
 #include "apps/doors/gdal/settings.hpp"
 
 CPL_C_START
@@ -31,8 +31,8 @@ void GDALRegister_TKS() {
 #endif
   set(GDAL_DMD_OPENOPTIONLIST, kOpenOptions);
   set(GDAL_DMD_CREATIONOPTIONLIST, kCreationOptions);
-  driver->pfnIdentify = identify;
-  driver->pfnOpen = open;
+  driver->pfnIdentify = Dataset::Identify;
+  driver->pfnOpen = Dataset::Open;
   driver->pfnCreate = create;
   driver->pfnCreateCopy = createCopy;
   GetGDALDriverManager()->RegisterDriver(driver);

@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include <gdal_priv.h>
 
 #include "apps/doors/gdal/sequence_groups.hpp"
 
@@ -32,5 +35,13 @@ struct Moment {
   int64_t nanoseconds = 0;
 };
 std::optional<Moment> momentOf(const std::string& text);
+
+/// When the bands of a dataset are, as drivers of GDAL say it: netCDF, GRIB, and this one.
+struct BandTimes {
+  SequenceClock clock;
+  std::vector<int64_t> ticks;  ///< of each band, rising
+};
+/// Where they are not known, or do not rise, which a warning tells: numbers of bands, from 0 on.
+BandTimes timesOf(const std::string& name, GDALDataset& dataset);
 
 }  // namespace tetrakis::gdal

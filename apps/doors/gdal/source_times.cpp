@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/doors/gdal/source_times.hpp"
-
+// The times that the bands of a source say.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -5,6 +5,7 @@ group."""
 import io
 import pickle
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 import numpy as np
@@ -114,6 +115,18 @@ def test_files_that_end_inside_a_group(sequence, unindexed, tmp_path, cut):
                 assert opened.find(memory.times[number]) == number
             np.testing.assert_array_equal(opened.times, memory.times)
             np.testing.assert_array_equal(opened[5:50:7], memory[5:50:7])
+
+
+def test_threads_that_look_for_groups_at_once(sequence, tmp_path):
+    path = tmp_path / "a.tks"
+    path.write_bytes(sequence)
+    with tetrakis.open_sequence(path) as opened, ThreadPoolExecutor(8) as threads:
+        tasks = [threads.submit(lambda: opened.times) for _ in range(4)]
+        tasks += [threads.submit(opened.find, time) for time in TIMES[::29]]
+        results = [task.result() for task in tasks]
+    for times in results[:4]:
+        np.testing.assert_array_equal(times, TIMES)
+    assert results[4:] == list(range(0, FRAMES, 29))
 
 
 def test_files_go_to_other_processes(sequence, tmp_path):

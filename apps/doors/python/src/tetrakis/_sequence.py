@@ -150,8 +150,8 @@ class Sequence:
     @property
     def ticks(self) -> NDArray[np.int64]:
         """The times of all frames in ticks of the clock. Reads the heads of all groups."""
-        groups = self._groups.all()
-        times = [group.times for group in groups]
+        with self._lock:
+            times = [group.times for group in self._groups.all()]
         ticks = np.concatenate(times) if times else np.empty(0, np.int64)
         if len(ticks) != len(self):
             raise TksUnsupportedError("Frames were cut out of the sequence, and have no times.")
@@ -168,7 +168,8 @@ class Sequence:
         """A frame by its number, which does not change where groups are forgotten, as an open
         stream: `heights`, `texture`, `mesh` and all else are those of this frame; `info` and
         `bytes=` are about its group. Raises :class:`TksUsageError` if it is not there."""
-        group = self._groups.of_frame(values.unsigned(number, "A frame", 64))
+        with self._lock:
+            group = self._groups.of_frame(values.unsigned(number, "A frame", 64))
         return Stream(FrameAccess(self._access(group), number - group.first_frame))
 
     def find(self, time: Any) -> int:
@@ -177,7 +178,8 @@ class Sequence:
         if not len(self):
             raise TksUsageError("The sequence has no frames.")
         tick = self.clock.floor(time)
-        group = self._groups.of_time(tick)
+        with self._lock:
+            group = self._groups.of_time(tick)
         return group.first_frame + max(0, int(np.searchsorted(group.times, tick, "right")) - 1)
 
     def at(self, time: Any) -> Stream:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/doors/gdal/open.hpp"
-
+// What a name opens.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -98,12 +97,12 @@ GDALDataset* openSequence(const Request& request, const File& file) {
 
 }  // namespace
 
-int identify(GDALOpenInfo* info) {
+int Dataset::Identify(GDALOpenInfo* info) {
   return isFileOfOurs(*info) || isSubdatasetName(info->pszFilename);
 }
 
-GDALDataset* open(GDALOpenInfo* info) {
-  if (!identify(info)) return nullptr;
+GDALDataset* Dataset::Open(GDALOpenInfo* info) {
+  if (!Identify(info)) return nullptr;
   Request request{info->pszFilename, std::nullopt, info->pszFilename, {}, info->GetSiblingFiles()};
   if (!isFileOfOurs(*info)) {
     request.named = subdatasetName(info->pszFilename);
