@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
@@ -90,6 +91,12 @@ bool isOfAnother(const CPLXMLNode* all, const char* subdataset, const std::strin
 }
 
 }  // namespace
+
+bool lacks(char** siblings, const std::string& name, const char* file) {
+  const std::string folder = CPLGetPath(name.c_str());
+  const bool listed = siblings != nullptr && folder == CPLGetPath(file);
+  return listed && CSLFindString(siblings, CPLGetFilename(file)) < 0;
+}
 
 CPLXMLNode* withoutStreamTexts(CPLXMLNode* tree, const StreamTexts& stream) {
   if (tree == nullptr) return nullptr;

@@ -18,7 +18,7 @@ inline constexpr std::array kOwnDomains = {"IMAGE_STRUCTURE", "SUBDATASETS", "TK
 /// What a stream says in places where others may say something else.
 struct StreamTexts {
   std::string registration;  ///< AREA_OR_POINT
-  std::string description;   ///< of the first band
+  std::string description;   ///< of its bands
 };
 
 /// Drops what the stream says from what is to be written. Null if nothing else is left.
@@ -30,6 +30,10 @@ CPLXMLNode* withSubdatasets(CPLXMLNode* tree, const char* file, const std::strin
 
 /// Binds what is to be written to its stream. `tree` may be null.
 void tellChecksum(CPLXMLNode* tree, const std::string& checksum);
+
+/// Whether the list of the folder of `name`, which may be null, lacks a file there: GDAL does not
+/// open it then.
+bool lacks(char** siblings, const std::string& name, const char* file);
 
 /// Whether the file says that it is about another stream: of a subdataset, or with "" of the rest.
 /// What other programs write says nothing of that.

@@ -37,13 +37,18 @@ bool areCached(GDALRasterBand& band, const tks_window& blocks) {
   return true;
 }
 
-/// Without rows and columns at the border that are there.
-tks_window trimmed(GDALRasterBand& band, tks_window blocks) {
+/// Without rows and columns at the border that are there, but for `missing`: GDAL puts a block into
+/// its cache before it asks for its samples.
+tks_window trimmed(GDALRasterBand& band, tks_window blocks, const tks_window& missing) {
   const auto& [x, y, width, height] = blocks;
-  while (height > 1 && areCached(band, {x, y, width, 1})) ++blocks.y, --blocks.height;
-  while (height > 1 && areCached(band, {x, y + height - 1, width, 1})) --blocks.height;
-  while (width > 1 && areCached(band, {x, y, 1, height})) ++blocks.x, --blocks.width;
-  while (width > 1 && areCached(band, {x + width - 1, y, 1, height})) --blocks.width;
+  const auto right = [&] { return x + width - 1; };
+  const auto bottom = [&] { return y + height - 1; };
+  while (y < missing.y && areCached(band, {x, y, width, 1})) ++blocks.y, --blocks.height;
+  while (bottom() >= missing.y + missing.height && areCached(band, {x, bottom(), width, 1}))
+    --blocks.height;
+  while (x < missing.x && areCached(band, {x, y, 1, height})) ++blocks.x, --blocks.width;
+  while (right() >= missing.x + missing.width && areCached(band, {right(), y, 1, height}))
+    --blocks.width;
   return blocks;
 }
 
@@ -89,7 +94,7 @@ uint32_t BlockCache::rowsAtOnce(uint32_t width, uint32_t top) const {
 }
 
 tks_window BlockCache::withNeighbours(GDALRasterBand& band, const tks_window& blocks) {
-  return dataset_.readsWindows() ? trimmed(band, growth_.grown(blocks, grid())) : blocks;
+  return dataset_.readsWindows() ? trimmed(band, growth_.grown(blocks, grid()), blocks) : blocks;
 }
 
 bool BlockCache::fill(GDALRasterBand& band, const tks_window& samples) {

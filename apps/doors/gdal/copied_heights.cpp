@@ -33,8 +33,8 @@ void takeLatitudes(const Place& place, const OGRSpatialReference* system, tks_he
 }
 
 /// What the dataset says of its band, but for voids.
-void takeFacts(const std::string& name, GDALDataset& dataset, CopiedHeights& copy) {
-  GDALRasterBand& band = *dataset.GetRasterBand(1);
+void takeFacts(const std::string& name, GDALRasterBand& band, CopiedHeights& copy) {
+  GDALDataset& dataset = *band.GetDataset();
   tks_heights& heights = copy.heights;
   heights.scale = scaleOf(name, band);
   heights.offset = band.GetOffset();
@@ -87,7 +87,10 @@ std::unique_ptr<CopiedHeights> describeHeights(const std::string& name, GDALData
                       (why.empty() ? why : " " + why));
     return nullptr;
   }
-  GDALRasterBand& band = *dataset.GetRasterBand(1);
+  return describeBand(name, *dataset.GetRasterBand(1));
+}
+
+std::unique_ptr<CopiedHeights> describeBand(const std::string& name, GDALRasterBand& band) {
   const std::optional<tks_sample> sample = sampleOf(band);
   if (!sample) {
     reportFailure(TKS_UNSUPPORTED, name,
@@ -101,19 +104,24 @@ std::unique_ptr<CopiedHeights> describeHeights(const std::string& name, GDALData
   heights.width = static_cast<uint32_t>(band.GetXSize());
   heights.height = static_cast<uint32_t>(band.GetYSize());
   heights.sample = *sample;
-  takeFacts(name, dataset, *copy);
+  takeFacts(name, band, *copy);
   return copy;
+}
+
+bool readHeights(const std::string& name, GDALRasterBand& band, bool strict, CopiedHeights& copy,
+                 const ProgressPart& progress) {
+  if (!readSamples(name, band, strict, copy, progress)) return false;
+  takeNodata(name, band, copy);
+  if (!applyMask(name, band, copy)) return false;
+  copy.heights.data = copy.samples.data();
+  return true;
 }
 
 std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset& dataset,
                                            bool strict, const ProgressPart& progress) {
   std::unique_ptr<CopiedHeights> copy = describeHeights(name, dataset);
   if (!copy) return nullptr;
-  GDALRasterBand& band = *dataset.GetRasterBand(1);
-  if (!readSamples(name, band, strict, *copy, progress)) return nullptr;
-  takeNodata(name, band, *copy);
-  if (!applyMask(name, band, *copy)) return nullptr;
-  copy->heights.data = copy->samples.data();
+  if (!readHeights(name, *dataset.GetRasterBand(1), strict, *copy, progress)) return nullptr;
   takeFill(name, strict, *copy);
   return copy;
 }

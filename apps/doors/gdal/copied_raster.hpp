@@ -60,6 +60,12 @@ struct CopiedTexture {
 /// Heights without their samples, and without what they say of voids. Null after a reported error.
 std::unique_ptr<CopiedHeights> describeHeights(const std::string& name, GDALDataset& dataset);
 
+/// The same of one of several bands.
+std::unique_ptr<CopiedHeights> describeBand(const std::string& name, GDALRasterBand& band);
+/// Reads what describeBand() has described, with its voids. False after a reported error.
+bool readHeights(const std::string& name, GDALRasterBand& band, bool strict, CopiedHeights& copy,
+                 const ProgressPart& progress);
+
 /// With all. strict: doubles that no float holds are refused; else a warning tells that they are
 /// rounded. Null after a reported error.
 std::unique_ptr<CopiedHeights> copyHeights(const std::string& name, GDALDataset& dataset,

@@ -244,6 +244,13 @@ GDALDataset* copyInMemory(const std::string& name, GDALDataset& source, bool str
 
 GDALDataset* copyTo(const std::string& name, GDALDataset& source, bool strict,
                     const CopySettings& settings, const Progress& progress) {
+  if (settings.frames) {
+    if (!writeFrames(name, source, strict, settings, progress) || !reportEnd(name, progress))
+      return nullptr;
+    VSIUnlink((name + ".aux.xml").c_str());  // of a file that was there before
+    GDALOpenInfo info(name.c_str(), GA_ReadOnly);
+    return Dataset::Open(&info);
+  }
   if (!wantsMosaic(source, settings)) return copyInMemory(name, source, strict, settings, progress);
   const MosaicCopy mosaic = writeMosaic(name, source, strict, settings, progress);
   if (mosaic.written)

@@ -19,4 +19,9 @@ GDALDataset* createCopy(const char* name, GDALDataset* source, int strict, char*
 GDALDataset* writeCopy(const std::string& name, GDALDataset& source, bool strict,
                        const CopySettings& settings, const Progress& progress);
 
+/// Writes the bands of a dataset as the frames of a sequence: read band by band, and written group
+/// by group, in the memory of one. False after a reported error; there is no file then.
+bool writeFrames(const std::string& name, GDALDataset& source, bool strict,
+                 const CopySettings& settings, const Progress& progress);
+
 }  // namespace tetrakis::gdal

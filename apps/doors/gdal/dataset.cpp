@@ -8,7 +8,6 @@
 
 #include "apps/doors/gdal/band.hpp"
 #include "apps/doors/gdal/cube.hpp"
-#include "apps/doors/gdal/settings.hpp"
 #include "apps/doors/gdal/subdataset_name.hpp"
 
 namespace tetrakis::gdal {
@@ -44,24 +43,6 @@ std::string whyNoRaster(tks_part part, const tks_info& info) {
          "cannot show them as one raster.";
 }
 
-/// The component that is asked for, or that there is; nothing after a reported error.
-std::optional<tks_part> partOf(const std::optional<SubdatasetName>& named, const Source& source) {
-  const tks_info& info = source.info();
-  const tks_part first = info.has_heights ? TKS_PART_HEIGHTS : TKS_PART_TEXTURE;
-  const tks_part part = named ? named->part : first;
-  const std::string why = whyNoRaster(part, info);
-  if (why.empty()) return part;
-  const bool there = part == TKS_PART_HEIGHTS ? info.has_heights != 0 : info.has_texture != 0;
-  reportFailure(there ? TKS_UNSUPPORTED : TKS_USAGE, source.name(), why);
-  return std::nullopt;
-}
-
-bool isStream(const GDALOpenInfo& info) {
-  constexpr GByte kMagic[] = {'T', 'K', 'S', 0x1A};
-  return info.nHeaderBytes >= static_cast<int>(sizeof kMagic) &&
-         std::memcmp(info.pabyHeader, kMagic, sizeof kMagic) == 0;
-}
-
 struct Size {
   uint32_t width, height;
 };
@@ -84,51 +65,41 @@ std::array<double, 6> drapedTransform(const tks_info& info) {
 
 }  // namespace
 
-int Dataset::Identify(GDALOpenInfo* info) {
-  return isStream(*info) || isSubdatasetName(info->pszFilename);
-}
-
-GDALDataset* Dataset::Open(GDALOpenInfo* info) {
-  if (!Identify(info)) return nullptr;
-  std::optional<SubdatasetName> named;
-  if (!isStream(*info)) {
-    named = subdatasetName(info->pszFilename);
-    if (!named) return nullptr;
-  }
-  const std::string file = named ? named->file : info->pszFilename;
-  if (info->eAccess == GA_Update) {
-    CPLError(CE_Failure, CPLE_NotSupported,
-             "%s: A stream cannot be changed in place; open it read-only and make a copy.",
-             file.c_str());
+std::unique_ptr<Dataset> Dataset::of(std::shared_ptr<Source> source, tks_part part,
+                                     std::optional<uint32_t> frame) {
+  const tks_info& facts = source->info();
+  const std::string why = whyNoRaster(part, facts);
+  if (!why.empty()) {
+    const bool there = part == TKS_PART_HEIGHTS ? facts.has_heights != 0 : facts.has_texture != 0;
+    reportFailure(there ? TKS_UNSUPPORTED : TKS_USAGE, source->name(), why);
     return nullptr;
   }
-  const std::optional<OpenSettings> settings = openSettings(file, info->papszOpenOptions);
-  if (!settings) return nullptr;
-  const std::shared_ptr<Source> source = Source::open(file, *settings);
-  if (!source) return nullptr;
-  const tks_info& facts = source->info();
-  const std::optional<tks_part> part = partOf(named, *source);
-  if (!part) return nullptr;
-  source->choose(*part);
-  const bool heights = *part == TKS_PART_HEIGHTS;
+  source->choose(part, frame);
+  const bool heights = part == TKS_PART_HEIGHTS;
   const bool may_be_void = heights && source->cubeDepth() == 0;
   const std::optional<double> voids = may_be_void ? voidValueOf(facts) : std::nullopt;
-  std::unique_ptr<Dataset> dataset(new Dataset(source, voids));
+  std::unique_ptr<Dataset> dataset(new Dataset(std::move(source), voids));
   dataset->takeFacts();
   if (!dataset->takePlace(facts, heights)) return nullptr;
   dataset->addOverviews();
-  const bool both = facts.has_heights && whyNoRaster(TKS_PART_TEXTURE, facts).empty();
-  if (!named && both) dataset->listSubdatasets();
-  dataset->SetDescription(info->pszFilename);
-  if (named) {
-    dataset->SetPhysicalFilename(file.c_str());
-    // What the file's own name opens has one place beside it, whichever name it is opened by.
-    if (!heights && facts.has_heights) dataset->SetSubdatasetName(partName(*part));
+  return dataset;
+}
+
+void Dataset::beFile(char** siblings) {
+  const tks_info& facts = source_->info();
+  if (facts.has_heights && whyNoRaster(TKS_PART_TEXTURE, facts).empty()) {
+    CPLStringList list = subdatasetsOf(source_->name(), facts, 0, facts.frames);
+    GDALDataset::SetMetadata(list.List(), "SUBDATASETS");
   }
-  dataset->loadBeside(named ? nullptr : info->GetSiblingFiles());
-  // What is beside a file is about all of it, so statistics of a prefix are not kept.
-  if (settings->bytes) dataset->nPamFlags |= GPF_NOSAVE;
-  return dataset.release();
+  SetDescription(source_->name().c_str());
+  loadBeside(siblings);
+}
+
+void Dataset::beSubdataset(const char* description, const std::string& selection) {
+  SetDescription(description);
+  SetPhysicalFilename(source_->name().c_str());
+  if (!selection.empty()) SetSubdatasetName(selection.c_str());
+  loadBeside(nullptr);
 }
 
 Dataset::Dataset(std::shared_ptr<Source> source, std::optional<double> void_value)
@@ -148,8 +119,9 @@ void Dataset::addBands() {
   const tks_info& info = source_->info();
   for (uint32_t channel = 0; channel < source_->channels(); ++channel) {
     BandFacts facts;
-    facts.colour = colourOf(source_->channels(), channel, source_->hasAlpha());
+    if (!isHeights()) facts.colour = colourOf(source_->channels(), channel, source_->hasAlpha());
     if (isHeights()) {
+      if (source_->frames() > 1) facts.colour = GCI_Undefined;
       // A cube has no voids, and what is interpolated may be any number.
       if (info.has_nodata && source_->cubeDepth() == 0) facts.nodata = info.nodata;
       facts.scaling = {info.scale, info.offset};
@@ -175,7 +147,7 @@ void Dataset::takeFacts() {
   tellStream();
   if (!isHeights()) return;
   texts_.description = info.description;
-  GetRasterBand(1)->GDALRasterBand::SetDescription(info.description);
+  for (auto&& band : GetBands()) band->GDALRasterBand::SetDescription(info.description);
 }
 
 bool Dataset::takePlace(const tks_info& info, bool heights) {
@@ -208,19 +180,6 @@ void Dataset::addOverviews() {
     if (std::max(source_->width(level - 1), source_->height(level - 1)) <= kOverviewEnds) return;
     overviews_.emplace_back(new Dataset(*this, level));
   }
-}
-
-void Dataset::listSubdatasets() {
-  const tks_info& info = source_->info();
-  const auto add = [this](const std::string& key, const std::string& value) {
-    GDALDataset::SetMetadataItem(key.c_str(), value.c_str(), "SUBDATASETS");
-  };
-  add("SUBDATASET_1_NAME", nameOf({source_->name(), TKS_PART_HEIGHTS}));
-  const auto [width, height] = placedSize(info);
-  add("SUBDATASET_1_DESC", CPLSPrintf("[%ux%u] heights", height, width));
-  add("SUBDATASET_2_NAME", nameOf({source_->name(), TKS_PART_TEXTURE}));
-  add("SUBDATASET_2_DESC", CPLSPrintf("[%ux%ux%u] texture", info.texture_channels,
-                                      info.texture_height, info.texture_width));
 }
 
 CPLErr Dataset::GetGeoTransform(double* transform) {

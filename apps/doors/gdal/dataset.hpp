@@ -36,9 +36,23 @@ class Dataset final : public GDALPamDataset {
   /// What is kept beside is written while SerializeToXML is still this class's.
   ~Dataset() override { FlushCache(true); }
 
-  /// What `name` is: a file, or a subdataset of one. Null after a reported error.
+  /// What a name opens: a stream, a sequence of frames, or a part of either. Null after a reported
+  /// error, or where Identify() is 0.
   static GDALDataset* Open(GDALOpenInfo* info);
   static int Identify(GDALOpenInfo* info);
+
+  /// A component of a stream, and one of its frames; without a number all frames of heights, as
+  /// bands, and the first one of a texture. Null after a reported error.
+  static std::unique_ptr<Dataset> of(std::shared_ptr<Source> source, tks_part part,
+                                     std::optional<uint32_t> frame = std::nullopt);
+  /// It is what the name of the file opens, and takes what is beside; siblings: files in its folder,
+  /// or null.
+  void beFile(char** siblings);
+  /// It is what another name opens. selection: what it has beside is kept by this name; "": it is
+  /// what the file's own name opens.
+  void beSubdataset(const char* description, const std::string& selection);
+  /// What is beside the file is not about this, and nothing of it is kept there.
+  void keepNothing() { nPamFlags |= GPF_NOSAVE; }
 
   CPLErr GetGeoTransform(double* transform) override;
   const OGRSpatialReference* GetSpatialRef() const override;
@@ -64,6 +78,8 @@ class Dataset final : public GDALPamDataset {
   /// Of an overview: the raster that it is of.
   Dataset* raster() const { return raster_; }
   const Source& source() const { return *source_; }
+  /// Gives up what was decoded, until it is asked for again.
+  void rest() { source_->rest(); }
   bool isHeights() const { return source_->part() == TKS_PART_HEIGHTS; }
   const std::vector<std::unique_ptr<Dataset>>& overviews() const { return overviews_; }
 
@@ -97,7 +113,6 @@ class Dataset final : public GDALPamDataset {
   /// Counts in what a copy has kept beside of its rounding.
   void takeRounding();
   void addOverviews();
-  void listSubdatasets();
   /// Of an overview: whether its samples are classes, of which there are no means.
   bool hasClasses() const;
   /// What the pixels are made of.

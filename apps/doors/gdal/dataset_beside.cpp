@@ -35,20 +35,16 @@ void Dataset::loadBeside(char** siblings) {
     if (band->GetMetadata("IMAGE_STRUCTURE") != nullptr)
       band->GDALRasterBand::SetMetadata(of_bands.List(), "IMAGE_STRUCTURE");
   // GDAL empties it where the file says nothing.
-  GDALRasterBand& first = *GetRasterBand(1);
-  if (*first.GetDescription() == '\0')
-    first.GDALRasterBand::SetDescription(texts_.description.c_str());
+  for (auto&& band : GetBands())
+    if (isHeights() && *band->GetDescription() == '\0')
+      band->GDALRasterBand::SetDescription(texts_.description.c_str());
   takeRounding();
 }
 
 bool Dataset::isBesideOfAnother(char** siblings) {
   PamInitialize();
   const char* const file = BuildPamFilename();
-  if (file == nullptr) return false;
-  // GDAL does the same: it does not open a file that the list of the folder lacks.
-  const std::string folder = CPLGetPath(source_->name().c_str());
-  const bool listed = siblings != nullptr && folder == CPLGetPath(file);
-  if (listed && CSLFindString(siblings, CPLGetFilename(file)) < 0) return false;
+  if (file == nullptr || lacks(siblings, source_->name(), file)) return false;
   return isOfAnotherStream(file, GetSubdatasetName(), source_->checksum());
 }
 

@@ -51,22 +51,22 @@ std::vector<tks_range> requestsFor(const std::vector<tks_range>& ranges) {
   return joined(requests, widest);
 }
 
-bool readOne(VSILFILE* file, const tks_range& range, std::vector<uint8_t>& bytes) {
-  return VSIFSeekL(file, range.offset, SEEK_SET) == 0 &&
+bool readOne(VSILFILE* file, uint64_t begin, const tks_range& range, std::vector<uint8_t>& bytes) {
+  return VSIFSeekL(file, begin + range.offset, SEEK_SET) == 0 &&
          VSIFReadL(bytes.data(), 1, bytes.size(), file) == bytes.size();
 }
 
 /// Side by side where the kind of file can, else one after the other. A single range GDAL would
 /// read through a cache of its own, in pieces of 16 kB, but two that touch are one request of their
 /// size.
-bool readSideBySide(VSILFILE* file, const std::vector<tks_range>& requests,
+bool readSideBySide(VSILFILE* file, uint64_t begin, const std::vector<tks_range>& requests,
                     std::vector<std::vector<uint8_t>>& bytes) {
   std::vector<void*> data;
   std::vector<vsi_l_offset> offsets;
   std::vector<size_t> sizes;
   const auto ask = [&](size_t request, size_t from, size_t size) {
     data.push_back(bytes[request].data() + from);
-    offsets.push_back(requests[request].offset + from);
+    offsets.push_back(begin + requests[request].offset + from);
     sizes.push_back(size);
   };
   for (size_t i = 0; i < requests.size(); ++i) {
@@ -82,6 +82,11 @@ bool readSideBySide(VSILFILE* file, const std::vector<tks_range>& requests,
 }
 
 }  // namespace
+
+std::optional<uint64_t> lengthOf(const File& file) {
+  if (VSIFSeekL(file.get(), 0, SEEK_END) != 0) return std::nullopt;
+  return VSIFTellL(file.get());
+}
 
 std::span<const uint8_t> FileBytes::at(uint64_t place) const {
   const auto after = runs_.upper_bound(place);
@@ -145,10 +150,11 @@ std::optional<tks_range> FileBytes::read(std::span<const tks_range> ranges) {
   std::vector<std::vector<uint8_t>> bytes;
   for (const tks_range& request : requests) bytes.emplace_back(request.size);
   // GDAL keeps the first bytes, by which it knows formats; of others it would read more than asked.
-  const bool first = requests.size() == 1 && requests.front().offset == 0;
-  const bool together = !first && !requests.empty() && readSideBySide(file_.get(), requests, bytes);
+  const bool first = requests.size() == 1 && begin_ + requests.front().offset == 0;
+  const bool together =
+      !first && !requests.empty() && readSideBySide(file_.get(), begin_, requests, bytes);
   for (size_t i = 0; i < requests.size(); ++i) {
-    if (!together && !readOne(file_.get(), requests[i], bytes[i])) return requests[i];
+    if (!together && !readOne(file_.get(), begin_, requests[i], bytes[i])) return requests[i];
     take(requests[i].offset, std::move(bytes[i]));
   }
   return std::nullopt;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,16 +17,23 @@
 
 namespace tetrakis::gdal {
 
-struct FileCloser {
-  void operator()(VSILFILE* file) const { VSIFCloseL(file); }
-};
-using File = std::unique_ptr<VSILFILE, FileCloser>;
+/// Null if it cannot be opened. The streams of a sequence share their file.
+using File = std::shared_ptr<VSILFILE>;
+inline File openFile(const std::string& name) {
+  return {VSIFOpenL(name.c_str(), "rb"), [](VSILFILE* file) {
+            if (file != nullptr) VSIFCloseL(file);
+          }};
+}
+/// Nothing if it cannot be found.
+std::optional<uint64_t> lengthOf(const File& file);
 
 class FileBytes {
  public:
-  explicit FileBytes(File file) : file_(std::move(file)) {}
+  /// Places count from `begin`.
+  explicit FileBytes(File file, uint64_t begin = 0) : file_(std::move(file)), begin_(begin) {}
 
-  VSILFILE* file() const { return file_.get(); }
+  /// What was read is read again where it is needed again.
+  void forget() { runs_.clear(); }
 
   /// Reads what is missing of ranges in rising order, and what lies between. Returns a range that
   /// cannot be read, if there is one. Moves the bytes that are there.
@@ -42,6 +50,7 @@ class FileBytes {
   void take(uint64_t place, std::vector<uint8_t>&& bytes);
 
   File file_;
+  uint64_t begin_;
   std::map<uint64_t, std::vector<uint8_t>> runs_;  ///< by place; no two touch
 };
 

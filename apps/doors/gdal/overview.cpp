@@ -28,24 +28,22 @@ class Averager {
 
   /// Of three rows and columns of samples, from (x, y) of the level on.
   void pixel(uint32_t x, uint32_t y, const Shares& across, const Shares& down, T* out) const {
-    std::array<Sums, 4> sums{};
-    for (uint32_t row = 0; row < 3; ++row) {
-      for (uint32_t column = 0; column < 3; ++column) {
-        const double share = down[row] * across[column];
-        if (share == 0) continue;
-        const T* const from = at(x + column, y + row);
-        const double alpha = finer_.has_alpha ? static_cast<double>(from[finer_.channels - 1]) : 1;
-        for (uint32_t channel = 0; channel < finer_.channels; ++channel) {
+    for (uint32_t channel = 0; channel < finer_.channels; ++channel) {
+      Sums of;
+      for (uint32_t row = 0; row < 3; ++row) {
+        for (uint32_t column = 0; column < 3; ++column) {
+          const double share = down[row] * across[column];
+          if (share == 0) continue;
+          const T* const from = at(x + column, y + row);
           if (isVoid(channel, from[channel])) {
             out[channel] = from[channel];
-          } else {
-            sums[channel].add(static_cast<double>(from[channel]), share, alpha);
+            continue;
           }
+          const double alpha =
+              finer_.has_alpha ? static_cast<double>(from[finer_.channels - 1]) : 1;
+          of.add(static_cast<double>(from[channel]), share, alpha);
         }
       }
-    }
-    for (uint32_t channel = 0; channel < finer_.channels; ++channel) {
-      const Sums& of = sums[channel];
       if (of.weight == 0) continue;  // all were void
       const bool colour = !finer_.has_alpha || channel + 1 < finer_.channels;
       const double mean = colour && of.opaque > 0 ? of.shown / of.opaque : of.plain / of.weight;

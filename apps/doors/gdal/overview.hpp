@@ -16,7 +16,7 @@
 namespace tetrakis::gdal {
 
 /// Of each channel, if it has one: samples of this value are void, no part of any mean.
-using NodataValues = std::array<std::optional<double>, 4>;
+using NodataValues = std::array<std::optional<double>, TKS_MOST_FRAMES>;
 
 /// A part of the level of a component that an overview is made of, channels interleaved.
 struct FinerLevel {

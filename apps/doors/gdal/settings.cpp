@@ -11,49 +11,6 @@
 
 namespace tetrakis::gdal {
 
-const char* const kOpenOptions =
-    "<OpenOptionList>"
-    "<Option name='BYTES' type='string' description='Read no more than so many bytes from the "
-    "front of the stream (k, M and G are powers of 1024): a rougher terrain, sooner'/>"
-    "<Option name='STRICT' type='boolean' default='NO' description='Refuse streams that end early, "
-    "and check the whole syntax'/>"
-    "<Option name='NUM_THREADS' type='string' description='Threads of decoding: a number, or "
-    "ALL_CPUS' default='1'/>"
-    "</OpenOptionList>";
-
-const char* const kCreationOptions =
-    "<CreationOptionList>"
-    "<Option name='LOSSLESS' type='boolean' description='All pixels come back as they are: the "
-    "default without MAX_Z_ERROR, BYTES and PSNR'/>"
-    "<Option name='MAX_Z_ERROR' type='float' default='0' description='Largest error of any pixel, "
-    "in pixel values, guaranteed; 0 is lossless'/>"
-    "<Option name='BYTES' type='string' description='Size of the file: the best that fits (k, M "
-    "and G are powers of 1024)'/>"
-    "<Option name='PSNR' type='float' description='Quality of heights and texture, in dB'/>"
-    "<Option name='TEXTURE' type='string' description='Dataset with an image over the same ground, "
-    "of 1 to 4 bands of Byte or UInt16'/>"
-    "<Option name='WHITE_LEVEL' type='int' description='Value of a texture of UInt16 that shows as "
-    "white; found if not given'/>"
-    "<Option name='BLOCKSIZE' type='string' description='Side of the regions that can be read by "
-    "themselves: a power of two from 16 to 1048576, or NONE; chosen if not given'/>"
-    "<Option name='TILES' type='string' default='AUTO' description='Heights are read, coded and "
-    "written tile by tile, in the memory of one: the side of the tiles, a power of two from 16 to "
-    "16384, or NONE; AUTO: where they would take more than a quarter of the memory'/>"
-    "<Option name='INDEX' type='string-select' description='Write the byte ranges of all packets "
-    "into the header; WINDOWS, for lossless files and MAX_Z_ERROR: also lay each region out in one "
-    "piece, for windows; regions are of 256, unless BLOCKSIZE is given. Default: WINDOWS for "
-    "lossless files in regions, else NO'>"
-    "<Value>NO</Value><Value>YES</Value><Value>WINDOWS</Value></Option>"
-    "<Option name='DOMAIN' type='string-select' default='AUTO' description='CYLINDER: the last "
-    "column lies beside the first one, and no seam is seen between them; AUTO: of geographic grids "
-    "of 360 degrees; CUBE: such a grid is resampled on a cube, for BYTES or PSNR'>"
-    "<Value>AUTO</Value><Value>PLANE</Value><Value>CYLINDER</Value><Value>CUBE</Value></Option>"
-    "<Option name='DEPTH' type='int' description='Of DOMAIN=CUBE, from 1 to 14: the faces have "
-    "2^DEPTH x 2^DEPTH squares; chosen if not given'/>"
-    "<Option name='NUM_THREADS' type='string' description='Threads of encoding: a number, or "
-    "ALL_CPUS' default='1'/>"
-    "</CreationOptionList>";
-
 namespace {
 
 std::optional<uint32_t> threadsOf(const char* text) {
@@ -246,6 +203,18 @@ void takeTarget(Options& options, CopySettings& settings) {
     options.refuse("LOSSLESS=NO needs MAX_Z_ERROR, BYTES or PSNR, which say how much is kept.");
 }
 
+/// A sequence has frames of heights, which are coded in memory.
+bool framesGiven(Options& options, const CopySettings& settings) {
+  if (!options.flag("FRAMES").value_or(false)) return false;
+  for (const char* const key : {"TEXTURE", "WHITE_LEVEL", "TILES"})
+    if (options.text(key) != nullptr)
+      options.refuse(std::string("FRAMES=YES makes a sequence of heights, and ") + key +
+                     " does not go with it.");
+  if (settings.domain == TKS_DOMAIN_FOREST)
+    options.refuse("FRAMES=YES makes a sequence, which has no DOMAIN=CUBE.");
+  return true;
+}
+
 std::string textureName(Options& options) {
   const char* const given = options.text("TEXTURE");
   if (given != nullptr && *given == '\0') options.refuse("TEXTURE= names no dataset.");
@@ -280,6 +249,7 @@ std::optional<CopySettings> copySettings(const std::string& name, CSLConstList o
   settings.domain = domainGiven(given);
   settings.depth = depthGiven(given);
   settings.texture = textureName(given);
+  settings.frames = framesGiven(given, settings);
   checkCube(given, settings);
   const uint64_t white = given.count("WHITE_LEVEL", "value of UInt16 above 0");
   settings.white_level = static_cast<uint32_t>(std::min<uint64_t>(white, UINT32_MAX));

@@ -24,6 +24,7 @@ struct CopySettings {
   std::optional<tks_domain> domain;  ///< nothing: as the columns say; a forest: a cube
   uint32_t depth = 0;                ///< of a cube; 0: the one that suits the grid
   std::optional<uint32_t> tiles;     ///< side of those of a mosaic; 0: none; nothing: chosen
+  bool frames = false;               ///< bands are frames of a sequence
   uint32_t white_level = 0;          ///< of a texture; 0: as its dataset says, or found
 };
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <new>
 #include <utility>
 
 #include <cpl_error.h>
@@ -51,14 +50,22 @@ void reportFailure(tks_status status, const std::string& name, const std::string
   CPLError(CE_Failure, errorNumber(status), "%s: %s", shownText(name).c_str(), told.c_str());
 }
 
-std::unique_ptr<Source> Source::open(const std::string& name, const OpenSettings& settings) {
-  File file(VSIFOpenL(name.c_str(), "rb"));
-  if (!file) {
-    reportFailure(TKS_IO, name, "The file cannot be opened.");
+std::string hexadecimal(std::span<const uint8_t, 4> bytes) {
+  return CPLSPrintf("%02X%02X%02X%02X", bytes[3], bytes[2], bytes[1], bytes[0]);
+}
+
+std::unique_ptr<Source> Source::open(const std::string& name, const File& file,
+                                     const Extent& extent, const OpenSettings& settings) {
+  const std::optional<uint64_t> length = lengthOf(file);
+  if (!length) {
+    reportFailure(TKS_IO, name, "The length of the file cannot be found.");
     return nullptr;
   }
-  std::unique_ptr<Source> source(new Source(name, settings, std::move(file)));
-  if (!source->readHeader() || !source->checkLength()) return nullptr;
+  const uint64_t end = std::min(*length, settings.bytes.value_or(UINT64_MAX));
+  const uint64_t there = std::min(end - std::min(end, extent.begin), extent.size);
+  std::unique_ptr<Source> source(new Source(name, settings, FileBytes(file, extent.begin)));
+  if (!source->readHeader(there) || !source->checkLength()) return nullptr;
+  source->checksum_ = extent.checksum.empty() ? source->checksumOfHeader() : extent.checksum;
   if (isGridOnCube(source->info_)) source->cube_depth_ = source->info_.forest.depth;
   return source;
 }
@@ -75,18 +82,29 @@ std::optional<uint64_t> Source::findHeader() {
   return there;
 }
 
-bool Source::readHeader() {
-  if (VSIFSeekL(bytes_.file(), 0, SEEK_END) != 0) {
-    reportFailure(TKS_IO, name_, "The length of the file cannot be found.");
-    return false;
-  }
-  end_ = std::min<uint64_t>(VSIFTellL(bytes_.file()), settings_.bytes.value_or(UINT64_MAX));
+bool Source::readHeader(uint64_t there) {
+  end_ = there;
   const std::optional<uint64_t> header = findHeader();
   if (!header) return false;
   const tks_status status = openPrefix(std::min(end_, std::max(kHeaderGuess, *header)));
   if (end_ == 0) message_ = "There are no bytes.";
   if (status != TKS_OK && status != TKS_IO) reportFailure(status, name_, message_);
   return status == TKS_OK;
+}
+
+std::string Source::checksumOfHeader() const {
+  // The last four bytes of the header (docs/FORMAT.md, section 2).
+  constexpr size_t kBytes = 4;
+  return hexadecimal(bytes_.at(info_.header_bytes - kBytes).first<kBytes>());
+}
+
+void Source::rest() {
+  decoder_.reset();
+  opened_ = 0;
+  has_whole_ = false;
+  kept_.clear();
+  cube_.clear();
+  bytes_.forget();
 }
 
 bool Source::checkLength() {
@@ -248,49 +266,6 @@ StatedQuality Source::statedQuality() {
   info.size = sizeof info;
   if (tks_get_info(opened, &info) == TKS_OK) quality = {info.heights_rmse, info.texture_psnr};
   return quality;
-}
-
-bool Source::decodeLevel(uint32_t level, std::vector<std::byte>& out) {
-  const bool heights = part_ == TKS_PART_HEIGHTS;
-  const uint64_t bytes = uint64_t{width(level)} * height(level) * pixelBytes();
-  tks_decoder* const decoder = decoder_.get();
-  tks_status status = tks_set_levels(decoder, heights ? level : 0, heights ? 0 : level);
-  if (status == TKS_OK) status = tks_check_memory(decoder, part_, nullptr, 0, bytes, nullptr);
-  if (status != TKS_OK) return failed(status);
-  out.resize(bytes);
-  status = heights ? tks_decode_heights(decoder, out.data(), bytes)
-                   : tks_decode_texture(decoder, out.data(), bytes);
-  return status == TKS_OK || failed(status);
-}
-
-const std::byte* Source::level(uint32_t level) {
-  std::vector<std::byte>& kept = kept_[level];
-  if (!kept.empty()) return kept.data();
-  if (!load(level, nullptr)) return nullptr;
-  try {
-    std::vector<std::byte> pixels;
-    if (!decodeLevel(level, pixels)) return nullptr;
-    kept = std::move(pixels);
-    return kept.data();
-  } catch (const std::bad_alloc&) {
-    reportFailure(TKS_NO_MEMORY, name_, "");
-    return nullptr;
-  }
-}
-
-bool Source::window(const tks_window& window, std::vector<std::byte>& out) {
-  CPLDebug("TKS", "%s: decoding %u x %u from %u, %u", name_.c_str(), window.width, window.height,
-           window.x, window.y);
-  if (cubeDepth() > 0) return gridWindow(window, out);
-  if (!load(0, &window)) return false;
-  tks_decoder* const decoder = decoder_.get();
-  tks_status status = tks_set_levels(decoder, 0, 0);
-  if (status != TKS_OK) return failed(status);
-  out.resize(size_t{window.width} * window.height * pixelBytes());
-  status = part_ == TKS_PART_HEIGHTS
-               ? tks_decode_heights_window(decoder, &window, out.data(), out.size())
-               : tks_decode_texture_window(decoder, &window, out.data(), out.size());
-  return status == TKS_OK || failed(status);
 }
 
 }  // namespace tetrakis::gdal

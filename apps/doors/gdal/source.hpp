@@ -20,6 +20,9 @@ namespace tetrakis::gdal {
 /// The failure of a call of the library as an error of GDAL: the sentence after the file's name.
 void reportFailure(tks_status status, const std::string& name, const std::string& sentence);
 
+/// A checksum as it lies in a file.
+std::string hexadecimal(std::span<const uint8_t, 4> bytes);
+
 struct OpenSettings {
   std::optional<uint64_t> bytes;  ///< as if the file were no longer than that
   bool strict = false;            ///< a stream that ends early or has damages is refused
@@ -32,12 +35,19 @@ struct StatedQuality {
   double texture_psnr = -1;  ///< in dB; infinity: exact
 };
 
+/// Where a stream lies in a file; `size`: at most.
+struct Extent {
+  uint64_t begin = 0, size = UINT64_MAX;
+  std::string checksum;  ///< that tells the file from others; "": that of the stream
+};
+
 /// Opening reads the header; the rest is read when samples are asked for: of streams with a front
 /// index the packets that they need, else the file from its beginning.
 class Source {
  public:
-  /// Null after an error was reported.
-  static std::unique_ptr<Source> open(const std::string& name, const OpenSettings& settings);
+  /// Null after an error was reported. name: of the file.
+  static std::unique_ptr<Source> open(const std::string& name, const File& file,
+                                      const Extent& extent, const OpenSettings& settings);
 
   /// Of level 0. Its texts live until samples or errors are asked for.
   const tks_info& info() const { return info_; }
@@ -48,16 +58,25 @@ class Source {
   /// Reads all bytes that are there, unless the header says enough, or they lie where reading costs
   /// and an index is there to read less. Reports no errors.
   StatedQuality statedQuality();
-  /// That of the header, in hexadecimal digits: it tells this stream from others.
-  std::string checksum() const;
+  /// That of the header, or of the head of a sequence, in hexadecimal digits: it tells the file from
+  /// others.
+  const std::string& checksum() const { return checksum_; }
+  /// Gives up what was read and decoded, which is read and decoded again once it is asked for.
+  void rest();
 
-  /// Everything below concerns this component; the heights at first.
-  void choose(tks_part part) { part_ = part; }
+  /// Everything below concerns this component, the heights at first; and one of its frames or,
+  /// without a number, all frames of heights, which are channels, and the first one of a texture.
+  void choose(tks_part part, std::optional<uint32_t> frame = std::nullopt) {
+    part_ = part;
+    frame_ = frame;
+  }
   tks_part part() const { return part_; }
   const std::string& name() const { return name_; }
   uint32_t width(uint32_t level) const;
   uint32_t height(uint32_t level) const;
   uint32_t channels() const;
+  /// How many are shown: more than one are the channels of heights.
+  uint32_t frames() const;
   bool hasAlpha() const;  ///< as the last channel
   /// Coded as it is, without a wavelet: levels hold samples of the raster, not means.
   bool isDrawn() const;
@@ -85,9 +104,11 @@ class Source {
  private:
   using DecoderPointer = std::unique_ptr<tks_decoder, decltype(&tks_close)>;
 
-  Source(std::string name, const OpenSettings& settings, File file)
-      : name_(std::move(name)), settings_(settings), bytes_(std::move(file)) {}
-  bool readHeader();
+  Source(std::string name, const OpenSettings& settings, FileBytes bytes)
+      : name_(std::move(name)), settings_(settings), bytes_(std::move(bytes)) {}
+  /// there: how many bytes of the file may be the stream's.
+  bool readHeader(uint64_t there);
+  std::string checksumOfHeader() const;
   /// Reads as much as the header takes, or there is, and returns how many bytes. Nothing after a
   /// reported error.
   std::optional<uint64_t> findHeader();
@@ -108,6 +129,9 @@ class Source {
   /// Whether that took anything off.
   static bool cutShares(std::vector<tks_range>& ranges, uint64_t bytes);
   bool failed(tks_status status);
+  /// All pixels of the level that is set, or a window of level 0.
+  bool decode(const tks_window* window, uint64_t pixels, std::vector<std::byte>& out);
+  tks_status decodeFrame(uint32_t frame, const tks_window* window, std::span<std::byte> out);
   bool decodeLevel(uint32_t level, std::vector<std::byte>& out);
   bool decodeCube();
   /// A part of the grid of a cube.
@@ -116,6 +140,8 @@ class Source {
   std::string name_;
   OpenSettings settings_;
   tks_part part_ = TKS_PART_HEIGHTS;
+  std::optional<uint32_t> frame_;
+  std::string checksum_;
   uint64_t end_ = 0;  ///< of what may be used
   FileBytes bytes_;
   uint64_t opened_ = 0;     ///< how many of the first bytes the decoder has; 0: ranges

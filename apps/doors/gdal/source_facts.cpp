@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the header says of the component that was chosen.
-#include <cpl_string.h>
 #include "apps/doors/gdal/source.hpp"
 
 namespace tetrakis::gdal {
@@ -11,13 +10,6 @@ uint32_t sideOfLevel(uint32_t side, uint32_t level) {
 }
 
 }  // namespace
-
-std::string Source::checksum() const {
-  // The last four bytes of the header (docs/FORMAT.md, section 2).
-  constexpr size_t kBytes = 4;
-  const auto bytes = bytes_.at(info_.header_bytes - kBytes).first(kBytes);
-  return CPLSPrintf("%02X%02X%02X%02X", bytes[3], bytes[2], bytes[1], bytes[0]);
-}
 
 uint32_t Source::width(uint32_t level) const {
   if (cubeDepth() > 0) return info_.grid_width;
@@ -30,7 +22,11 @@ uint32_t Source::height(uint32_t level) const {
 }
 
 uint32_t Source::channels() const {
-  return part_ == TKS_PART_HEIGHTS ? 1 : info_.texture_channels;
+  return part_ == TKS_PART_HEIGHTS ? frames() : info_.texture_channels;
+}
+
+uint32_t Source::frames() const {
+  return frame_ || part_ != TKS_PART_HEIGHTS ? 1 : info_.frames;
 }
 
 bool Source::hasAlpha() const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/doors/gdal/subdataset_name.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <string_view>
 
 #include <cpl_port.h>
@@ -9,11 +11,34 @@
 namespace tetrakis::gdal {
 namespace {
 
-constexpr std::string_view kPrefix = "TKS:";
+constexpr std::string_view kPrefix = "TKS:", kFrame = "frame=";
 
 std::string withoutQuotes(const std::string& text) {
   const bool quoted = text.size() >= 2 && text.front() == '"' && text.back() == '"';
   return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
+/// Takes what follows the last colon; nothing if there is no colon.
+std::optional<std::string> takeLast(std::string& rest) {
+  const size_t colon = rest.rfind(':');
+  if (colon == std::string::npos) return std::nullopt;
+  std::string last = rest.substr(colon + 1);
+  rest.resize(colon);
+  return last;
+}
+
+std::optional<tks_part> partOf(const std::string& word) {
+  for (const tks_part part : {TKS_PART_HEIGHTS, TKS_PART_TEXTURE})
+    if (EQUAL(word.c_str(), partName(part))) return part;
+  return std::nullopt;
+}
+
+std::optional<uint64_t> frameOf(const std::string& word) {
+  if (!STARTS_WITH_CI(word.c_str(), kFrame.data())) return std::nullopt;
+  uint64_t frame = 0;
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data() + kFrame.size(), end, frame);
+  return error == std::errc() && stop == end ? std::optional(frame) : std::nullopt;
 }
 
 }  // namespace
@@ -23,20 +48,63 @@ bool isSubdatasetName(const char* text) {
 }
 
 std::optional<SubdatasetName> subdatasetName(const char* text) {
-  const std::string rest = text + kPrefix.size();
-  const size_t colon = rest.rfind(':');
-  if (colon != std::string::npos) {
-    const std::string file = withoutQuotes(rest.substr(0, colon));
-    for (const tks_part part : {TKS_PART_HEIGHTS, TKS_PART_TEXTURE})
-      if (EQUAL(rest.c_str() + colon + 1, partName(part))) return SubdatasetName{file, part};
+  SubdatasetName name;
+  std::string rest = text + kPrefix.size();
+  std::string before = rest;
+  if (std::optional<std::string> word = takeLast(before)) {
+    name.part = partOf(*word);
+    if (name.part) {
+      rest = before;
+      word = takeLast(before);
+    }
+    if (word) name.frame = frameOf(*word);
+    if (name.frame) rest = before;
+    name.file = withoutQuotes(rest);
   }
+  if (name.part || name.frame) return name;
   reportFailure(TKS_USAGE, text,
-                "The name of a subdataset is TKS:\"FILE\":heights or TKS:\"FILE\":texture.");
+                "The name of a subdataset is TKS:\"FILE\":heights or TKS:\"FILE\":texture, or of a "
+                "frame TKS:\"FILE\":frame=NUMBER, with :heights or :texture behind it.");
   return std::nullopt;
 }
 
+std::string selectionOf(const SubdatasetName& subdataset) {
+  std::string place;
+  if (subdataset.frame) place = std::string(kFrame) + std::to_string(*subdataset.frame);
+  if (subdataset.frame && subdataset.part) place += ':';
+  if (subdataset.part) place += partName(*subdataset.part);
+  return place;
+}
+
 std::string nameOf(const SubdatasetName& subdataset) {
-  return std::string(kPrefix) + '"' + subdataset.file + "\":" + partName(subdataset.part);
+  return std::string(kPrefix) + '"' + subdataset.file + "\":" + selectionOf(subdataset);
+}
+
+CPLStringList subdatasetsOf(const std::string& file, const tks_info& info, uint64_t first,
+                            uint64_t end) {
+  constexpr uint64_t kMost = 1000;
+  CPLStringList list;
+  int number = 0;
+  const auto add = [&](const SubdatasetName& name, const std::string& description) {
+    ++number;
+    list.SetNameValue(CPLSPrintf("SUBDATASET_%d_NAME", number), nameOf(name).c_str());
+    list.SetNameValue(CPLSPrintf("SUBDATASET_%d_DESC", number), description.c_str());
+  };
+  const bool moves = end - first > 1;
+  if (info.has_heights) {
+    const bool on_grid = info.grid_width > 0;
+    std::string bands = moves ? std::to_string(end - first) + "x" : "";
+    add({file, TKS_PART_HEIGHTS, {}},
+        CPLSPrintf("[%s%ux%u] heights", bands.c_str(), on_grid ? info.grid_height : info.height,
+                   on_grid ? info.grid_width : info.width));
+  }
+  const std::string size = CPLSPrintf("[%ux%ux%u] texture", info.texture_channels,
+                                      info.texture_height, info.texture_width);
+  for (uint64_t frame = first; frame < std::min(end, first + kMost); ++frame) {
+    const std::string of = moves ? " of frame " + std::to_string(frame) : "";
+    add({file, TKS_PART_TEXTURE, moves ? std::optional(frame) : std::nullopt}, size + of);
+  }
+  return list;
 }
 
 const char* partName(tks_part part) {

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// What datasets are called: a file, or one of the two parts of it.
+// What datasets are called: a file, one of the two parts of it, a frame, or a part of a frame.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
+#include <cpl_string.h>
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::gdal {
 
-/// TKS:"file":heights or TKS:"file":texture, also without the quotes.
+/// TKS:"file":heights, TKS:"file":frame=17, TKS:"file":frame=17:texture, also without the quotes.
 struct SubdatasetName {
   std::string file;
-  tks_part part;
+  std::optional<tks_part> part;
+  std::optional<uint64_t> frame;
 };
 
 /// Whether a name is meant for one, well formed or not.
@@ -22,6 +25,13 @@ bool isSubdatasetName(const char* text);
 std::optional<SubdatasetName> subdatasetName(const char* text);
 
 std::string nameOf(const SubdatasetName& subdataset);
+/// The same without file: "frame=17:texture".
+std::string selectionOf(const SubdatasetName& subdataset);
+
+/// What the domain SUBDATASETS lists of a file with heights and textures of frames [first, end):
+/// the heights, which are bands, and the texture of each frame, up to a thousand.
+CPLStringList subdatasetsOf(const std::string& file, const tks_info& info, uint64_t first,
+                            uint64_t end);
 
 /// The word for a part.
 const char* partName(tks_part part);

@@ -108,6 +108,19 @@ def test_blocks_equal_the_whole(tmp_path):
         np.testing.assert_array_equal(block[: part.shape[0], : part.shape[1]], part)
 
 
+@pytest.mark.parametrize("rows, columns", [(70, 80), (130, 70), (140, 200), (65, 300)])
+def test_statistics_which_read_block_by_block(tmp_path, rows, columns):
+    """GDAL puts a block into its cache before it asks for its samples: it is not there yet."""
+    name = str(tmp_path / "a.tks")
+    heights = terrain(rows, columns, "i2")
+    copy(heights, name, "BLOCKSIZE=32")
+    dataset = gdal.Open(name)
+    low, high, mean, spread = dataset.GetRasterBand(1).ComputeStatistics(False)
+    assert (low, high) == (heights.min(), heights.max())
+    assert (mean, spread) == pytest.approx((heights.mean(), heights.std()))
+    np.testing.assert_array_equal(dataset.ReadAsArray(), heights)
+
+
 @pytest.mark.parametrize("cache", [1 << 17, 1 << 18, 1 << 26])
 def test_blocks_one_after_the_other(tmp_path, cache):
     """By rows, by columns, and level 1: strips that are decoded at once, of any height."""

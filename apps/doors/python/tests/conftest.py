@@ -25,6 +25,17 @@ def terrain(rows=45, columns=59, dtype="f4", seed=1):
     return (low + hills * (high - low)).astype(np.int64).astype(dtype)
 
 
+def moving(frames=21, rows=30, columns=35, dtype="i2"):
+    """(time, rows, columns): a terrain with a hill that crosses it, and voids that come and go."""
+    still = terrain(rows, columns, "i2") // 64
+    y, x = np.mgrid[0:rows, 0:columns]
+    cube = np.stack([still + 90 * np.exp(-((x - 2 * t) ** 2 + (y - 9) ** 2) / 30) for t in
+                     range(frames)])  # fmt: skip
+    cube = np.floor(cube)
+    cube[3:9, 4:11, 8:20] = -9999
+    return cube.astype(dtype)
+
+
 def photograph(rows=40, columns=48, channels=3, dtype="u1"):
     layers = [terrain(rows, columns, dtype, seed) for seed in range(channels)]
     return layers[0] if channels == 1 else np.stack(layers, axis=2)

@@ -117,12 +117,25 @@ def test_numcodecs_configuration(codec):
     decoded = lossy.decode(lossy.encode(chunk))
     assert np.abs(decoded - chunk).max() <= 0.25
     assert (decoded[3:9, 5:9] == -9999).all()
-    layers = [((3, 4, 5), "f4"), ((3, 4, 3), "f4"), ((3, 4, 5), "u1"), ((2, 3, 4, 3), "u1")]
+    layers = [((2, 3, 4, 3), "f4"), ((2, 3, 4, 5), "u1"), ((2, 2, 3, 4, 3), "u1")]
     for shape, dtype in [*layers, (9, "f4")]:
-        with pytest.raises(tetrakis.TksUsageError, match="choose chunks of one layer"):
+        with pytest.raises(tetrakis.TksUsageError, match="choose other chunks"):
             codec().encode(np.zeros(shape, dtype))
     with pytest.raises(tetrakis.TksUsageError, match="A chunk of type float64"):
         codec().encode(np.zeros((4, 4)))
+
+
+@pytest.mark.parametrize("shape, dtype", [
+    ((37, 9, 20), "f4"), ((2, 9, 20), "u1"), ((3, 4, 3), "f4"), ((1, 5, 9, 20), "i2"),
+    ((5, 9, 20, 3), "u1"),
+])  # fmt: skip
+def test_numcodecs_chunks_with_time(codec, shape, dtype):
+    chunk = np.resize(terrain(9, 20, "u1"), shape).astype(dtype)
+    encoded = codec().encode(chunk)
+    np.testing.assert_array_equal(codec().decode(encoded).reshape(shape), chunk)
+    assert len(codec(bytes=4000).encode(chunk)) <= 4000
+    with pytest.raises(tetrakis.TksUsageError, match="order='C'"):
+        codec().encode(np.asfortranarray(chunk))
 
 
 def test_numcodecs_finds_the_codec_by_its_entry_point(codec):
@@ -144,5 +157,8 @@ def test_zarr_2_arrays(codec):
     with ThreadPoolExecutor(4) as pool:
         rows = list(pool.map(lambda row: array[row], range(0, 70, 9)))
     np.testing.assert_array_equal(np.stack(rows), heights[::9])
+    cube = np.stack([heights, heights + 1, heights])
+    array = zarr.array(cube, chunks=(2, 32, 32), compressor=codec())
+    np.testing.assert_array_equal(array[:], cube)
     by_columns = zarr.array(heights, chunks=(32, 32), order="F", compressor=codec())
     np.testing.assert_array_equal(by_columns[:], heights)

@@ -83,6 +83,7 @@ def test_all_that_is_public_is_described():
         thing = getattr(tetrakis, name)
         if name != "__version__":
             assert thing.__doc__, name
-    for name in vars(tetrakis.Stream):
-        if not name.startswith("_"):
-            assert getattr(tetrakis.Stream, name).__doc__ or name == "closed", name
+    for kind in (tetrakis.Stream, tetrakis.Sequence, tetrakis.SequenceEncoder, tetrakis.Clock):
+        for name in vars(kind):
+            if not name.startswith("_") and name not in ("closed", "tick", "epoch", "calendar"):
+                assert getattr(kind, name).__doc__, name

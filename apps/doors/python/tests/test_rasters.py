@@ -144,7 +144,8 @@ def test_arrays_of_xarray(heights):
     banded = data_array(heights[np.newaxis])
     assert tetrakis.open(tetrakis.from_xarray(banded)).shape == heights.shape
     with pytest.raises(tetrakis.TksUsageError, match="isel"):
-        tetrakis.from_xarray(data_array(np.stack([heights, heights])))
+        tetrakis.from_xarray(data_array(heights).expand_dims(["member", "time"]).isel(
+            member=[0, 0], time=[0, 0]))  # fmt: skip
 
 
 def test_textures_of_xarray(heights):

@@ -50,6 +50,19 @@ def test_ctrl_c_ends_an_encode_soon(progress):
     assert float(done.stdout) < 2
 
 
+def test_ctrl_c_ends_a_sequence_soon():
+    done = run(
+        "threading.Timer(1.5, interrupt).start()\n"
+        "try:\n"
+        "    tetrakis.encode_sequence([heights + t for t in range(4)], max_error=0.5, group=4)\n"
+        "except KeyboardInterrupt:\n"
+        "    print(time.monotonic() - sent[-1])\n"
+        "assert tetrakis.encode(small, bytes=3000) == before\n"
+    )
+    assert done.returncode == 0 and not done.stderr, done.stderr
+    assert float(done.stdout) < 2
+
+
 def test_ctrl_c_in_a_progress_callable_ends_an_encode():
     done = run(
         "def progress(done):\n"

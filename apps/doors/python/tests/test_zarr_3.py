@@ -12,7 +12,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import zarr_3_stand_in
-from conftest import SAMPLES, photograph, terrain
+from conftest import SAMPLES, moving, photograph, terrain
 
 import tetrakis
 
@@ -52,6 +52,7 @@ def test_arrays(zarr_3, dtype):
 
 @pytest.mark.parametrize("layers, chunks", [(terrain()[None], (1, 20, 30)),
                                             (photograph(40, 48), (32, 32, 3)),
+                                            (moving(5, 40, 48), (2, 32, 32)),
                                             (photograph(40, 48, 1)[..., None], (32, 32, 1))])
 def test_axes(zarr_3, layers, chunks):
     array, _ = zarr_3.Array.create(layers, chunks, zarr_3.Codec())

@@ -12,12 +12,20 @@ Surfaces of scans and other triangle meshes likewise:
     with tetrakis.open(stream) as thing:
         points, triangles, *_ = thing.object(triangles=5000)
 
+Frames that follow one another in time:
+
+    stream = tetrakis.encode_sequence(cube, times=dates, max_error=0.1)
+    with tetrakis.open_sequence(stream) as sequence:
+        series = sequence[:, 10, 20]
+
 Terrain that no machine holds, by windows of its source: `tetrakis.mosaic`.
 """
 
 from . import mosaic
+from ._clock import Clock
 from ._encode import encode
 from ._encode_object import EncodedObject, ObjectReport, encode_object
+from ._encode_sequence import encode_sequence
 from ._errors import (
     Status,
     TksCorruptError,
@@ -33,6 +41,8 @@ from ._errors import (
 from ._info import Info
 from ._objects import BaseMesh, ObjectMesh
 from ._rasterio import from_rasterio, to_geotiff
+from ._sequence import Sequence, open_sequence
+from ._sequence_encoder import SequenceEncoder
 from ._stream import GlobeMesh, Mesh, Stream, open, truncate
 from ._tks import tks_check, tks_decode, tks_encode, tks_version
 from ._version import __version__
@@ -40,12 +50,15 @@ from ._xarray import from_xarray
 
 __all__ = [
     "BaseMesh",
+    "Clock",
     "EncodedObject",
     "GlobeMesh",
     "Info",
     "Mesh",
     "ObjectMesh",
     "ObjectReport",
+    "Sequence",
+    "SequenceEncoder",
     "Status",
     "Stream",
     "TksCorruptError",
@@ -60,10 +73,12 @@ __all__ = [
     "__version__",
     "encode",
     "encode_object",
+    "encode_sequence",
     "from_rasterio",
     "from_xarray",
     "mosaic",
     "open",
+    "open_sequence",
     "tks_check",
     "tks_decode",
     "tks_encode",

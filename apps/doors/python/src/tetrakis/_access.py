@@ -16,7 +16,7 @@ from typing import Any, Iterator, List, Optional, Tuple
 from . import _library as c
 from . import _values as values
 from ._decoder import Decoder, header_bytes
-from ._errors import TksCorruptError, TksUsageError
+from ._errors import TksCorruptError, TksUnsupportedError, TksUsageError
 from ._info import Info
 from ._source import Ranged, first_bytes, ranged
 
@@ -26,6 +26,7 @@ _FIRST = 1 << 16
 _GAP = 1 << 14
 # Decoders that wait for a call: as many as threads often call side by side.
 _IDLE = 4
+_SEQUENCE = b"TKG\x1a"
 
 Need = Tuple[int, Optional[c.Window]]
 
@@ -46,6 +47,8 @@ class Access:
         self._lock = threading.RLock()
         self._idle: List[Decoder] = []
         self._sound: Optional[bool] = None
+        if self._bytes()[: len(_SEQUENCE)] == _SEQUENCE:
+            raise TksUnsupportedError("This is a sequence of frames: open_sequence() opens it.")
         with self._made() as decoder:
             self._header = decoder.info()
         if self._source is not None and not self._header.index:
@@ -178,6 +181,7 @@ class Access:
         try:
             yield decoder
             decoder.set_levels(0, 0)
+            decoder.set_frame(0)
         except BaseException:
             decoder.close()
             raise
@@ -210,6 +214,10 @@ def access(source: Any, limit: Optional[int], limits: c.Limits, threads: int) ->
     parts = None if limit is not None or isinstance(source, bytes) else ranged(source)
     if parts is None:
         return Access(first_bytes(source, limit), None, limits, threads)
+    return access_by_ranges(parts, limits, threads)
+
+
+def access_by_ranges(parts: Ranged, limits: c.Limits, threads: int) -> Access:
     data = parts.read(0, _FIRST)
     if len(data) < _FIRST:
         return Access(data, None, limits, threads)

@@ -9,9 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _values as values
+from ._encode_sequence import encode_sequence
 from ._errors import TksUsageError
+from ._sequence import open_sequence
+from ._sequence_library import MOST_FRAMES
 from ._source import BytesLike
-from ._tks import tks_decode, tks_encode
+from ._tks import tks_check, tks_decode, tks_encode
 
 
 def configuration(
@@ -39,16 +42,28 @@ def layer(chunk: NDArray[Any]) -> NDArray[Any]:
     return array
 
 
+def _frames(array: NDArray[Any]) -> Optional[Dict[str, NDArray[Any]]]:
+    """A layer for each step of an axis in front, as what encode_sequence() takes."""
+    if array.ndim == 4 and _is_texture(array[0]):
+        return dict(texture=array)
+    return dict(heights=array) if array.ndim == 3 else None
+
+
 def to_stream(chunk: NDArray[Any], options: Dict[str, Any]) -> BytesLike:
     check_type(chunk.dtype)
     array = layer(chunk)
-    if array.ndim != 2 and not _is_texture(array):
+    if array.ndim == 2 or _is_texture(array):
+        return tks_encode(array, **options)
+    frames = _frames(array)
+    if frames is None:
         raise TksUsageError(
             f"A chunk of shape {chunk.shape} and type {chunk.dtype} is neither heights, (rows, "
-            "columns), nor a texture, (rows, columns, 1 to 4 channels) of uint8 or uint16: choose "
-            "chunks of one layer."
+            "columns), nor a texture, (rows, columns, 1 to 4 channels) of uint8 or uint16, nor "
+            "several of these along an axis of time in front: choose other chunks."
         )
-    return tks_encode(array, **options)
+    if "bytes" in options:
+        options = {**options, "bytes": options["bytes"] // len(array)}
+    return encode_sequence(**frames, group=MOST_FRAMES, seekable=False, **options)
 
 
 def _is_texture(array: NDArray[Any]) -> bool:
@@ -57,4 +72,7 @@ def _is_texture(array: NDArray[Any]) -> bool:
 
 
 def from_stream(stream: BytesLike) -> NDArray[Any]:
-    return tks_decode(stream)
+    if tks_check(stream):
+        return tks_decode(stream)
+    with open_sequence(stream) as frames:
+        return np.asarray(frames)

@@ -21,9 +21,9 @@ class Decoder:
     """Owns a tks_decoder over `data`, which it keeps alive."""
 
     def __init__(self, data: builtins.bytes, limits: c.Limits, threads: int = 1) -> None:
+        self._handle = ctypes.c_void_p()
         self._data = data
         self._held = [(0, len(data))]
-        self._handle = ctypes.c_void_p()
         self._levels = {c.PART_HEIGHTS: 0, c.PART_TEXTURE: 0}
         message = ctypes.create_string_buffer(1024)
         status = c.lib.tks_open(data, len(data), limits, self._handle, message, len(message))
@@ -36,6 +36,10 @@ class Decoder:
 
     def __exit__(self, *_: Any) -> None:
         self.close()
+
+    def __del__(self) -> None:
+        if self._handle:
+            self.close()
 
     def close(self) -> None:
         c.lib.tks_close(self._handle)
@@ -62,6 +66,9 @@ class Decoder:
             raise TksUsageError("Heights that come from a cube have level 0 only.")
         self.check(c.lib.tks_set_levels(self._handle, heights, texture))
         self._levels = {c.PART_HEIGHTS: heights, c.PART_TEXTURE: texture}
+
+    def set_frame(self, frame: int) -> None:
+        self.check(c.lib.tks_set_frame(self._handle, frame))
 
     def _allow(self, part: int, window: Optional[c.Window], beside: int) -> None:
         """Refused here, a stream that claims too much costs no array."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import builtins
 import ctypes
-from typing import Any, Literal, Optional, Sequence, Tuple, Union
+from typing import Any, Dict, Literal, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,8 +16,14 @@ from . import _stoppable as stoppable
 from . import _values as values
 from ._errors import Status, TksUsageError, error
 
+_OF_HEIGHTS = (
+    "nodata unit spacing scale offset step crs geotransform registration vertical_datum "
+    "description geo_keys domain latitudes"
+).split()
+_OF_TEXTURE = "crs geotransform registration geo_keys alpha white_level domain".split()
+
 # So many samples and less are coded before anybody would press Ctrl-C.
-_SHORT = 1 << 14
+SHORT = 1 << 14
 
 
 def _unused_value(valid: NDArray[Any], fill_value: Any) -> int:
@@ -72,7 +78,7 @@ def _filled(heights: np.ma.MaskedArray, nodata: Optional[float]) -> Tuple[NDArra
     return np.where(mask, data.dtype.type(int(nodata)), data), nodata
 
 
-def _heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
+def heights_struct(array: Any, place: dict) -> Tuple[c.Heights, NDArray[Any]]:
     """The struct, and the samples that it points to: they must live as long."""
     nodata, searched = _nodata(place["nodata"])
     array = _layer(array)
@@ -182,6 +188,36 @@ def set_target(options: Any, target: dict) -> None:
         raise TksUsageError(f"The target {name} must be greater than 0.")
 
 
+def _target(given: Dict[str, Any]) -> Dict[str, Any]:
+    target = {name: given[name] for name in ("bytes", "psnr", "max_error", "lossless")}
+    if target["lossless"] is not None:
+        target["lossless"] = values.flag(target["lossless"], "lossless")
+    return target
+
+
+def options_struct(given: Dict[str, Any]) -> c.EncodeOptions:
+    """Of the arguments of `encode`, but for its progress."""
+    options = c.EncodeOptions(
+        size=ctypes.sizeof(c.EncodeOptions),
+        triangles=values.unsigned(given["triangles"], "triangles"),
+        threads=values.unsigned(given["threads"], "threads"),
+        regions=values.unsigned(given["regions"], "regions"),
+        index=values.choice(given["index"], c.INDEXES, "index"),
+        weights=values.choice(given["weights"], c.WEIGHTS, "weights"),
+    )
+    set_target(options, _target(given))
+    return options
+
+
+def places(given: Dict[str, Any]) -> Tuple[Dict[str, Any], Dict[str, Any]]:
+    """What the arguments of `encode` say of the heights, and of the texture."""
+    place = {name: given[name] for name in _OF_HEIGHTS}
+    texture_place = {name: given[f"texture_{name}"] for name in _OF_TEXTURE}
+    if texture_place["domain"] is None:
+        texture_place["domain"] = place["domain"]
+    return place, texture_place
+
+
 def run_encoder(encoder: Any, *arguments: Any) -> builtins.bytes:
     """The stream of an encoder of the C interface, which takes these, a buffer and a message."""
     buffer = c.Buffer()
@@ -189,6 +225,13 @@ def run_encoder(encoder: Any, *arguments: Any) -> builtins.bytes:
     status = encoder(*arguments, buffer, message, len(message))
     if status != Status.OK:
         raise error(status, message.value.decode("utf-8", "replace"))
+    return taken(buffer)
+
+
+def taken(buffer: c.Buffer) -> builtins.bytes:
+    """The bytes of a buffer of the library, which is released."""
+    if buffer.size == 0:
+        return b""
     try:
         return builtins.bytes((ctypes.c_char * buffer.size).from_address(buffer.data))
     finally:
@@ -301,53 +344,19 @@ def encode(
     progress, which may take as long as a large array takes to be coded once; the arrays should not
     be written to before (a copy may).
     """
+    given = dict(locals())
     if progress is not None and not callable(progress):
         raise TksUsageError(f"progress must be a function, not {values.told(progress)}.")
-    options = c.EncodeOptions(
-        size=ctypes.sizeof(c.EncodeOptions),
-        triangles=values.unsigned(triangles, "triangles"),
-        threads=values.unsigned(threads, "threads"),
-        regions=values.unsigned(regions, "regions"),
-        index=values.choice(index, c.INDEXES, "index"),
-        weights=values.choice(weights, c.WEIGHTS, "weights"),
-    )
-    if lossless is not None:
-        lossless = values.flag(lossless, "lossless")
-    target = dict(bytes=bytes, psnr=psnr, max_error=max_error, lossless=lossless)
-    set_target(options, target)
-    place = dict(
-        nodata=nodata,
-        unit=unit,
-        spacing=spacing,
-        scale=scale,
-        offset=offset,
-        step=step,
-        crs=crs,
-        geotransform=geotransform,
-        registration=registration,
-        vertical_datum=vertical_datum,
-        description=description,
-        geo_keys=geo_keys,
-        domain=domain,
-        latitudes=latitudes,
-    )
-    texture_place = dict(
-        crs=texture_crs,
-        geotransform=texture_geotransform,
-        registration=texture_registration,
-        geo_keys=texture_geo_keys,
-        alpha=texture_alpha,
-        white_level=texture_white_level,
-        domain=domain if texture_domain is None else texture_domain,
-    )
+    options = options_struct(given)
+    place, texture_place = places(given)
     chosen = c.GIVEN_DOMAINS[values.choice(domain, c.GIVEN_DOMAINS, "domain")]
     on_cube = heights is not None and chosen == "cube"
     faces = values.unsigned(depth, "depth")
     if on_cube:
-        cube.check_options(target, texture, regions, geotransform)
+        cube.check_options(_target(given), texture, regions, geotransform)
     elif faces:
         raise TksUsageError('depth is about a cube: give domain="cube" and heights.')
-    height_field, samples = (None, None) if heights is None else _heights_struct(heights, place)
+    height_field, samples = (None, None) if heights is None else heights_struct(heights, place)
     image, texels = (None, None) if texture is None else image_struct(texture, texture_place)
     arrays = [array for array in (samples, texels) if array is not None]
 
@@ -358,4 +367,4 @@ def encode(
             return run_encoder(c.lib.tks_encode, field, image, options)
         return run_encoder(c.lib.tks_encode, height_field, image, options)
 
-    return stoppable.run(call, progress, sum(array.size for array in arrays) <= _SHORT)
+    return stoppable.run(call, progress, sum(array.size for array in arrays) <= SHORT)

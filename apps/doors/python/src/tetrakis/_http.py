@@ -22,6 +22,7 @@ class Http(Ranged):
         self._url = url
         self._whole: Optional[bytes] = None
         self._state: Optional[str] = None
+        self._size: Optional[int] = None  # once a range has come
         self._one_notes = threading.Lock()
 
     def read(self, offset: int, count: int) -> bytes:
@@ -44,7 +45,12 @@ class Http(Ranged):
                 raise
         return (self._whole or b"")[offset : offset + count]
 
+    def size(self) -> Optional[int]:
+        return len(self._whole) if self._whole is not None else self._size
+
     def _note(self, headers: Any) -> None:
+        total = str(headers.get("Content-Range", "")).rpartition("/")[2]
+        self._size = int(total) if total.isdigit() else None
         state = headers.get("ETag") or headers.get("Last-Modified")
         with self._one_notes:
             if self._state is not None and state != self._state:

@@ -16,14 +16,15 @@ def selection(key: Any, shape: Tuple[int, ...]) -> Tuple[c.Window, Tuple[Any, ..
 
     Integers, slices of any step and an ellipsis, as NumPy has them (basic indexing).
     """
-    parts = _for_each_axis(key if isinstance(key, tuple) else (key,), len(shape))
+    parts = for_each_axis(key if isinstance(key, tuple) else (key,), len(shape))
     rows, columns = (_span(part, size) for part, size in zip(parts[:2], shape))
     inner = (_moved(parts[0], rows), _moved(parts[1], columns), *parts[2:])
     window = c.Window(columns.start, rows.start, max(1, len(columns)), max(1, len(rows)))
     return window, inner, not (len(rows) and len(columns))
 
 
-def _for_each_axis(parts: Tuple[Any, ...], axes: int) -> List[Any]:
+def for_each_axis(parts: Tuple[Any, ...], axes: int) -> List[Any]:
+    """An integer or a slice for each of the axes."""
     dots = [i for i, part in enumerate(parts) if part is Ellipsis]
     if len(dots) > 1:
         raise IndexError("An index has one ellipsis at most.")

@@ -106,10 +106,14 @@ class Info:
     object_triangles: Optional[int]
     """Of an object whose triangles are coded as they are: how many these are."""
 
+    frames: int
+    """How many the stream has; those of several are for :func:`tetrakis.open_sequence`."""
+
 
 _PLAIN = (
     "format_version header_bytes stream_bytes available_bytes packets geometry_bytes texture_bytes "
-    "coarsest_level heights_drawn scale offset step base texture_coarsest_level texture_cutout texture_drawn"
+    "coarsest_level frames heights_drawn scale offset step base texture_coarsest_level "
+    "texture_cutout texture_drawn"
 ).split()
 _BOOLEAN = "lossless exact_steps has_voids voids_known".split()
 _TEXT = "unit vertical_datum crs description geo_keys texture_crs texture_geo_keys".split()

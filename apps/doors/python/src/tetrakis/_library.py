@@ -551,6 +551,7 @@ PROTOTYPES = {
     "tks_locate": (c_int, [c_void_p, POINTER(Pixel), POINTER(c_double), POINTER(c_double)]),
     "tks_fit_positions": (c_int, [POINTER(Ground), POINTER(Buffer)]),
     "tks_set_levels": (c_int, [c_void_p, c_uint32, c_uint32]),
+    "tks_set_frame": (c_int, [c_void_p, c_uint32]),
     "tks_set_threads": (c_int, [c_void_p, c_uint32]),
     "tks_decode_heights": (c_int, [c_void_p, c_void_p, c_size_t]),
     "tks_decode_surface": (c_int, [c_void_p, c_void_p, c_size_t]),

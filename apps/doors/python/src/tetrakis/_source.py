@@ -20,9 +20,16 @@ _PART = 1 << 26
 class Ranged:
     """Bytes that are read where they are needed. Any number of threads may read."""
 
+    begin = 0
+    """The place of the first one."""
+
     def read(self, offset: int, count: int) -> bytes:
         """`count` bytes from `offset` on; fewer only where the source ends."""
         raise NotImplementedError
+
+    def size(self) -> Optional[int]:
+        """How many bytes there are; None: nobody said."""
+        return None
 
     def rest(self, offset: int) -> bytes:
         """All bytes from `offset` on."""
@@ -47,6 +54,10 @@ class File(Ranged):
         with self._one_reads:
             self._file.seek(self._start + offset)
             return _up_to(self._file, count)
+
+    def size(self) -> Optional[int]:
+        with self._one_reads:
+            return max(0, self._file.seek(0, os.SEEK_END) - self._start)
 
     def __reduce__(self) -> Any:
         self._file.seek(self._start)
@@ -94,8 +105,61 @@ class Remote(Ranged):
         part: bytes = self._files.cat_file(self._path, start=offset, end=end)
         return part
 
+    def size(self) -> Optional[int]:
+        size: int = self._size
+        return size
+
     def __reduce__(self) -> Any:
         return Remote, (self._url,)
+
+
+class Memory(Ranged):
+    """Bytes that are there, to which more may come, and of which the first may be given up."""
+
+    def __init__(self, data: BytesLike, begin: int = 0) -> None:
+        self._data, self.begin = data, begin
+        self._one_changes = threading.Lock()
+
+    def read(self, offset: int, count: int) -> bytes:
+        with self._one_changes:
+            first = offset - self.begin
+            if first < 0:
+                raise TksUsageError("These bytes were given up.")
+            return bytes(self._data[first : first + count])
+
+    def size(self) -> Optional[int]:
+        return self.begin + len(self._data)
+
+    def append(self, data: BytesLike) -> None:
+        with self._one_changes:
+            if not isinstance(self._data, bytearray):
+                self._data = bytearray(self._data)
+            self._data += data
+
+    def give_up(self, offset: int) -> None:
+        """The bytes before it."""
+        with self._one_changes:
+            first = max(0, offset - self.begin)
+            self._data = bytearray(self._data[first:])
+            self.begin += first
+
+    def __reduce__(self) -> Any:
+        with self._one_changes:
+            return Memory, (bytes(self._data), self.begin)
+
+
+class Part(Ranged):
+    """Some bytes of another source."""
+
+    def __init__(self, whole: Ranged, offset: int, count: int) -> None:
+        self._whole, self._offset, self._count = whole, offset, count
+
+    def read(self, offset: int, count: int) -> bytes:
+        count = min(count, self._count - offset)
+        return self._whole.read(self._offset + offset, count) if count > 0 else b""
+
+    def size(self) -> Optional[int]:
+        return self._count
 
 
 def ranged(source: Any) -> Optional[Ranged]:

@@ -8,38 +8,74 @@ steps.
 
 from __future__ import annotations
 
-import builtins
-from typing import Any, Optional, Tuple
+from typing import Any, Iterator, Optional, Tuple
 
 import numpy as np
 
+from ._clock import Clock
 from ._encode import encode
+from ._encode_sequence import encode_sequence
 from ._errors import TksUsageError
 
 # What axes may stray from even steps, in steps: floats of 32 bits that count degrees do.
 _STRAY = 0.02
 
 
-def from_xarray(heights: Any = None, texture: Any = None, **options: Any) -> builtins.bytes:
+def from_xarray(heights: Any = None, texture: Any = None, **options: Any) -> Any:
     """Codes a DataArray of heights, (y, x), with its CRS, geotransform, nodata value, unit, scale,
-    offset and name.
+    offset and name. Returns the bytes of the stream.
 
     texture: a DataArray (y, x), (y, x, channel) or (channel, y, x), of 1 to 4 channels.
     options: those of :func:`tetrakis.encode`, which replace what the arrays say.
 
-    Axes of length 1 in front of the heights (time, band) do not count.
+    Axes of length 1 in front of the heights (time, band) do not count. A longer one in front is
+    time: heights (time, y, x), a texture with one axis more than above or with the time of the
+    heights, or both become a sequence, by the options of :func:`tetrakis.encode_sequence`, with
+    the dates of the axis in whichever calendar. Frames are read one by one.
     """
-    samples = texels = None
+    facts: dict[str, Any] = {}
     if heights is not None:
-        heights = layer(heights)
-        samples = heights.values
-        options = {**heights_facts(heights), **options}
+        heights = _without_single_axes(heights)
+        facts.update(_described(heights), **_place(heights, heights.dims[-2:]))
+    moving = heights is not None and heights.ndim == 3
     if texture is not None:
-        axes = _texture_axes(texture)
-        texels = texture.transpose(*axes).values
+        in_time = texture.ndim == 4 or (moving and texture.dims[0] == heights.dims[0])
+        moving = moving or in_time
+        first = texture[0] if in_time else texture
+        axes = _texture_axes(first)
         place = _place(texture, axes[:2])
-        options = {**{f"texture_{name}": value for name, value in place.items()}, **options}
-    return encode(samples, texels, **options)
+        facts.update({f"texture_{name}": value for name, value in place.items()})
+    if moving:
+        options = {**facts, **_moments(texture if heights is None else heights), **options}
+        texels = None if texture is None else _frames(texture.transpose(texture.dims[0], *axes))
+        samples = None if heights is None else _frames(heights)
+        return encode_sequence(samples, texels, **options)
+    samples = None if heights is None else layer(heights).values
+    texels = None if texture is None else texture.transpose(*axes).values
+    return encode(samples, texels, **{**facts, **options})
+
+
+def _frames(array: Any) -> Iterator[Any]:
+    return (array[i].values for i in range(array.shape[0]))
+
+
+def _moments(array: Any) -> dict[str, Any]:
+    """What the first axis says of times. Numbers that are not whole and not CF's are no times."""
+    axis = array.coords.get(array.dims[0])
+    if axis is None or axis.ndim != 1:
+        return {}
+    units = axis.attrs.get("units") or axis.encoding.get("units")
+    calendar = axis.attrs.get("calendar") or axis.encoding.get("calendar")
+    if axis.dtype.kind == "M":
+        return dict(times=axis.values)
+    if axis.dtype.kind == "O":  # dates of another calendar
+        from xarray.coding.times import encode_cf_datetime
+
+        numbers, units, calendar = encode_cf_datetime(axis.values, units, calendar)
+        return dict(times=numbers, clock=Clock.cf(units, calendar))
+    if " since " in str(units):
+        return dict(times=axis.values, clock=Clock.cf(units, calendar))
+    return dict(times=axis.values) if axis.dtype.kind in "iu" else {}
 
 
 def heights_facts(array: Any) -> dict[str, Any]:
@@ -49,13 +85,18 @@ def heights_facts(array: Any) -> dict[str, Any]:
 
 def layer(array: Any) -> Any:
     """Without the axes of length 1 in front of (y, x)."""
-    while array.ndim > 2 and array.shape[0] == 1:
-        array = array[0]
+    array = _without_single_axes(array)
     if array.ndim != 2:
         raise TksUsageError(
             f"Heights have the axes (y, x), not {tuple(array.dims)} of shape {array.shape}: "
             "choose one layer with isel()."
         )
+    return array
+
+
+def _without_single_axes(array: Any) -> Any:
+    while array.ndim > 2 and array.shape[0] == 1:
+        array = array[0]
     return array
 
 

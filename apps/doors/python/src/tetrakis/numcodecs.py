@@ -21,8 +21,10 @@ from ._errors import TksUsageError
 
 
 class Tetrakis(Codec):
-    """Chunks of (rows, columns) as heights, of (rows, columns, channels) as textures; axes of
-    length 1 in front do not count. Lossless unless `bytes` (of a chunk), `psnr` (dB) or `max_error`
+    """Chunks of (rows, columns) as heights, of (rows, columns, channels) as textures, and those
+    with an axis of time in front as sequences of either, in groups of 32 frames; axes of length 1
+    in front do not count. Three axes of uint8 or uint16, the last of up to 4, are a texture.
+    Lossless unless `bytes` (of a chunk), `psnr` (dB) or `max_error`
     (in units of the samples) is given; samples equal to `nodata` are voids."""
 
     codec_id = "tetrakis"
@@ -58,8 +60,10 @@ def _as_it_lies(chunk: NDArray[Any]) -> NDArray[Any]:
     if chunk.flags.c_contiguous or not chunk.flags.f_contiguous:
         return chunk
     layer = _chunk.layer(chunk)
-    if layer.ndim == 3:
-        raise TksUsageError("Chunks with channels are coded in C order only: use order='C'.")
+    if layer.ndim > 2:
+        raise TksUsageError(
+            "Chunks with channels or time are coded in C order only: use order='C'."
+        )
     return layer.T
 
 

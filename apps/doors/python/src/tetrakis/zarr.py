@@ -23,8 +23,10 @@ NAME = "tetrakis"
 
 @dataclass(frozen=True)
 class TetrakisCodec(ArrayBytesCodec):
-    """Chunks of (rows, columns) as heights, of (rows, columns, channels) as textures; axes of
-    length 1 in front do not count. Lossless unless `bytes` (of a chunk), `psnr` (dB) or `max_error`
+    """Chunks of (rows, columns) as heights, of (rows, columns, channels) as textures, and those
+    with an axis of time in front as sequences of either, in groups of 32 frames; axes of length 1
+    in front do not count. Three axes of uint8 or uint16, the last of up to 4, are a texture.
+    Lossless unless `bytes` (of a chunk), `psnr` (dB) or `max_error`
     (in units of the samples) is given; samples equal to `nodata` are voids."""
 
     bytes: Optional[int] = None
