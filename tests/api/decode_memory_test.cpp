@@ -15,7 +15,7 @@
 #include "tests/support/decode_calls.hpp"
 #include "tests/support/forest_raster.hpp"
 #include "tests/support/forest_shapes.hpp"
-#include "tests/support/moving_frames.hpp"
+#include "tests/support/sequences.hpp"
 #include "tests/support/stream_fixture.hpp"
 
 namespace tetrakis::test {
@@ -133,6 +133,41 @@ uint64_t peakOfSequence(const FrameRasters& frames, uint32_t groups) {
     tks_sequence_close(sequence);
     tks_sequence_encoder_close(encoder);
   });
+}
+
+/// The first call of a group decodes the groups that it goes on from as well.
+void expectSequenceWithinBounds(const Bytes& bytes, uint64_t frame) {
+  for (size_t number = 0;; ++number) {
+    Sequence sequence{bytes};
+    tks_decoder* const decoder = sequence.decoder(frame);
+    tks_info info = {};
+    info.size = sizeof info;
+    ASSERT_EQ(tks_get_info(decoder, &info), TKS_OK);
+    const std::vector<DecodeCall> calls = callsOn(info);
+    if (number >= calls.size()) return;
+    const DecodeCall& call = calls[number];
+    const bool texture = call.part == TKS_PART_TEXTURE;
+    ASSERT_EQ(tks_set_levels(decoder, texture ? 0 : call.level, texture ? call.level : 0), TKS_OK);
+    uint64_t bound = 0;
+    ASSERT_EQ(tks_check_memory(decoder, call.part, call.asked(), call.max_triangles, 0, &bound),
+              TKS_OK);
+    tks_status status = TKS_OK;
+    const uint64_t peak = peakBytes([&] { status = call.run(decoder); });
+    EXPECT_EQ(status, TKS_OK) << call.name;
+    EXPECT_LE(peak, bound) << call.name;
+  }
+}
+
+TEST(DecodeMemory, FramesThatGoOnStayBelowTheBound) {
+  const FrameRasters frames = movingFrames({Pattern::kRidges, 90, 70, 1, TKS_U16}, 13);
+  const FrameRasters images = movingFrames({Pattern::kHills, 80, 75, 3, TKS_U8}, 13);
+  const tks_encode_options encode = lossless();
+  for (const uint32_t group : {1u, 4u}) {
+    tks_sequence_options options = optionsOf(encode, group);
+    options.reference = TKS_ALL_BYTES;
+    expectSequenceWithinBounds(encodeSequence(frames, options, images).bytes, 12);
+    expectSequenceWithinBounds(encodeSequence(frames, options).bytes, 5);
+  }
 }
 
 TEST(DecodeMemory, SequencesTakeThatOfAGroup) {

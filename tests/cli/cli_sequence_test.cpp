@@ -102,6 +102,76 @@ TEST_F(CliSequence, CutsKeepWholeGroupsAndAPartOfTheNext) {
   EXPECT_EQ(cli("info cut.tks --strict").code, 4);
 }
 
+TEST_F(CliSequence, GroupsGoOnFromTheOneBefore) {
+  synth("rover", 9);
+  const auto encoded = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"encode", "rover/*.tif", "--group", "2",    "--lossless",
+                                          "-q",     "-f",          "-o",      "r.tks"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(cliOf(arguments).code, 0);
+    return content("r.tks").size();
+  };
+  const size_t alone = encoded({});
+  EXPECT_LT(encoded({"--reference", "all", "--entry", "3"}), alone);
+  const Json info = json("info r.tks --frame 8");
+  EXPECT_EQ(info["sequence"]["group_depth"], 1);
+  EXPECT_GT(info["sequence"]["group_bytes_back"], 0);
+  for (const uint32_t frame : {8u, 3u}) {
+    const std::string number = std::to_string(frame);
+    ASSERT_EQ(cli("decode r.tks --frame " + number + " --height o.tif -q -f").code, 0);
+    EXPECT_TRUE(sameBytes(tools::readHeights(path("o.tif"))->data,
+                          tools::readHeights(path(file("rover", frame, ".tif")))->data));
+  }
+  EXPECT_EQ(json("compare r.tks --height rover/*.tif")["height_max_error"], 0);
+  EXPECT_EQ(cli("verify r.tks -q").code, 0);
+  EXPECT_EQ(cliOf({"encode", "rover/*.tif", "--lossless", "--entry", "2", "-o", "x.tks"}).code, 1);
+  EXPECT_EQ(
+      cliOf({"encode", "rover/*.tif", "--lossless", "--reference", "none", "-o", "x.tks"}).code, 1);
+}
+
+TEST_F(CliSequence, GrowAtTheirEnd) {
+  synth("erosion", 5);
+  ASSERT_EQ(cliOf({"encode", "erosion/*.tif", "--fps", "2", "--group", "3", "--lossless", "-q",
+                   "-o", "e.tks"})
+                .code,
+            0);
+  std::filesystem::create_directory(path("late"));
+  for (const char* name : {"frame-003.tif", "frame-004.tif"})
+    std::filesystem::rename(path("erosion/") + name, path("late/") + name);
+  const std::string all = content("e.tks");
+  const Json first = json("info e.tks --frame 3");
+  const auto whole = first["sequence"]["group_offset"].get<size_t>();
+  write("e.tks", all.substr(0, all.size() - 20));  // its writer stopped inside the second group
+  const Outcome added =
+      cliOf({"encode", "late/*.tif", "--group", "3", "--lossless", "--append", "-o", "e.tks"});
+  ASSERT_EQ(added.code, 0) << added.err;
+  EXPECT_NE(added.err.find(std::to_string(all.size() - 20 - whole) + " bytes"), std::string::npos)
+      << added.err;
+  EXPECT_EQ(content("e.tks"), all);
+  synth("rover", 2, 17);
+  const std::string before = content("e.tks");
+  EXPECT_EQ(cliOf({"encode", "rover/*.tif", "--lossless", "--append", "-q", "-o", "e.tks"}).code,
+            1);
+  EXPECT_EQ(content("e.tks"), before);
+  EXPECT_NE(cliOf({"encode", "late/*.tif", "--lossless", "--append", "-q", "-o", "no.tks"}).code,
+            0);
+}
+
+TEST_F(CliSequence, AreThinnedForAChannel) {
+  synth("flood", 6, 65);
+  ASSERT_EQ(cliOf({"encode", "flood/*.tif", "--fps", "2", "--group", "2", "--lossless",
+                   "--reference", "400", "-q", "-o", "f.tks"})
+                .code,
+            0);
+  ASSERT_EQ(cli("truncate f.tks --rate 1200 -o thin.tks -q").code, 0);
+  EXPECT_LT(content("thin.tks").size(), content("f.tks").size());
+  EXPECT_EQ(cli("verify thin.tks -q").code, 4);  // groups that are cut are no whole streams
+  const Json compared = json("compare thin.tks --height flood/*.tif");
+  EXPECT_EQ(compared["frames"], 6);
+  EXPECT_EQ(cli("truncate f.tks --rate 1200 --bytes 900 -o x.tks").code, 1);
+  EXPECT_EQ(cli("truncate f.tks -o x.tks").code, 1);
+}
+
 TEST_F(CliSequence, MistakesAreSentences) {
   synth("erosion", 2);
   synth("rover", 3, 17);
