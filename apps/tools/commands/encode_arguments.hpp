@@ -15,8 +15,8 @@ namespace tetrakis::tools {
 struct SequenceArguments {
   double fps = 0, every = 0;  ///< frames a second, or seconds a frame; 0: unknown
   std::string epoch, calendar;
-  uint32_t group = 0;  ///< frames that are coded together; 0: chosen
-  uint64_t rate = 0;   ///< bytes a second; 0: another target
+  uint32_t group = 0;      ///< frames that are coded together; 0: chosen
+  uint64_t rate = 0;       ///< bytes a second; 0: another target
   uint64_t reference = 0;  ///< bytes a frame that later groups go on from; 0: none do
   uint32_t entry = 0;      ///< every how manyth group stands by itself; 0: chosen
   bool append = false;     ///< the frames follow those that the output has
