@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tks_sequence_encoder takes frame by frame, perhaps behind a sequence that was written before, and
-// hands over the bytes of the groups that are whole.
+// A tks_sequence_encoder takes frame by frame, perhaps behind a sequence that was written before,
+// and hands over the bytes of the groups that are whole.
 #include "api/sequence_encoder.hpp"
 
 #include <cstddef>

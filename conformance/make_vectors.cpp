@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // make_vectors OUTDIR: encodes every vector case, writes streams into OUTDIR/vectors and sequences
-// into OUTDIR/sequences, each with a manifest, and prints the rows of README.md's tables. The decoder under test makes the digests, so run it only
-// when a change of the format is intended, and review the difference. A stream that has other tools
-// than its vector states, or lacks one, is told, and no manifest is written.
+// into OUTDIR/sequences, each with a manifest, and prints the rows of README.md's tables. The
+// decoder under test makes the digests, so run it only when a change of the format is intended,
+// and review the difference. A stream that has other tools than its vector states, or lacks one,
+// is told, and no manifest is written.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>

@@ -89,8 +89,8 @@ inline std::shared_ptr<const FrameReference> referenceOf(const FramesHeader& fra
 }
 
 /// Decodes what a view shows of all frames. codewords: any prefix of the coefficients of each
-/// track, one for each region. Safe on any bytes. before: what the frames go on from; null: nothing.
-/// The memory is that of earlier calls with the same plan. take: is told the
+/// track, one for each region. Safe on any bytes. before: what the frames go on from; null:
+/// nothing. The memory is that of earlier calls with the same plan. take: is told the
 /// bands as well; empty: nobody is.
 FramePlanes decodeFramePlanes(const FrameLayout& of, const FramePlan& plan,
                               const Codewords& codewords, const View& view,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The frames of a group may go on from the last frame of the group before (FrameReference): then
-// plane 0 of each colour, which is about the mean of the group, holds only what differs from it, and
-// what stands still takes next to no bytes. A reference is what a stated number of bytes shows,
+// plane 0 of each colour, which is about the mean of the group, holds only what differs from it,
+// and what stands still takes next to no bytes. A reference is what a stated number of bytes shows,
 // which every receiver has, so that all of them add the same (docs/FORMAT.md, section 9.4).
 #pragma once
 

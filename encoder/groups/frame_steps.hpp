@@ -36,8 +36,8 @@ struct FrameSteps {
 Result<FrameSteps> stepsOfFrames(std::span<const tks_heights> frames,
                                  const tks_encode_options& options);
 
-/// Likewise with a base and a step that are given: those of the group before. Nothing if they do not
-/// suit the target, or if frames have scales.
+/// Likewise with a base and a step that are given: those of the group before. Nothing if they do
+/// not suit the target, or if frames have scales.
 std::optional<FrameSteps> stepsLike(const GeometryHeader& before,
                                     std::span<const tks_heights> frames,
                                     const tks_encode_options& options);

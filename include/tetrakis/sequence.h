@@ -4,8 +4,8 @@
  *
  * A sequence is a file of frames of heights, of textures, or of both, that grows at its end: groups
  * of frames, one behind the other, each with a head that says which frames it has and when they
- * are, and the stream of these frames (tks_encode_frames). A group that is cut shows all its frames,
- * each about as well as it can.
+ * are, and the stream of these frames (tks_encode_frames). A group that is cut shows all its
+ * frames, each about as well as it can.
  *
  *   tks_sequence_encoder   takes frame by frame, and hands over the bytes of each group
  *   tks_sequence           takes bytes, and gives a decoder (tetrakis.h) for any of their frames
@@ -110,7 +110,8 @@ const char* tks_sequence_message(const tks_sequence* sequence);
 tks_status tks_sequence_append(tks_sequence* sequence, const uint8_t* data, size_t size);
 
 /* Gives up the bytes of all groups that end before a frame and that its group does not go on from,
- * and forgets these frames: their numbers stay. A player of a live sequence takes no more memory with it however long that is. */
+ * and forgets these frames: their numbers stay. A player of a live sequence takes no more memory
+ * with it however long that is. */
 tks_status tks_sequence_forget(tks_sequence* sequence, uint64_t frame);
 
 typedef struct tks_sequence_info {
@@ -148,16 +149,16 @@ tks_status tks_sequence_group(const tks_sequence* sequence, uint64_t frame, tks_
 /* The decoder of the stream that holds a frame, with that frame set (tks_set_frame): all calls of
  * decoders show it. It belongs to the sequence, keeps its levels and threads while it stays the
  * same, and is there until the next call of tks_sequence_frame for a frame of another group,
- * tks_sequence_append, _forget or _close. The first call that decodes a group of tks_group.depth > 0
- * decodes the last frame of each of so many groups before it as well, unless it comes behind the
+ * tks_sequence_append, _forget or _close. The first call that decodes a group of tks_group.depth >
+ * 0 decodes the last frame of each of so many groups before it as well, unless it comes behind the
  * call for the group before. TKS_USAGE: there is no such frame; TKS_TRUNCATED: the frame goes on
  * from a group that is not there; else as tks_open. */
 tks_status tks_sequence_frame(tks_sequence* sequence, uint64_t frame, tks_decoder** decoder);
 
 /* Writes a sequence for a thinner channel: of each whole group at most so many bytes a frame, head
- * and index included, but the header of its stream and what the next group goes on from stay. Frames
- * are what they were but for the bytes that are gone. Release `out` with tks_free_buffer. TKS_USAGE:
- * there is no whole group, or groups are missing or forgotten. */
+ * and index included, but the header of its stream and what the next group goes on from stay.
+ * Frames are what they were but for the bytes that are gone. Release `out` with tks_free_buffer.
+ * TKS_USAGE: there is no whole group, or groups are missing or forgotten. */
 tks_status tks_sequence_thin(const tks_sequence* sequence, uint64_t frame_bytes, tks_buffer* out,
                              char* message, size_t message_size);
 

@@ -260,7 +260,8 @@ TEST(References, WindowsArePartsOfThePlane) {
     for (uint32_t x = 0; x < 17; ++x) ASSERT_EQ(part[y * 17 + x], all[(y + 3) * 33 + x + 5]);
 }
 
-/// Root of the sum of the squared differences of a coarser level from the samples that it stands for.
+/// Root of the sum of the squared differences of a coarser level from the samples that it stands
+/// for.
 double coarseError(Sequence& sequence, uint64_t frame, uint32_t level) {
   const std::vector<std::byte> whole = sequence.heights(frame);
   const auto* all = reinterpret_cast<const int16_t*>(whole.data());

@@ -26,8 +26,8 @@ inline tks_sequence_options optionsOf(const tks_encode_options& encode, uint32_t
   return options;
 }
 
-/// Frames of heights (empty: none) and of textures, with rising times: those of frame `first` and the
-/// ones after it. behind: what they follow; null: nothing.
+/// Frames of heights (empty: none) and of textures, with rising times: those of frame `first` and
+/// the ones after it. behind: what they follow; null: nothing.
 inline EncodedSequence encodeSequence(const FrameRasters& frames,
                                       const tks_sequence_options& options,
                                       const FrameRasters& textures = {},
