@@ -6,6 +6,7 @@
 #include <ctime>
 #include <functional>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "bitstream/stream/fields.hpp"
@@ -147,11 +148,12 @@ void watchPlans(tks_decoder* decoder, Watch& watch) {
 }
 
 std::vector<uint8_t> noiseStream(uint32_t side) {
-  StreamHeader header;
-  GeometryHeader& g = header.geometry.emplace();
+  GeometryHeader g;
   g.width = g.height = side;
   g.sample = TKS_I32;
   g.planes = 30;
+  StreamHeader header;
+  header.geometry = std::move(g);
   std::mt19937 random(1);
   std::vector<uint8_t> payload(size_t{side} * side * 4);
   for (uint8_t& byte : payload) byte = static_cast<uint8_t>(random());
