@@ -60,12 +60,18 @@ std::shared_ptr<const GroupBefore> shownBy(std::span<const uint8_t> stream,
   return shown;
 }
 
+/// Whether the next group may go on from the one that is coded now.
+bool refers(const tks_sequence_encoder& encoder) {
+  return encoder.reference > 0 && encoder.going_on.isTried();
+}
+
 /// Keeps what the next group goes on from. head: of the group.
 void keepLast(tks_sequence_encoder& encoder, const GroupHead& head,
               std::span<const uint8_t> stream) {
-  const bool ends = encoder.reference == 0 || head.back.depth + 1 >= encoder.entry;
+  const bool ends = !refers(encoder) || head.back.depth + 1 >= encoder.entry;
   std::shared_ptr<const GroupBefore> last;
   if (!ends) last = shownBy(stream, encoder, head.frames());
+  encoder.going_on.tell(encoder.last != nullptr, !head.back.none(), encoder.entry);
   encoder.last = std::move(last);
 }
 
@@ -88,8 +94,7 @@ Result<EncodedGroup> encodeGroupOf(tks_sequence_encoder& encoder, size_t first, 
                     std::to_string(beside) + " take its head and index alone.");
     frames.options.bytes = budget - beside;
   }
-  Result<std::vector<uint8_t>> stream =
-      encodeFrames(frames, {encoder.reference > 0, encoder.last.get()});
+  Result<std::vector<uint8_t>> stream = encodeFrames(frames, {refers(encoder), encoder.last.get()});
   if (!stream.ok()) return stream.status();
   if (referenceOf(readHeader(*stream)->header) == 0) head.back = {};
   return EncodedGroup{std::move(head), *std::move(stream)};
@@ -116,7 +121,7 @@ Status encodeEach(tks_sequence_encoder& encoder) {
 bool eachIsShorter(tks_sequence_encoder& encoder, uint64_t together) {
   const tks_encode_options& options = encoder.options;
   const size_t count = encoder.pending.frames.size();
-  if (count < 2 || encoder.reference > 0 || (options.lossless == 0 && options.max_error == 0))
+  if (count < 2 || refers(encoder) || (options.lossless == 0 && options.max_error == 0))
     return false;
   uint64_t each = 0;
   for (size_t t = 0; t < count; ++t) {

@@ -3,6 +3,7 @@
 // groups before. encodePending() codes the group and adds it to the bytes that are ready.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -76,6 +77,27 @@ struct PendingGroup {
   std::vector<int64_t> times;
 };
 
+/// Whether it pays to code groups so that the next one can go on from them, which frames by
+/// themselves pay for. Frames that have nothing in common with those before are told by two groups
+/// that could go on and did not; then some groups are let alone before it is tried again.
+class GoingOn {
+ public:
+  bool isTried() const { return rests_ == 0; }
+
+  /// A group was written. could, did: go on from the one before.
+  void tell(bool could, bool did, uint32_t most_rests) {
+    if (rests_ > 0) {
+      --rests_;
+    } else if (could) {
+      misses_ = did ? 0 : misses_ + 1;
+      if (misses_ > 1) rests_ = std::min(1u << std::min(misses_, 16u), most_rests);
+    }
+  }
+
+ private:
+  uint32_t misses_ = 0, rests_ = 0;
+};
+
 }  // namespace tetrakis::inline api
 
 struct tks_sequence_encoder {
@@ -88,6 +110,7 @@ struct tks_sequence_encoder {
   tetrakis::PendingGroup pending;
   tetrakis::GroupWriter groups;
   std::shared_ptr<const tetrakis::GroupBefore> last;  ///< null: the next group stands by itself
+  tetrakis::GoingOn going_on;
   /// Of the last group of the sequence that it goes on behind; none: it begins one.
   std::optional<tetrakis::StreamHeader> behind;
   bool has_time = false;
@@ -105,6 +128,7 @@ class Before {
       : encoder_(encoder),
         groups_(encoder.groups),
         last_(encoder.last),
+        going_on_(encoder.going_on),
         frames_(encoder.pending.frames.size()),
         ready_(encoder.ready.size()),
         first_(encoder.like.frames() == 0),
@@ -116,6 +140,7 @@ class Before {
     if (done_) return;
     encoder_.groups = std::move(groups_);
     encoder_.last = std::move(last_);
+    encoder_.going_on = going_on_;
     cut(encoder_.pending.frames, frames_);
     cut(encoder_.pending.times, frames_);
     encoder_.ready.resize(ready_);  // which is no more than there is
@@ -139,6 +164,7 @@ class Before {
   tks_sequence_encoder& encoder_;
   GroupWriter groups_;
   std::shared_ptr<const GroupBefore> last_;
+  GoingOn going_on_;
   size_t frames_, ready_;
   bool first_, has_time_;
   int64_t last_time_;
