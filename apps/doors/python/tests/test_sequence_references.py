@@ -15,6 +15,7 @@ import tetrakis
 from tetrakis import _groups
 
 CUBE = moving(24)
+FEW = 12
 ENTRY = 3  # groups, of two frames each
 OPTIONS = dict(nodata=-9999, group=2, reference="all", entry=ENTRY)
 
@@ -28,8 +29,8 @@ def sequence():
 def lossy():
     """Of noise, so that what groups go on from matters; with a texture, and a reference that is
     part of a group."""
-    cube = CUBE + np.random.default_rng(2).integers(0, 40, CUBE.shape[1:])
-    texels = np.stack([np.roll(photograph(40, 48), t, 0) for t in range(len(cube))])
+    cube = CUBE[:FEW] + np.random.default_rng(2).integers(0, 40, CUBE.shape[1:])
+    texels = np.stack([np.roll(photograph(20, 24), t, 0) for t in range(FEW)])
     options = dict(OPTIONS, reference=300, bytes=900)
     return tetrakis.encode_sequence(cube.astype("i4"), texels, **options)
 
@@ -72,26 +73,30 @@ def test_what_stands_still_takes_next_to_no_bytes():
 
 def test_every_order_shows_the_same_of_lossy_groups(lossy):
     opened = tetrakis.open_sequence(lossy)
-    frames = [(frame.heights(), frame.texture(), frame.surface(1)) for frame in opened.frames()]
-    for number in np.random.default_rng(5).permutation(len(CUBE)):
+
+    def shown(frame):
+        return frame.heights(), frame.texture(), frame.surface(1)
+
+    forwards = [shown(frame) for frame in opened.frames()]
+    for number in np.random.default_rng(5).permutation(FEW):
         frame = opened.frame(number)
-        for samples, wanted in zip((frame.heights(), frame.texture(), frame.surface(1)), frames[number]):  # fmt: skip
+        for samples, wanted in zip(shown(frame), forwards[number]):
             np.testing.assert_array_equal(samples, wanted)
         np.testing.assert_array_equal(frame.texture(1), opened.read("texture", number, 1))
 
 
 def test_a_server_sends_the_groups_from_the_entry_on_once(small_reads):
-    cube = np.random.default_rng(3).integers(0, 90, (200, 20, 30), "u1")
+    cube = np.random.default_rng(3).integers(0, 90, (80, 20, 30), "u1")
     coded = tetrakis.encode_sequence(cube, **dict(OPTIONS, entry=10, nodata=None))
     with Server(coded) as server, tetrakis.open_sequence(server.url) as opened:
-        for number in (117, 9, 55):
+        for number in (57, 9, 31):
             before = server.requests
             np.testing.assert_array_equal(opened.frame(number).heights(), cube[number])
             assert server.requests - before <= 4
-        assert server.sent < len(coded) / 2
+        assert server.sent < 0.8 * len(coded)
         before = server.sent
-        np.testing.assert_array_equal(opened[100:120], cube[100:120])
-        assert server.sent - before < len(coded) / 4
+        np.testing.assert_array_equal(opened[60:80], cube[60:80])
+        assert server.sent - before < len(coded) / 2
 
 
 def test_groups_without_those_that_they_go_on_from(sequence):
@@ -147,7 +152,7 @@ def test_prefixes_of_a_group(lossy):
     assert frame.heights(bytes=whole // 2).shape == frame.shape
     with pytest.raises(tetrakis.TksTruncatedError, match="header"):
         frame.heights(bytes=20)
-    for length in range(len(lossy) // 3, len(lossy), 977):
+    for length in range(len(lossy) // 3, len(lossy), 577):
         short = tetrakis.open_sequence(lossy[:length])
         for number in (0, len(short) - 1):
             assert short.frame(number).heights().shape == frame.shape
@@ -252,7 +257,7 @@ def test_thinner_channels(lossy):
     np.testing.assert_array_equal(less.ticks, opened.ticks)
     with pytest.raises(tetrakis.TksUsageError, match="no whole group"):
         tetrakis.open_sequence(lossy[:300]).thinned(500)
-    opened.forget(20)
+    opened.forget(9)
     with pytest.raises(tetrakis.TksUsageError):
         opened.thinned(500)
 
