@@ -16,6 +16,7 @@ from tetrakis import _groups
 
 CUBE = moving(24)
 FEW = 12
+NOISY = CUBE[:FEW].astype("i4") + np.random.default_rng(2).integers(0, 40, CUBE.shape[1:], "i4")
 ENTRY = 3  # groups, of two frames each
 OPTIONS = dict(nodata=-9999, group=2, reference="all", entry=ENTRY)
 
@@ -29,10 +30,9 @@ def sequence():
 def lossy():
     """Of noise, so that what groups go on from matters; with a texture, and a reference that is
     part of a group."""
-    cube = CUBE[:FEW] + np.random.default_rng(2).integers(0, 40, CUBE.shape[1:])
     texels = np.stack([np.roll(photograph(20, 24), t, 0) for t in range(FEW)])
     options = dict(OPTIONS, reference=300, bytes=900)
-    return tetrakis.encode_sequence(cube.astype("i4"), texels, **options)
+    return tetrakis.encode_sequence(NOISY, texels, **options)
 
 
 @pytest.fixture
@@ -244,7 +244,7 @@ def test_an_encoder_follows_bytes(sequence):
 
 def test_thinner_channels(lossy):
     opened = tetrakis.open_sequence(lossy)
-    np.testing.assert_array_equal(opened.thinned(2**40), np.frombuffer(lossy, "u1").tobytes())
+    assert opened.thinned(2**40) == lossy
     before = len(lossy)
     for rate in (700, 400, 1):
         thin = opened.thinned(rate)
@@ -252,7 +252,7 @@ def test_thinner_channels(lossy):
         before = len(thin)
         less = tetrakis.open_sequence(io.BytesIO(thin))
         assert len(less) == len(opened)
-        error = [np.square(s[5].astype(float) - CUBE[5]).mean() for s in (opened, less)]
+        error = [np.square(s[5].astype(float) - NOISY[5]).mean() for s in (opened, less)]
         assert 0 < error[0] < error[1]
     np.testing.assert_array_equal(less.ticks, opened.ticks)
     with pytest.raises(tetrakis.TksUsageError, match="no whole group"):

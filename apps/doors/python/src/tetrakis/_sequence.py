@@ -59,8 +59,10 @@ class Sequence:
 
     It is an array, (time, rows, columns) of the heights, or of the texture where there are none:
     ``sequence.shape``, ``sequence[5]``, ``sequence[::10, 0:64, 0:64]``,
-    ``numpy.asarray(sequence)``; a `for` goes from frame to frame. The first call for a frame decodes all of its group, which
-    stays until two other groups were asked for. Any number of threads may use a sequence.
+    ``numpy.asarray(sequence)``; a `for` goes from frame to frame. The first call for a frame
+    decodes all of its group, which stays until two other groups were asked for. A group that goes
+    on from others takes all groups from their point of entry on, once if frames are asked for in
+    their order. Any number of threads may use a sequence; in such groups they take turns.
     """
 
     def __init__(self, source: Ranged, limits: c.Limits, threads: int) -> None:
