@@ -45,8 +45,8 @@ class Dataset final : public GDALPamDataset {
   /// bands, and the first one of a texture. Null after a reported error.
   static std::unique_ptr<Dataset> of(std::shared_ptr<Source> source, tks_part part,
                                      std::optional<uint32_t> frame = std::nullopt);
-  /// It is what the name of the file opens, and takes what is beside; siblings: files in its folder,
-  /// or null.
+  /// It is what the name of the file opens, and takes what is beside; siblings: files in its
+  /// folder, or null.
   void beFile(char** siblings);
   /// It is what another name opens. selection: what it has beside is kept by this name; "": it is
   /// what the file's own name opens.

@@ -22,8 +22,8 @@ struct OpenSequence {
   OpenSettings settings;
 };
 
-/// Items of the plain domain that the stream tells once they are asked for. They are not PAM's, which
-/// would keep them beside the file.
+/// Items of the plain domain that the stream tells once they are asked for. They are not PAM's,
+/// which would keep them beside the file.
 class ToldItems {
  public:
   static bool areIn(const char* domain) { return domain == nullptr || *domain == '\0'; }

@@ -62,8 +62,8 @@ class Source {
   /// Reads all bytes that are there, unless the header says enough, or they lie where reading costs
   /// and an index is there to read less. Reports no errors.
   StatedQuality statedQuality();
-  /// That of the header, or of the head of a sequence, in hexadecimal digits: it tells the file from
-  /// others.
+  /// That of the header, or of the head of a sequence, in hexadecimal digits: it tells the file
+  /// from others.
   const std::string& checksum() const { return checksum_; }
   /// Gives up what was read and decoded, which is read and decoded again once it is asked for.
   void rest();

@@ -60,7 +60,8 @@ bool isWhole(double value) {
   return value == std::floor(value) && std::abs(value) < 9e15;
 }
 
-/// Ticks are as long as the unit, or a part of it that all times are multiples of, to a microsecond.
+/// Ticks are as long as the unit, or a part of it that all times are multiples of, to a
+/// microsecond.
 BandTimes ticksOf(const Numbers& numbers) {
   BandTimes times{numbers.clock, {}};
   const bool whole = std::all_of(numbers.values.begin(), numbers.values.end(), isWhole);
