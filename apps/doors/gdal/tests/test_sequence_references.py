@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sequences whose groups go on from the group before: REFERENCE and ENTRY, and frames of them in any
-order."""
+"""Sequences whose groups go on from the group before: REFERENCE and ENTRY, and frames of them in
+any order."""
 
 import subprocess
 
