@@ -59,18 +59,20 @@ struct Stack {
   std::vector<uint8_t> marks;
   Extent extent;
 
+  explicit Stack(const FrameSource& source) : extent{source.layout.extent.width, 0} {}
+
   /// The mean over time has few of the samples of a group, and counts as one plane of `every`.
-  Stack(const Planes& planes, const FrameSource& source, size_t every) {
+  static Stack ofEvery(size_t every, const Planes& planes, const FrameSource& source) {
     const FrameLayout& layout = source.layout;
     const size_t frames = layout.frames.count;
-    extent = {layout.extent.width, 0};
-    for (size_t t = 0; t < frames; t += every) append(planes[t * layout.colours()], source);
+    Stack stack(source);
+    for (size_t t = 0; t < frames; t += every) stack.append(planes[t * layout.colours()], source);
     for (size_t t = 1; every > 1 && t < frames; t += 2 * every)
-      append(planes[t * layout.colours()], source);
+      stack.append(planes[t * layout.colours()], source);
+    return stack;
   }
   PlaneView<const int32_t> view() const { return {values, extent, marks}; }
 
- private:
   void append(const std::vector<int32_t>& plane, const FrameSource& source) {
     values.insert(values.end(), plane.begin(), plane.end());
     extent.height += source.layout.extent.height;
@@ -79,6 +81,17 @@ struct Stack {
     marks.insert(marks.end(), more.begin(), more.end());
   }
 };
+
+/// Bits that the planes of the first colour take to the last bit, estimated from parts of them. The
+/// mean over time counts by itself: parts of all planes would miss it.
+double bitsOfAll(const Planes& planes, const FrameSource& source, int bits) {
+  const FrameLayout& layout = source.layout;
+  Stack mean(source), others(source);
+  for (size_t t = 0; t < layout.frames.count; ++t)
+    (t == 0 ? mean : others).append(planes[t * layout.colours()], source);
+  const double first = losslessBits(mean.view(), bits);
+  return layout.frames.count > 1 ? first + losslessBits(others.view(), bits) : first;
+}
 
 /// Bits of lifted values: wider ones have no room for what the wavelet in space adds to 30.
 constexpr int kMostBits = 26;
@@ -96,7 +109,7 @@ FrameCoding chooseFrameCoding(const FrameSource& source, int bits, Purpose purpo
   for (const TimeFilter filter : kFilters) {
     Planes planes = lifted(source, filter);
     if (bitsOf(planes) > most) continue;
-    const double cost = losslessBits(Stack(planes, source, 1).view(), bits);
+    const double cost = bitsOfAll(planes, source, bits);
     if (filter != TimeFilter::kNone && cost >= least) continue;
     least = cost;
     best.filter = filter;
@@ -104,8 +117,8 @@ FrameCoding chooseFrameCoding(const FrameSource& source, int bits, Purpose purpo
   }
   const size_t every = source.layout.frames.count > 2 * kLookedAt ? kLookedAt : 1;
   best.bits = least;
-  best.wavelet =
-      chooseWavelet(Stack(left, source, every).view(), std::max(bits, bitsOf(left)), purpose);
+  best.wavelet = chooseWavelet(Stack::ofEvery(every, left, source).view(),
+                               std::max(bits, bitsOf(left)), purpose);
   return best;
 }
 

@@ -125,6 +125,8 @@ class FramesCopy {
     encode.bytes /= static_cast<uint64_t>(source_.GetRasterCount());
     tks_sequence_options options = makeSequenceOptions();
     options.encode = &encode;
+    options.reference = settings_.reference;
+    options.entry = settings_.entry;
     options.clock = {sizeof options.clock, clock.numerator, clock.denominator, clock.epoch.c_str(),
                      clock.calendar.c_str()};
     Result<SequenceEncoder> opened = SequenceEncoder::open(options);

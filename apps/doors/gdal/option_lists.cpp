@@ -45,6 +45,12 @@ const char* const kCreationOptions =
     "2^DEPTH x 2^DEPTH squares; chosen if not given'/>"
     "<Option name='FRAMES' type='boolean' default='NO' description='Bands are heights that follow "
     "one another in time, and become the frames of a sequence'/>"
+    "<Option name='REFERENCE' type='string' default='NONE' description='Of FRAMES=YES: each group "
+    "of frames goes on from what so many bytes of each frame show of the last one before it, and "
+    "is "
+    "decoded with the groups before it; ALL: all bytes; NONE: each group stands by itself'/>"
+    "<Option name='ENTRY' type='int' default='16' description='Beside REFERENCE: at least every so "
+    "manyth group stands by itself, from 1 to 64'/>"
     "<Option name='NUM_THREADS' type='string' description='Threads of encoding: a number, or "
     "ALL_CPUS' default='1'/>"
     "</CreationOptionList>";

@@ -16,16 +16,6 @@ constexpr uint64_t kHead = 16384, kTail = 65536;
 constexpr int kSteps = 3;
 constexpr int64_t kLast = INT64_MAX;
 
-struct CloseSequence {
-  void operator()(tks_sequence* sequence) const { tks_sequence_close(sequence); }
-};
-using SequencePointer = std::unique_ptr<tks_sequence, CloseSequence>;
-
-SequencePointer openSequence() {
-  tks_sequence* sequence = nullptr;
-  return SequencePointer(tks_sequence_open(nullptr, &sequence) == TKS_OK ? sequence : nullptr);
-}
-
 tks_sequence_info infoOf(const tks_sequence* sequence) {
   tks_sequence_info info{};
   info.size = sizeof info;
@@ -33,8 +23,10 @@ tks_sequence_info infoOf(const tks_sequence* sequence) {
   return info;
 }
 
-/// The first group of what the sequence was given, which begins at `offset` of the file.
-FrameGroup firstGroup(const tks_sequence* sequence, uint64_t frame, uint64_t offset) {
+/// The first group of what the sequence was given, which begins at `offset` of the file. chain:
+/// decodes groups that go on from others.
+FrameGroup firstGroup(const tks_sequence* sequence, uint64_t frame, uint64_t offset,
+                      const std::shared_ptr<GroupChain>& chain) {
   tks_group raw{};
   raw.size = sizeof raw;
   tks_sequence_group(sequence, frame, &raw);
@@ -42,7 +34,12 @@ FrameGroup firstGroup(const tks_sequence* sequence, uint64_t frame, uint64_t off
   group.first_frame = raw.first_frame;
   group.offset = offset + raw.offset;
   group.bytes = raw.bytes;
-  group.stream = {offset + raw.stream_offset, raw.stream_bytes, {}};
+  group.stream.begin = offset + raw.stream_offset;
+  group.stream.size = raw.stream_bytes;
+  if (raw.depth > 0) {
+    group.stream.chain = chain;
+    group.stream.group = {raw.first_frame, group.offset, group.end(), raw.bytes_back};
+  }
   group.times.resize(raw.frames);
   for (uint64_t i = 0; i < raw.frames; ++i)
     tks_sequence_time(sequence, raw.first_frame + i, &group.times[i]);
@@ -102,7 +99,7 @@ const FrameGroup* SequenceGroups::take(uint64_t offset) {
 }
 
 const FrameGroup* SequenceGroups::take(std::span<const uint8_t> bytes, uint64_t offset) {
-  const SequencePointer sequence = openSequence();
+  const SequencePointer sequence = openSequence(nullptr);
   const tks_status status = tks_sequence_append(sequence.get(), bytes.data(), bytes.size());
   const tks_sequence_info info = infoOf(sequence.get());
   if (info.groups == 0) {  // what is wrong behind a group is told when that place is read
@@ -111,7 +108,7 @@ const FrameGroup* SequenceGroups::take(std::span<const uint8_t> bytes, uint64_t 
     good_ = false;
     return nullptr;
   }
-  FrameGroup group = firstGroup(sequence.get(), info.first_frame, offset);
+  FrameGroup group = firstGroup(sequence.get(), info.first_frame, offset, chain_);
   if (!follows(group)) {
     reportFailure(TKS_CORRUPT, name_, "Corrupt sequence: a group does not follow the one before.");
     good_ = false;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "apps/doors/gdal/file_bytes.hpp"
+#include "apps/doors/gdal/group_chain.hpp"
 #include "apps/doors/gdal/source.hpp"
 #include "tetrakis/sequence.h"
 
@@ -53,7 +54,11 @@ class SequenceGroups {
 
  private:
   SequenceGroups(std::string name, const File& file, uint64_t end)
-      : name_(std::move(name)), end_(end), heads_(file), indices_(file) {}
+      : name_(std::move(name)),
+        end_(end),
+        heads_(file),
+        indices_(file),
+        chain_(std::make_shared<GroupChain>(file, end)) {}
 
   bool findEnds();
   bool read(FileBytes& bytes, uint64_t offset, uint64_t size);
@@ -68,6 +73,7 @@ class SequenceGroups {
   std::string name_;
   uint64_t end_;  ///< of the bytes that may be used
   FileBytes heads_, indices_;
+  std::shared_ptr<GroupChain> chain_;
   SequenceClock clock_;
   std::map<uint64_t, FrameGroup> groups_;  ///< that were read, by their first frames
   std::string checksum_;                   ///< of the head of the first one

@@ -8,6 +8,7 @@
 
 #include <cpl_conv.h>
 #include <cpl_multiproc.h>
+#include "tetrakis/sequence.h"
 
 namespace tetrakis::gdal {
 
@@ -215,6 +216,25 @@ bool framesGiven(Options& options, const CopySettings& settings) {
   return true;
 }
 
+/// What groups of frames go on from.
+void takeReference(Options& options, CopySettings& settings) {
+  const char* const given = options.text("REFERENCE");
+  if (given != nullptr && EQUAL(given, "ALL")) {
+    settings.reference = TKS_ALL_BYTES;
+  } else if (given != nullptr && !EQUAL(given, "NONE")) {
+    settings.reference = options.bytes("REFERENCE");
+  }
+  constexpr uint64_t kMost = TKS_MOST_DEPTH + 1;
+  const uint64_t entry = options.count("ENTRY", "number of groups, which is from 1 to 64");
+  if (entry > kMost)
+    options.refuse("ENTRY=" + std::to_string(entry) + " is no number of groups from 1 to 64.");
+  settings.entry = static_cast<uint32_t>(std::min(entry, kMost));
+  if (entry > 0 && settings.reference == 0)
+    options.refuse("ENTRY is about groups that go on from others: give REFERENCE.");
+  if (settings.reference > 0 && !settings.frames)
+    options.refuse("REFERENCE is about groups of frames: give FRAMES=YES.");
+}
+
 std::string textureName(Options& options) {
   const char* const given = options.text("TEXTURE");
   if (given != nullptr && *given == '\0') options.refuse("TEXTURE= names no dataset.");
@@ -250,6 +270,7 @@ std::optional<CopySettings> copySettings(const std::string& name, CSLConstList o
   settings.depth = depthGiven(given);
   settings.texture = textureName(given);
   settings.frames = framesGiven(given, settings);
+  takeReference(given, settings);
   checkCube(given, settings);
   const uint64_t white = given.count("WHITE_LEVEL", "value of UInt16 above 0");
   settings.white_level = static_cast<uint32_t>(std::min<uint64_t>(white, UINT32_MAX));

@@ -25,6 +25,8 @@ struct CopySettings {
   uint32_t depth = 0;                ///< of a cube; 0: the one that suits the grid
   std::optional<uint32_t> tiles;     ///< side of those of a mosaic; 0: none; nothing: chosen
   bool frames = false;               ///< bands are frames of a sequence
+  uint64_t reference = 0;            ///< as of tks_sequence_options
+  uint32_t entry = 0;                ///< likewise
   uint32_t white_level = 0;          ///< of a texture; 0: as its dataset says, or found
 };
 

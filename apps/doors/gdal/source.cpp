@@ -64,6 +64,8 @@ std::unique_ptr<Source> Source::open(const std::string& name, const File& file,
   const uint64_t end = std::min(*length, settings.bytes.value_or(UINT64_MAX));
   const uint64_t there = std::min(end - std::min(end, extent.begin), extent.size);
   std::unique_ptr<Source> source(new Source(name, settings, FileBytes(file, extent.begin)));
+  source->chain_ = extent.chain;
+  source->group_ = extent.group;
   if (!source->readHeader(there) || !source->checkLength()) return nullptr;
   source->checksum_ = extent.checksum.empty() ? source->checksumOfHeader() : extent.checksum;
   if (isGridOnCube(source->info_)) source->cube_depth_ = source->info_.forest.depth;
@@ -84,7 +86,7 @@ std::optional<uint64_t> Source::findHeader() {
 
 bool Source::readHeader(uint64_t there) {
   end_ = there;
-  const std::optional<uint64_t> header = findHeader();
+  const std::optional<uint64_t> header = chain_ ? end_ : findHeader();
   if (!header) return false;
   const tks_status status = openPrefix(std::min(end_, std::max(kHeaderGuess, *header)));
   if (end_ == 0) message_ = "There are no bytes.";
@@ -129,22 +131,31 @@ bool Source::read(std::span<const tks_range> ranges) {
 tks_status Source::openPrefix(uint64_t bytes) {
   decoder_.reset();
   has_whole_ = false;
-  const tks_range all{0, bytes, 0};
-  if (!read({&all, 1})) return TKS_IO;
+  if (const tks_status status = openDecoder(bytes); status != TKS_OK) return status;
+  opened_ = bytes;
+  info_.size = sizeof info_;
+  tks_set_threads(decoder_.get(), settings_.threads);
+  return tks_get_info(decoder_.get(), &info_);
+}
+
+tks_status Source::openDecoder(uint64_t bytes) {
   const tks_limits most = limits();
   tks_decoder* opened = nullptr;
+  if (chain_) {
+    const tks_status status = chain_->open(group_, most, &opened);
+    message_ = chain_->message();
+    if (status == TKS_IO) reportFailure(status, name_, message_);
+    decoder_ = DecoderPointer(opened, [](tks_decoder*) {});
+    return status;
+  }
+  const tks_range all{0, bytes, 0};
+  if (!read({&all, 1})) return TKS_IO;
   char sentence[512] = "";
   const tks_status status =
       tks_open(bytes_.at(0).data(), bytes, &most, &opened, sentence, sizeof sentence);
-  if (status != TKS_OK) {
-    message_ = sentence;
-    return status;
-  }
-  decoder_.reset(opened);
-  opened_ = bytes;
-  info_.size = sizeof info_;
-  tks_set_threads(opened, settings_.threads);
-  return tks_get_info(opened, &info_);
+  message_ = sentence;
+  decoder_ = DecoderPointer(opened, tks_close);
+  return status;
 }
 
 bool Source::failed(tks_status status) {
@@ -153,7 +164,8 @@ bool Source::failed(tks_status status) {
 }
 
 bool Source::reopen(uint64_t bytes) {
-  if (decoder_ && opened_ == bytes) return true;
+  // A chain may have gone on to another group meanwhile.
+  if (decoder_ && opened_ == bytes && !chain_) return true;
   const tks_status status = openPrefix(bytes);
   if (status == TKS_OK || status == TKS_IO) return status == TKS_OK;
   return failed(status);
@@ -229,6 +241,7 @@ bool Source::load(uint32_t level, const tks_window* window) {
     if (const tks_status sound = tks_verify(decoder_.get()); sound != TKS_OK) return failed(sound);
     verified_ = true;
   }
+  if (chain_) return reopen(end_);
   // A prefix of a stream for windows lacks most regions: a level takes a first part of each.
   const bool apart = info_.index == TKS_INDEX_WINDOWS;
   const bool cuts = level > 0 && !apart;
@@ -253,6 +266,7 @@ StatedQuality Source::statedQuality() {
     if (info_.has_texture) quality.texture_psnr = std::numeric_limits<double>::infinity();
     return quality;
   }
+  if (chain_) return {info_.heights_rmse, info_.texture_psnr};
   if (info_.index != TKS_INDEX_NONE && !VSIIsLocal(name_.c_str())) return quality;
   const tks_range all{0, end_, 0};
   decoder_.reset();  // which may borrow bytes that move

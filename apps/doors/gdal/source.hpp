@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "apps/doors/gdal/file_bytes.hpp"
+#include "apps/doors/gdal/group_chain.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::gdal {
@@ -39,6 +40,9 @@ struct StatedQuality {
 struct Extent {
   uint64_t begin = 0, size = UINT64_MAX;
   std::string checksum;  ///< that tells the file from others; "": that of the stream
+  /// Decodes the stream as that of this group; null: it stands by itself.
+  std::shared_ptr<GroupChain> chain;
+  ChainedGroup group;
 };
 
 /// Opening reads the header; the rest is read when samples are asked for: of streams with a front
@@ -115,6 +119,8 @@ class Source {
   bool checkLength();
   /// Reads up to this many bytes and opens them; TKS_IO after a reported error.
   tks_status openPrefix(uint64_t bytes);
+  /// The decoder of these bytes, or of all where it is a chain's.
+  tks_status openDecoder(uint64_t bytes);
   bool reopen(uint64_t bytes);
   bool read(std::span<const tks_range> ranges);
   /// How many bytes of the stream show a level well enough for the overview made of it.
@@ -144,6 +150,8 @@ class Source {
   std::string checksum_;
   uint64_t end_ = 0;  ///< of what may be used
   FileBytes bytes_;
+  std::shared_ptr<GroupChain> chain_;  ///< as of Extent; the decoder belongs to it
+  ChainedGroup group_;
   uint64_t opened_ = 0;     ///< how many of the first bytes the decoder has; 0: ranges
   bool has_whole_ = false;  ///< some ranges, of which none was cut off
   bool verified_ = false;

@@ -83,8 +83,7 @@ class Access:
             with self._taken() as decoder:
                 yield decoder
             return
-        data = self._front(values.unsigned(count, "bytes", 63))
-        with Decoder(data, self._limits, self._threads) as decoder:
+        with self._cut(count) as decoder:
             yield decoder
 
     @contextmanager
@@ -125,6 +124,11 @@ class Access:
         if data is None:
             raise TksUsageError("The stream is closed.")
         return data
+
+    def _cut(self, count: int) -> Decoder:
+        """Of the first bytes."""
+        data = self._front(values.unsigned(count, "bytes", 63))
+        return Decoder(data, self._limits, self._threads)
 
     def _front(self, count: int) -> builtins.bytes:
         """The first bytes, of which more than were read are read now."""

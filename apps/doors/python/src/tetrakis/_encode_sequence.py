@@ -6,15 +6,18 @@ from __future__ import annotations
 import builtins
 import io
 import itertools
+import os
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, BinaryIO, Callable, Iterable, Iterator, Optional, Union
 
 from . import _values as values
-from ._clock import ClockLike, timeline
+from ._clock import ClockLike, from_struct, timeline
 from ._errors import TksUsageError
-from ._sequence_encoder import USUAL_GROUP, SequenceEncoder
-from ._work_folder import appearing
+from ._sequence_encoder import USUAL_GROUP, Reference, SequenceEncoder
+from ._sequence_handle import SequenceHandle
+from ._source import File, Part
+from ._work_folder import appearing, extending
 
 _END = object()
 
@@ -28,6 +31,9 @@ def encode_sequence(
     clock: ClockLike = None,
     group: int = USUAL_GROUP,
     seekable: bool = True,
+    reference: Reference = None,
+    entry: Optional[int] = None,
+    append: bool = False,
     progress: Optional[Callable[[int], Any]] = None,
     **options: Any,
 ) -> Optional[builtins.bytes]:
@@ -52,6 +58,15 @@ def encode_sequence(
         lossless, say), each is a group by itself.
     seekable: False leaves out the index by which readers over a network find a frame in three
         requests; that saves some bytes of each group.
+    reference: bytes of each frame of a group that every receiver is known to have, or "all". The
+        next group goes on from what they show of the last frame: what stands still takes next to no
+        bytes, and the group is decoded only with those before it. Without it each group stands by
+        itself.
+    entry: beside a reference, at least every so manyth group stands by itself, from 1 to 64; 16
+        unless given. Readers begin there.
+    append: the frames follow those of the file at `path`, whose groups stay whatever happens; if
+        there is no file, one is begun. Without a clock that of the file holds, and without times
+        one tick after the last frame. A group that the file ends inside of is written over.
     progress: called with how many frames were taken, after each. What it raises ends the encode.
     options: those of :func:`tetrakis.encode` but for depth, latitudes, triangles and weights.
         `bytes` counts a frame: a group of n frames takes n times as many at most. `psnr` is over
@@ -62,9 +77,15 @@ def encode_sequence(
     """
     if progress is not None and not callable(progress):
         raise TksUsageError(f"progress must be a function, not {values.told(progress)}.")
+    options.update(group=group, seekable=seekable, reference=reference, entry=entry)
+    written = _written(path) if values.flag(append, "append") else None
+    if written is not None and clock is None:
+        clock = from_struct(written.info().clock)
     known, ticks = timeline(times, clock)
-    with SequenceEncoder(clock=known, group=group, seekable=seekable, **options) as encoder:
-        with _opened(path) as file:
+    with SequenceEncoder(clock=known, **options) as encoder:
+        if written is not None:
+            encoder.follow_handle(written)
+        with _opened(path) if written is None else extending(path, written.info().bytes) as file:
             count = 0
             for frame in _together(heights, texture, ticks):
                 encoder.push(*frame)
@@ -92,6 +113,22 @@ def _together(*parts: Optional[Iterable[Any]]) -> Iterator[Any]:
             raise TksUsageError("There are not as many heights, textures and times of frames.")
         each = iter(frame)
         yield [None if part is None else next(each) for part in parts]
+
+
+def _written(path: Any) -> Optional[SequenceHandle]:
+    """The whole groups of a file; None where there is none."""
+    if not isinstance(path, (str, os.PathLike)):
+        raise TksUsageError("append takes the path of a file.")
+    if not os.path.exists(path):
+        return None
+    with open(path, "rb") as file:
+        source = File(file)
+        with SequenceHandle() as given:
+            given.append_all(source)
+            whole = given.info().whole_bytes
+        sequence = SequenceHandle()
+        sequence.append_all(Part(source, 0, whole))
+        return sequence
 
 
 @contextmanager

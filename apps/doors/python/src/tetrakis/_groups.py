@@ -18,7 +18,8 @@ from . import _library as c
 from . import _sequence_library as s
 from ._access import access_by_ranges
 from ._clock import Clock, from_struct
-from ._errors import Status, TksCorruptError, TksUsageError, error
+from ._errors import Status, TksCorruptError, TksError, TksUsageError, error
+from ._sequence_handle import SequenceHandle
 from ._source import Memory, Ranged
 
 # Enough for most heads, with the header of the stream behind it.
@@ -38,6 +39,8 @@ class Group(NamedTuple):
     bytes: int
     stream_offset: int
     stream_bytes: int
+    depth: int = 0
+    bytes_back: int = 0
 
     @property
     def end_frame(self) -> int:
@@ -48,41 +51,26 @@ class Group(NamedTuple):
         return self.offset + self.bytes
 
 
-class _Heads:
-    """A tks_sequence that is given the beginnings of groups alone."""
-
-    def __init__(self, limits: c.Limits) -> None:
-        self._handle = ctypes.c_void_p()
-        _check(c.lib.tks_sequence_open(limits, self._handle), "There is not enough memory.")
-
-    def __enter__(self) -> "_Heads":
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        c.lib.tks_sequence_close(self._handle)
+class _Heads(SequenceHandle):
+    """It is given the beginnings of groups alone."""
 
     def give(self, data: bytes) -> s.SequenceInfo:
-        status = c.lib.tks_sequence_append(self._handle, data, len(data))
-        info = s.SequenceInfo(size=ctypes.sizeof(s.SequenceInfo))
-        c.lib.tks_sequence_get_info(self._handle, info)
-        if info.groups == 0:  # what is wrong behind a group is told when that place is read
-            sentence = c.lib.tks_sequence_message(self._handle).decode("utf-8", "replace")
-            _check(status, sentence)
-        return info
+        try:
+            self.append(data)
+        except TksError:
+            if self.info().groups == 0:  # else it is told when the place behind a group is read
+                raise
+        return self.info()
 
     def groups(self, info: s.SequenceInfo, begin: int) -> Iterator[Group]:
-        """Those of bytes that begin at this place."""
+        """Those of bytes that begin at this place, up to frames that were cut out."""
         frame = info.first_frame
-        for _ in range(info.groups):
-            raw = s.Group(size=ctypes.sizeof(s.Group))
-            _check(c.lib.tks_sequence_group(self._handle, frame, raw), "A frame is missing.")
-            times, time = np.empty(raw.frames, np.int64), ctypes.c_int64()
-            for i in range(raw.frames):
-                c.lib.tks_sequence_time(self._handle, raw.first_frame + i, time)
-                times[i] = time.value
+        while info.groups and (raw := self.group(frame)) is not None:
+            frames = range(raw.first_frame, raw.first_frame + raw.frames)
+            times = np.array([self.time(each) for each in frames], np.int64)
             places = (begin + raw.offset, raw.bytes, begin + raw.stream_offset, raw.stream_bytes)
-            yield Group(raw.first_frame, times, *places)
-            frame = raw.first_frame + raw.frames
+            yield Group(raw.first_frame, times, *places, raw.depth, raw.bytes_back)
+            frame = frames.stop
 
 
 def _check(status: int, sentence: str) -> None:
@@ -133,10 +121,13 @@ class Groups:
         self._first = self._first or self._listed[:1]
 
     def forget(self, frame: int) -> int:
-        """The groups that end before a frame, but for the last one. Returns where the others
-        begin."""
-        while len(self._listed) > 1 and self._listed[0].end_frame <= frame:
-            del self._listed[0]
+        """The groups that end before a frame, but for the last one and those that the first one
+        of the others goes on from. Returns where the groups begin that stay."""
+        first = 0
+        while first + 1 < len(self._listed) and self._listed[first].end_frame <= frame:
+            first += 1
+        if self._listed:
+            del self._listed[: max(0, first - self._listed[first].depth)]
         self._first = self._listed[:1]
         return self._listed[0].offset if self._listed else 0
 

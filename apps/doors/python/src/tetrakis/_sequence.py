@@ -18,10 +18,12 @@ from ._access import Access, access_by_ranges
 from ._clock import Clock
 from ._errors import TksCorruptError, TksUnsupportedError, TksUsageError
 from ._frame_access import FrameAccess
+from ._group_chain import ChainAccess, GroupChain, chain_to
 from ._groups import Group, Groups
 from ._indexing import for_each_axis
 from ._info import Info
-from ._source import BytesLike, Memory, Part, Ranged, Source, first_bytes, octets, ranged
+from ._sequence_handle import SequenceHandle
+from ._source import BytesLike, Memory, Part, Ranged, Source, anywhere, octets
 from ._stream import Stream
 
 # Groups whose decoders stay: of calls that go to and fro between two.
@@ -48,10 +50,7 @@ def open_sequence(
         max_texels=values.unsigned(max_texels, "max_texels", 64),
         max_memory=values.unsigned(max_memory, "max_memory", 64),
     )
-    parts = None if isinstance(source, (bytes, bytearray, memoryview)) else ranged(source)
-    if parts is None:
-        parts = Memory(first_bytes(source, None))
-    return Sequence(parts, limits, values.unsigned(threads, "threads"))
+    return Sequence(anywhere(source), limits, values.unsigned(threads, "threads"))
 
 
 class Sequence:
@@ -60,14 +59,17 @@ class Sequence:
 
     It is an array, (time, rows, columns) of the heights, or of the texture where there are none:
     ``sequence.shape``, ``sequence[5]``, ``sequence[::10, 0:64, 0:64]``,
-    ``numpy.asarray(sequence)``; a `for` goes from frame to frame. The first call for a frame decodes all of its group, which
-    stays until two other groups were asked for. Any number of threads may use a sequence.
+    ``numpy.asarray(sequence)``; a `for` goes from frame to frame. The first call for a frame
+    decodes all of its group, which stays until two other groups were asked for. A group that goes
+    on from others takes all groups from their point of entry on, once if frames are asked for in
+    their order. Any number of threads may use a sequence; in such groups they take turns.
     """
 
     def __init__(self, source: Ranged, limits: c.Limits, threads: int) -> None:
         self._given: Optional[Tuple[Ranged, c.Limits, int]] = (source, limits, threads)
         self._groups = Groups(source, limits)
         self._opened: "OrderedDict[int, Access]" = OrderedDict()
+        self._chain: Optional[GroupChain] = None
         self._lock = threading.RLock()
         self._like: Optional[Info] = None
 
@@ -91,7 +93,7 @@ class Sequence:
     def close(self) -> None:
         """Lets go of the bytes. Frames that were handed out stay open."""
         with self._lock:
-            self._given = None
+            self._given = self._chain = None
             self._opened.clear()
 
     @property
@@ -246,12 +248,26 @@ class Sequence:
             self._opened.pop(last, None)  # there may be more of it now
 
     def forget(self, number: int) -> None:
-        """Gives up the bytes of all groups that end before a frame, but for the last one, and
-        these frames: a player of a live sequence takes no more memory however long that is."""
+        """Gives up the bytes of all groups that end before a frame, but for the last one and those
+        that the next one goes on from, and these frames: a player of a live sequence takes no more
+        memory however long that is."""
         with self._lock:
             source = self._memory()
             source.give_up(self._groups.forget(values.unsigned(number, "A frame", 64)))
             self._opened.clear()
+            if self._chain is not None and self._chain.begin < source.begin:
+                self._chain = None
+
+    def thinned(self, bytes_a_frame: int) -> bytes:
+        """The sequence for a thinner channel: of each whole group at most so many bytes a frame,
+        though never less than its header and what the next group goes on from. Frames show what
+        the bytes that are left say of them. Raises :class:`TksUsageError` where groups were cut
+        out or forgotten, or there is no whole one."""
+        with self._lock:
+            source = self._source()
+        with SequenceHandle() as whole:
+            whole.append_all(source)
+            return whole.thinned(values.unsigned(bytes_a_frame, "bytes_a_frame", 64))
 
     def _memory(self) -> Memory:
         source = self._source()
@@ -266,18 +282,24 @@ class Sequence:
 
     def _access(self, group: Group) -> Access:
         with self._lock:
-            if self._given is None:
-                raise TksUsageError("The sequence is closed.")
+            self._source()
             opened = self._opened.pop(group.offset, None)
             if opened is None:
-                source, limits, threads = self._given
-                part = Part(source, group.stream_offset, group.stream_bytes)
-                opened = access_by_ranges(part, limits, threads)
+                opened = self._made(group)
                 self._check(opened.info(), group)
             self._opened[group.offset] = opened
             while len(self._opened) > _OPEN:
                 self._opened.popitem(last=False)
             return opened
+
+    def _made(self, group: Group) -> Access:
+        assert self._given is not None
+        source, limits, threads = self._given
+        if group.depth == 0:
+            part = Part(source, group.stream_offset, group.stream_bytes)
+            return access_by_ranges(part, limits, threads)
+        self._chain = chain_to(source, limits, group, group.end, self._chain)
+        return ChainAccess(self._chain, group, threads)
 
     def _check(self, info: Info, group: Group) -> None:
         if info.frames != len(group.times):

@@ -7,7 +7,7 @@ import builtins
 import ctypes
 import inspect
 import threading
-from typing import Any, Dict, Optional, Tuple
+from typing import Any, Dict, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,6 +19,8 @@ from . import _values as values
 from ._clock import ClockLike, clock_of
 from ._encode import SHORT, encode, heights_struct, image_struct, options_struct, places, taken
 from ._errors import Status, TksUsageError, error
+from ._sequence_handle import SequenceHandle
+from ._source import Source, anywhere
 
 _DEFAULTS = {
     name: parameter.default
@@ -29,6 +31,7 @@ _DEFAULTS = {
 _NOT_OF_FRAMES = ("depth", "latitudes", "triangles", "weights", "progress")
 
 USUAL_GROUP = 16
+Reference = Union[int, str, None]
 
 
 class SequenceEncoder:
@@ -53,6 +56,8 @@ class SequenceEncoder:
         clock: ClockLike = None,
         group: int = USUAL_GROUP,
         seekable: bool = True,
+        reference: Reference = None,
+        entry: Optional[int] = None,
         **options: Any,
     ) -> None:
         self._handle = ctypes.c_void_p()
@@ -72,6 +77,8 @@ class SequenceEncoder:
             encode=ctypes.pointer(encode_options),
             clock=self.clock.struct(),
             no_index=not values.flag(seekable, "seekable"),
+            reference=_reference(reference),
+            entry=_entry(entry, reference),
         )
         message = ctypes.create_string_buffer(1024)
         status = c.lib.tks_sequence_encoder_open(
@@ -95,6 +102,18 @@ class SequenceEncoder:
         with self._one_codes:
             c.lib.tks_sequence_encoder_close(self._handle)
             self._handle = ctypes.c_void_p()
+
+    def follow(self, written: Source) -> None:
+        """Lets an encoder that has taken no frame go on behind a sequence of whole groups, by its
+        path or its bytes: what is taken from then on follows these bytes, and frames without times
+        the last one of these. The clock of both is the same."""
+        with SequenceHandle() as sequence:
+            sequence.append_all(anywhere(written))
+            self.follow_handle(sequence)
+
+    def follow_handle(self, written: SequenceHandle) -> None:
+        self._run(c.lib.tks_sequence_encoder_continue, (written.address,), True)
+        self._next = written.time(written.info().end_frame - 1) + 1
 
     def push(
         self,
@@ -170,6 +189,22 @@ class SequenceEncoder:
     def _told(self, user: Any, done: float) -> int:
         """What C calls while it codes a group."""
         return int(self._report(user, done)) if self._report else 0
+
+
+def _reference(reference: Reference) -> int:
+    """In bytes a frame; 0: none."""
+    if reference == "all":
+        return s.ALL_BYTES
+    if isinstance(reference, str) or reference == 0:
+        told = values.told(reference)
+        raise TksUsageError(f'reference is "all" or one byte a frame or more, not {told}.')
+    return values.unsigned(reference, "reference", 64)
+
+
+def _entry(entry: Optional[int], reference: Reference) -> int:
+    if entry is not None and reference is None:
+        raise TksUsageError("entry is of groups that go on from others: give reference.")
+    return values.unsigned(entry, "entry")
 
 
 def _arguments(options: Dict[str, Any]) -> Dict[str, Any]:

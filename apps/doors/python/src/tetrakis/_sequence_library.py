@@ -10,6 +10,7 @@ from ctypes import POINTER, c_char_p, c_int, c_int64, c_size_t, c_uint32, c_uint
 from ._library import Buffer, EncodeOptions, Heights, Image, Limits, Range, declare, lib
 
 MOST_FRAMES = 32  # of one stream
+ALL_BYTES = 2**64 - 1  # TKS_ALL_BYTES
 
 
 class Clock(ctypes.Structure):
@@ -96,6 +97,9 @@ PROTOTYPES = {
     "tks_sequence_get_info": (c_int, [c_void_p, POINTER(SequenceInfo)]),
     "tks_sequence_time": (c_int, [c_void_p, c_uint64, POINTER(c_int64)]),
     "tks_sequence_group": (c_int, [c_void_p, c_uint64, POINTER(Group)]),
+    "tks_sequence_frame": (c_int, [c_void_p, c_uint64, POINTER(c_void_p)]),
+    "tks_sequence_thin": (c_int, [c_void_p, c_uint64, POINTER(Buffer), c_char_p, c_size_t]),
+    "tks_sequence_encoder_continue": (c_int, [c_void_p, c_void_p, c_char_p, c_size_t]),
     "tks_sequence_locate": (
         c_int,
         [c_char_p, c_size_t, c_uint64, c_int, c_int64, POINTER(Range), POINTER(c_int)],

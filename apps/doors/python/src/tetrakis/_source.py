@@ -162,6 +162,12 @@ class Part(Ranged):
         return self._count
 
 
+def anywhere(source: Source) -> Ranged:
+    """By ranges where that is possible, else what there is of it."""
+    parts = None if isinstance(source, (bytes, bytearray, memoryview)) else ranged(source)
+    return Memory(first_bytes(source, None)) if parts is None else parts
+
+
 def ranged(source: Any) -> Optional[Ranged]:
     """None where only a reading from front to end is possible, or the bytes are there already."""
     if isinstance(source, str) and "://" in source:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Files that the tasks of a mosaic exchange. Each appears whole or not at all: it is written under
-another name and renamed."""
+"""Files that are written whole or not at all, such as those that the tasks of a mosaic exchange:
+under another name and renamed, or behind what they had."""
 
 from __future__ import annotations
 
@@ -28,6 +28,24 @@ def appearing(path: Path) -> Iterator[Any]:
         if staged.exists():
             staged.unlink()
         raise
+
+
+@contextmanager
+def extending(path: Path, begin: int) -> Iterator[Any]:
+    """A file that is open for writing from a place on. A failure leaves what it had."""
+    with open(path, "r+b") as file:
+        file.seek(begin)
+        rest = file.read()
+        file.seek(begin)
+        file.truncate()
+        try:
+            yield file
+            file.flush()
+        except BaseException:
+            file.seek(begin)
+            file.truncate()
+            file.write(rest)
+            raise
 
 
 @contextmanager
