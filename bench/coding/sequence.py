@@ -103,8 +103,8 @@ def write_y4m(frames, path):
 def psnr_of_video(path, frames):
     """Of all samples of the frames, in RGB."""
     height, width, _ = frames[0].shape
-    raw = subprocess.run(["aomdec", "--rawvideo", "--i444", "-o", "-", path], check=True,
-                         capture_output=True).stdout
+    subprocess.run(["aomdec", "--rawvideo", "-o", path + ".yuv", path], check=True)
+    raw = Path(path + ".yuv").read_bytes()
     planes = np.frombuffer(raw, np.uint8).reshape(len(frames), 3, height, width).astype(np.float64)
     squares = 0.0
     for (y, u, v), frame in zip(planes, frames):
@@ -125,7 +125,7 @@ def av1(names, intra):
             key = ["--kf-max-dist=0"] if intra else [f"--kf-max-dist={GROUP}"]
             subprocess.run(
                 ["aomenc", "--obu", "--i444", "--end-usage=q", f"--cq-level={level}",
-                 "--cpu-used=3", "--passes=2", "--color-range=1", *key, "-o", out + "/v.obu",
+                 "--cpu-used=3", "--passes=2", *key, "-o", out + "/v.obu",
                  out + "/in.y4m"], check=True, capture_output=True)
             size = Path(out + "/v.obu").stat().st_size
             curve.append((psnr_of_video(out + "/v.obu", frames), size))
