@@ -22,7 +22,7 @@ export class Sequence {
     this.#source = source;
     this.#decoder = decoder;
     this.#groups = new Groups(source, decoder);
-    this.#held = new HeldGroups(source, decoder, options);
+    this.#held = new HeldGroups(source, this.#groups, decoder, options);
   }
 
   get info() {
