@@ -184,33 +184,36 @@ export class Groups {
 
   /** The streams of the groups from a place on that one goes on from. */
   async streamsBefore(group, from) {
-    const lost = new TksError('truncated', `Group ${group.number} of the sequence goes on from ` +
-      `group ${entryNumber(group)}, which is not there.`);
-    if (entryOf(group) < 0) throw lost;
-    const bytes = await this.#source.scattered(from, group.offset);
-    if (bytes.length < group.offset - from) throw lost;
-    const streams = [];
-    for (let place = from; place < group.offset; ) {
-      const before = await this.#groupIn(bytes.subarray(place - from), place);
-      const isLink = before && entryOf(before) === entryOf(group) &&
-        entryNumber(before) === entryNumber(group);
-      if (!isLink) throw lost;
-      const begin = before.streamOffset - from;
-      streams.push(bytes.slice(begin, begin + before.streamBytes));
-      place = endOf(before);
+    const isLink = (before) => entryOf(before) === entryOf(group) &&
+      entryNumber(before) === entryNumber(group);
+    const run = this.#knownRun(from, group.offset) ?? (await this.#readRun(from, group.offset));
+    if (!run?.every(isLink)) {
+      throw new TksError('truncated', `Group ${group.number} of the sequence goes on from group ` +
+        `${entryNumber(group)}, which is not there.`);
     }
-    return streams;
+    return Promise.all(run.map(({streamOffset, streamBytes}) =>
+      this.#source.scattered(streamOffset, streamOffset + streamBytes)));
   }
-  /** The group at a place, whose bytes these are; nothing where none begins. */
-  async #groupIn(bytes, place) {
-    const known = this.#known[countUpTo(this.#known, place, ({offset}) => offset) - 1];
-    if (known?.offset === place) return known;
-    try {
-      return (await this.#headAt(place, {bytes}))?.group;
-    } catch (error) {
-      if (error.code !== 'corrupt') throw error;
-      return null;
+  /** The groups in [begin, end) of the file, if all are known. */
+  #knownRun(begin, end) {
+    const first = countUpTo(this.#known, begin - 1, ({offset}) => offset);
+    const run = this.#known.slice(first, countUpTo(this.#known, end - 1, ({offset}) => offset));
+    const places = [...run.map(({offset}) => offset), end];
+    return [begin, ...run.map(endOf)].every((place, i) => place === places[i]) ? run : null;
+  }
+  /** The same of all, of one request; null: no groups fill it. */
+  async #readRun(begin, end) {
+    const bytes = begin < 0 ? [] : await this.#source.scattered(begin, end), run = [];
+    for (let place = begin; place < end; place = endOf(run.at(-1))) {
+      if (bytes.length < end - begin) return null;
+      const head = await this.#headAt(place, {bytes: bytes.subarray(place - begin)})
+        .catch((error) => {
+          if (error.code !== 'corrupt') throw error;
+        });
+      if (!head) return null;
+      run.push(head.group);
     }
+    return run;
   }
 
   /** Forgets groups that end before a frame and that its group does not go on from, but not the

@@ -129,11 +129,12 @@ export class HeldGroups {
       await new Promise((resolve) => this.#waiting.push(resolve));
     }
   }
-  /** Has the file keep what the groups behind those that are held go on from. */
+  /** Has the file keep what the groups behind those that are held go on from, if they do. */
   #keep() {
     const held = this.#slots.flatMap(({group}) => group ?? []);
     this.#goesOn ||= held.some(({depth}) => depth > 0);
-    if (this.#goesOn) this.#file.keep?.(held.map((group) => [entryOf(group), endOf(group)]));
+    const keeps = this.#goesOn || held.every(({number}) => number === 0);  // nobody knows yet
+    this.#file.keep?.(keeps ? held.map((group) => [entryOf(group), endOf(group)]) : []);
   }
   #freeSlot() {
     const empty = this.#slots.find(({group, users}) => !group && users === 0);

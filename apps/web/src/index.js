@@ -40,7 +40,8 @@ export async function open(input, options = {}) {
   try {
     const first = await gathered((take) => source.next(0, FIRST_BYTES, take, signal));
     if (isSequence(first)) {
-      opened = sequenceOf(new KeptSource(await anyOrder(source, first, signal)), decoder, options);
+      const kept = new KeptSource(await anyOrder(source, first, signal), first);
+      opened = sequenceOf(kept, decoder, options);
       await opened.begin(first, signal);
     } else {
       opened = new Terrain(new BegunSource(source, first), decoder, requestBytes);

@@ -6,10 +6,12 @@ import {gapsIn} from './ranges.js';
 
 export class KeptSource {
   #file;
-  #keeps = false;
+  #keeps = true;
   #pieces = [];  // {begin, end, bytes}, in their order, none of which overlap
-  constructor(file) {
+  /** `first`: bytes of the file that are here. */
+  constructor(file, first) {
     this.#file = file;
+    this.#add(0, first);
   }
 
   get requests() {
@@ -21,9 +23,10 @@ export class KeptSource {
   get size() {
     return this.#file.size;
   }
-  /** From now on all that comes is kept, until a later call does not have it in its ranges. */
+  /** Gives up what is not in these ranges. What comes is kept until the next call, if there are
+   * any. */
   keep(ranges) {
-    this.#keeps = true;
+    this.#keeps = ranges.length > 0;
     this.#pieces = this.#pieces.filter((piece) =>
       ranges.some(([begin, end]) => piece.begin < end && piece.end > begin));
   }
@@ -40,7 +43,7 @@ export class KeptSource {
 
   async next(begin, end, take, signal) {
     const [[from] = [end]] = this.#gaps(begin, end);
-    if (from > begin) await take(await this.scattered(begin, from));
+    if (from > begin) await take(this.#kept(begin, from));
     let place = from;
     if (from >= end) return;
     await this.#file.next(from, end, async (piece) => {
@@ -49,16 +52,19 @@ export class KeptSource {
       await take(piece);
     }, signal);
   }
+  /** Asks once: for all between the first byte that is missing and the last one. */
   async scattered(begin, end, signal) {
-    const kept = this.#pieces.filter((piece) => piece.begin < end && piece.end > begin);
-    const brought = await Promise.all(this.#gaps(begin, end).map(async ([from, to]) => {
-      const bytes = await this.#file.scattered(from, to, signal);
-      this.#add(from, bytes);
-      return {begin: from, bytes};
-    }));
-    const all = [...kept, ...brought].sort((a, b) => a.begin - b.begin);
-    return joined(all.map(({begin: place, bytes}) =>
-      bytes.subarray(Math.max(begin - place, 0), Math.max(end - place, 0))));
+    const gaps = this.#gaps(begin, end);
+    if (gaps.length === 0) return this.#kept(begin, end);
+    const from = gaps[0][0], to = gaps.at(-1)[1];
+    const before = this.#kept(begin, from), behind = this.#kept(to, end);
+    const bytes = await this.#file.scattered(from, to, signal);
+    this.#add(from, bytes);
+    return joined([before, bytes, behind]);
+  }
+  #kept(begin, end) {
+    return joined(this.#pieces.filter((piece) => piece.begin < end && piece.end > begin)
+      .map((piece) => piece.bytes.subarray(Math.max(begin - piece.begin, 0), end - piece.begin)));
   }
   close() {
     this.#pieces = [];
