@@ -136,7 +136,7 @@ test('groups that go on from those before are shown as others are, and play', as
   });
 });
 
-test('where groups are gone the page says so, and plays what does not go on from them', async () => {
+test('where groups are gone the page says so, and plays on from the next entry', async () => {
   await site.withPage('tks=late.tks#frame=7', async (page) => {
     const numbers = await shown(page);
     await page.locator('#frame').fill('3');
