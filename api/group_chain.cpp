@@ -46,6 +46,12 @@ Result<uint64_t> bytesOfLast(tks_decoder& decoder, Component component) {
 
 }  // namespace
 
+Status misledDepth() {
+  return {TKS_CORRUPT,
+          "Corrupt sequence: the head of a group does not say that it goes on from another one, or "
+          "says so wrongly."};
+}
+
 uint64_t referenceOf(const StreamHeader& header) {
   const uint64_t heights = header.geometry ? header.geometry->frames.reference : 0;
   return std::max(heights, header.texture ? header.texture->frames.reference : 0);
@@ -65,6 +71,7 @@ FrameReference lastFrame(tks_decoder& decoder, Component component) {
 
 Status GroupChain::add(std::span<const uint8_t> before, const StreamHeader& stream) {
   const uint64_t bytes = referenceOf(stream);
+  if (bytes == 0) return misledDepth();
   if (bytes > before.size()) return doesNotFollow();
   const std::span<const uint8_t> link = before.first(static_cast<size_t>(bytes));
   const Result<OwnedDecoder> opened = openBehind(link, limits_, references());

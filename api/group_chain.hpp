@@ -27,6 +27,9 @@ struct References {
 Result<OwnedDecoder> openBehind(std::span<const uint8_t> data, const tks_limits* limits,
                                 const References& references);
 
+/// The head of a group says of its depth what its stream does not.
+Status misledDepth();
+
 /// How many bytes of the group before the frames of a stream go on from; 0: they stand by
 /// themselves.
 uint64_t referenceOf(const StreamHeader& header);

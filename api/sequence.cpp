@@ -20,12 +20,6 @@ Status noFrame(uint64_t frame) {
   return {TKS_USAGE, "The sequence has no frame " + std::to_string(frame) + "."};
 }
 
-Status misledDepth() {
-  return {TKS_CORRUPT,
-          "Corrupt sequence: the head of a group does not say that it goes on from another one, or "
-          "says so wrongly."};
-}
-
 void closeDecoder(tks_sequence& sequence) {
   sequence.decoder.reset();
   sequence.opened = nullptr;
@@ -186,7 +180,6 @@ Status makeChain(tks_sequence& sequence, size_t place) {
   for (size_t p = place - depth + chain.length(); p < place; ++p) {
     const Result<ParsedHeader> next = readHeader(sequence.groups[p + 1].stream);
     if (!next.ok()) return next.status();
-    if (referenceOf(next->header) == 0) return misledDepth();
     if (Status status = chain.add(sequence.groups[p].stream, next->header); !status.ok())
       return status;
     sequence.chained = numberAt(p);

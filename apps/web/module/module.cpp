@@ -13,14 +13,6 @@
 
 extern "C" {
 
-tks_status web_open(const uint8_t* data, size_t size, double max_memory, tks_decoder** out,
-                    char* message, size_t message_size) {
-  tks_limits limits{};
-  limits.size = sizeof limits;
-  limits.max_memory = static_cast<uint64_t>(max_memory);
-  return tks_open(data, size, &limits, out, message, message_size);
-}
-
 // What the loader calls each number of a stream, and the field of tks_info that holds it.
 #define TKS_WEB_NUMBERS(NUMBER)                            \
   NUMBER(formatVersion, format_version)                    \

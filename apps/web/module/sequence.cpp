@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What JavaScript calls of a sequence: the heads of its groups, and where groups lie in a file. The
-// stream of a group is opened as any other is.
+// What JavaScript calls of a sequence: the heads of its groups, and where groups lie in a file.
 #include "tetrakis/sequence.h"
 
 #include <algorithm>
@@ -30,7 +29,8 @@ extern "C" {
 struct web_head {
   double bytes;  ///< that it takes; if `data` ends before that is known, more than there are
   double first_frame, frames, stream_bytes, index_bytes;
-  double stream_header_bytes;     ///< of the stream behind it, likewise
+  double stream_header_bytes;  ///< of the stream behind it, likewise
+  double number, depth, bytes_back;
   double numerator, denominator;  ///< of the clock; both 0: there is none
   double times[tetrakis::kMostFrames];
 };
@@ -56,6 +56,9 @@ tks_status web_read_head(const uint8_t* data, size_t size, web_head* out, char* 
   out->stream_bytes = static_cast<double>(head.stream_bytes);
   out->index_bytes = static_cast<double>(head.index_bytes);
   out->stream_header_bytes = static_cast<double>(*header);
+  out->number = static_cast<double>(head.number);
+  out->depth = static_cast<double>(head.back.depth);
+  out->bytes_back = static_cast<double>(head.back.bytes);
   out->numerator = static_cast<double>(head.clock.numerator);
   out->denominator = static_cast<double>(head.clock.denominator);
   std::copy(head.times.begin(), head.times.end(), out->times);

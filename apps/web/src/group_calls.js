@@ -3,8 +3,8 @@
 import {TksError} from './error.js';
 import {MESSAGE_BYTES} from './instance.js';
 
-/** web_head: eight numbers, and the times of up to 32 frames. */
-const HEAD_NUMBERS = 8, MOST_FRAMES = 32;
+/** web_head: eleven numbers, and the times of up to 32 frames. */
+const HEAD_NUMBERS = 11, MOST_FRAMES = 32;
 /** web_place. */
 const PLACE_NUMBERS = 5;
 
@@ -19,7 +19,8 @@ function clockOf(numerator, denominator, text) {
 
 /**
  * The head of a group that `bytes` begin with: {bytes, firstFrame, times, streamBytes, indexBytes,
- * streamHeaderBytes, clock}. An error of the code `truncated` says how many are `needed`, at least.
+ * streamHeaderBytes, clock, number, depth, bytesBack}. It goes on from `depth` groups, which begin
+ * `bytesBack` before it. An error of the code `truncated` says how many are `needed`, at least.
  */
 export function readHead(instance, bytes) {
   // The texts are parts of the head.
@@ -28,14 +29,15 @@ export function readHead(instance, bytes) {
     const text = out + numbers, data = text + room;
     instance.view(Uint8Array, data, bytes.length).set(bytes);
     const status = instance.calls.web_read_head(data, bytes.length, out, text, room);
-    const [needed, firstFrame, frames, streamBytes, indexBytes, streamHeaderBytes, ...clock] =
-      instance.view(Float64Array, out, HEAD_NUMBERS);
+    const [needed, firstFrame, frames, streamBytes, indexBytes, streamHeaderBytes, number, depth,
+      bytesBack, ...clock] = instance.view(Float64Array, out, HEAD_NUMBERS);
     if (status !== 0) {
       throw Object.assign(TksError.ofStatus(status, instance.text(text)), {needed});
     }
     const written = instance.view(Uint8Array, text, room);
     return {
       bytes: needed, firstFrame, streamBytes, indexBytes, streamHeaderBytes,
+      number, depth, bytesBack,
       times: [...instance.view(Float64Array, out + 8 * HEAD_NUMBERS, frames)],
       clock: clockOf(...clock, new TextDecoder().decode(written)),
     };

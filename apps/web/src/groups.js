@@ -13,7 +13,7 @@ const HEAD_BYTES = 512;
 const MOST_INDICES = 2;
 
 const endFrame = ({firstFrame, times}) => firstFrame + times.length;
-const endOf = ({offset, bytes}) => offset + bytes;
+export const endOf = ({offset, bytes}) => offset + bytes;
 
 /** How many of a rising list are not greater. */
 function countUpTo(list, value, of) {
@@ -27,11 +27,22 @@ function countUpTo(list, value, of) {
 }
 
 /** What a head at a place tells. */
-function groupOf({bytes, firstFrame, times, clock, streamBytes, indexBytes}, offset) {
+function groupOf({bytes, streamHeaderBytes, indexBytes, ...head}, offset) {
   return {
-    offset, bytes: bytes + streamBytes + indexBytes, firstFrame, times, clock,
-    streamOffset: offset + bytes, streamBytes,
+    ...head, offset, bytes: bytes + head.streamBytes + indexBytes, streamOffset: offset + bytes,
   };
+}
+
+/** Where the groups begin that one goes on from, and the number of the first of these. */
+export const entryOf = ({offset, bytesBack}) => offset - bytesBack;
+const entryNumber = ({number, depth}) => number - depth;
+
+/** Whether a group can follow another one in the file, be it with groups between them. */
+function follows(a, b) {
+  const isLink = b.depth === 0 || b.number !== a.number + 1 ||
+    (b.depth === a.depth + 1 && b.bytesBack === a.bytesBack + a.bytes);
+  return isLink && a.number < b.number && endFrame(a) <= b.firstFrame &&
+    a.times.at(-1) < b.times[0] && JSON.stringify(a.clock) === JSON.stringify(b.clock);
 }
 
 export class Groups {
@@ -108,9 +119,7 @@ export class Groups {
     const place = countUpTo(this.#known, group.offset, ({offset}) => offset);
     const before = this.#known[place - 1], after = this.#known[place];
     if (before?.offset === group.offset) return;
-    const follows = (a, b) => !a || !b || (endFrame(a) <= b.firstFrame &&
-      a.times.at(-1) < b.times[0] && JSON.stringify(a.clock) === JSON.stringify(b.clock));
-    if (!follows(before, group) || !follows(group, after)) {
+    if ((before && !follows(before, group)) || (after && !follows(group, after))) {
       throw new TksError('corrupt', 'Corrupt sequence: a group does not follow the one before it.');
     }
     if (this.#known.length === 0) [this.clock, this.firstFrame] = [group.clock, group.firstFrame];
@@ -173,11 +182,47 @@ export class Groups {
     throw new TksError('corrupt', 'Corrupt sequence: its indices do not lead to all groups.');
   }
 
-  /** Forgets groups that end before a frame, but not the last one; gives where the first one that
-   * is left begins. */
+  /** The streams of the groups from a place on that one goes on from. */
+  async streamsBefore(group, from) {
+    const isLink = (before) => entryOf(before) === entryOf(group) &&
+      entryNumber(before) === entryNumber(group);
+    const run = this.#knownRun(from, group.offset) ?? (await this.#readRun(from, group.offset));
+    if (!run?.every(isLink)) {
+      throw new TksError('truncated', `Group ${group.number} of the sequence goes on from group ` +
+        `${entryNumber(group)}, which is not there.`);
+    }
+    return Promise.all(run.map(({streamOffset, streamBytes}) =>
+      this.#source.scattered(streamOffset, streamOffset + streamBytes)));
+  }
+  /** The groups in [begin, end) of the file, if all are known. */
+  #knownRun(begin, end) {
+    const first = countUpTo(this.#known, begin - 1, ({offset}) => offset);
+    const run = this.#known.slice(first, countUpTo(this.#known, end - 1, ({offset}) => offset));
+    const places = [...run.map(({offset}) => offset), end];
+    return [begin, ...run.map(endOf)].every((place, i) => place === places[i]) ? run : null;
+  }
+  /** The same of all, of one request; null: no groups fill it. */
+  async #readRun(begin, end) {
+    const bytes = begin < 0 ? [] : await this.#source.scattered(begin, end), run = [];
+    for (let place = begin; place < end; place = endOf(run.at(-1))) {
+      if (bytes.length < end - begin) return null;
+      const head = await this.#headAt(place, {bytes: bytes.subarray(place - begin)})
+        .catch((error) => {
+          if (error.code !== 'corrupt') throw error;
+        });
+      if (!head) return null;
+      run.push(head.group);
+    }
+    return run;
+  }
+
+  /** Forgets groups that end before a frame and that its group does not go on from, but not the
+   * last one; gives where the first one that is left begins. */
   forget(frame) {
-    while (this.#known.length > 1 && endFrame(this.#known[0]) <= frame) {
-      const {firstFrame, times} = this.#known.shift();
+    const ended = countUpTo(this.#known, frame, endFrame);
+    const its = Math.min(ended, this.#known.length - 1);
+    const gone = Math.max(its - (this.#known[its]?.depth ?? 0), 0);
+    for (const {firstFrame, times} of this.#known.splice(0, gone)) {
       for (let i = 0; i < times.length; ++i) delete this.times[firstFrame + i];
     }
     const [first] = this.#known;

@@ -5,6 +5,7 @@
 import {abortable} from './abort.js';
 import {askDecoder} from './decoders.js';
 import {TksError} from './error.js';
+import {endOf, entryOf} from './groups.js';
 import {FIRST_BYTES} from './pace.js';
 import {BegunSource, SliceSource} from './slice_source.js';
 import {Terrain} from './terrain.js';
@@ -15,13 +16,18 @@ const MOST_HELD = 2;
 class Lease {
   #decoder;
   #isOver = false;
-  constructor(decoder) {
+  /** `prepare(lease)` readies the decoder. */
+  constructor(decoder, prepare) {
     this.#decoder = decoder;
-    this.ready = askDecoder(decoder, 'forget');
+    this.ready = prepare(this);
     this.ready.catch(() => {});
   }
   async call(operation, argument, signal) {
-    if (!this.#isOver) return this.#decoder.call(operation, argument, signal);
+    this.check();
+    return this.#decoder.call(operation, argument, signal);
+  }
+  check() {
+    if (!this.#isOver) return;
     throw new TksError('usage', 'Frames of more groups were asked for meanwhile than are held.');
   }
   dispose() {
@@ -35,22 +41,35 @@ class Slot {
   users = 0;
   used = 0;  // when
   #decoder;
-  constructor(decoder) {
-    this.#decoder = decoder;
+  #groups;
+  #chain = {begin: 0, end: 0};  // where the groups lie that the decoder can go on from
+  constructor(decoder, groups) {
+    [this.#decoder, this.#groups] = [decoder, groups];
   }
   /** Has a group in the place of the one before. `stream`: its first bytes that are here. */
   hold(file, {group, stream = new Uint8Array()}, {bytes, requestBytes}) {
     this.terrain?.dispose();
     const known = stream.subarray(0, group.streamBytes);
     const slice = new SliceSource(file, group.streamOffset, group.streamBytes);
-    this.terrain =
-      new Terrain(new BegunSource(slice, known), new Lease(this.#decoder), requestBytes);
+    const lease = new Lease(this.#decoder, (its) => this.#prepare(group, its));
+    this.terrain = new Terrain(new BegunSource(slice, known), lease, requestBytes);
     this.group = group;
-    this.opened = this.#open(group, Math.max(bytes, known.length || FIRST_BYTES));
+    this.opened = this.#open(lease, Math.max(bytes, known.length || FIRST_BYTES));
     this.opened.catch(() => this.#release(group));
   }
-  async #open(group, bytes) {
-    const {terrain} = this;
+  /** Gives the decoder what it lacks of the groups that this one goes on from. */
+  async #prepare(group, lease) {
+    const begin = entryOf(group), chain = this.#chain;
+    const goesOn = chain.begin === begin && chain.end <= group.offset;
+    const from = goesOn ? chain.end : begin;
+    const streams = from < group.offset ? await this.#groups.streamsBefore(group, from) : [];
+    lease.check();
+    this.#chain = {begin, end: group.offset};
+    return askDecoder(this.#decoder, 'forget', {goesOn, streams});
+  }
+  async #open(lease, bytes) {
+    const {terrain, group} = this;
+    await lease.ready;
     await terrain.begin(undefined, bytes);
     if (terrain.info.frames === group.times.length) return terrain;
     throw new TksError('corrupt', 'Corrupt sequence: a group has another number of frames than ' +
@@ -67,6 +86,8 @@ class Slot {
 
 export class HeldGroups {
   #file;
+  #groups;
+  #goesOn = false;  // a group of the sequence does, from the one before
   #requestBytes;
   #slots;
   #another;  // starts a decoder; null: there is to be one
@@ -74,9 +95,10 @@ export class HeldGroups {
   #waiting = [];  // who waits for a slot
 
   /** `another()` starts a decoder beside the first one, or gives none. */
-  constructor(file, decoder, {another, requestBytes}) {
-    [this.#file, this.#another, this.#requestBytes] = [file, another, requestBytes];
-    this.#slots = [new Slot(decoder)];
+  constructor(file, groups, decoder, {another, requestBytes}) {
+    [this.#file, this.#groups] = [file, groups];
+    [this.#another, this.#requestBytes] = [another, requestBytes];
+    this.#slots = [new Slot(decoder, groups)];
   }
 
   /** What `use` gives of the terrain of a group, which is held meanwhile. `found`: {group, stream};
@@ -100,17 +122,25 @@ export class HeldGroups {
         ++slot.users;
         if (!isHeld(slot)) {
           slot.hold(this.#file, found, {bytes, requestBytes: this.#requestBytes});
+          this.#keep();
         }
         return slot;
       }
       await new Promise((resolve) => this.#waiting.push(resolve));
     }
   }
+  /** Has the file keep what the groups behind those that are held go on from, if they do. */
+  #keep() {
+    const held = this.#slots.flatMap(({group}) => group ?? []);
+    this.#goesOn ||= held.some(({depth}) => depth > 0);
+    const keeps = this.#goesOn || held.every(({number}) => number === 0);  // nobody knows yet
+    this.#file.keep?.(keeps ? held.map((group) => [entryOf(group), endOf(group)]) : []);
+  }
   #freeSlot() {
     const empty = this.#slots.find(({group, users}) => !group && users === 0);
     if (empty) return empty;
     const decoder = this.#slots.length < MOST_HELD ? this.#another?.() : null;
-    if (decoder) this.#slots.push(new Slot(decoder));
+    if (decoder) this.#slots.push(new Slot(decoder, this.#groups));
     if (decoder) return this.#slots.at(-1);
     return this.#slots.filter(({users}) => users === 0).sort((a, b) => a.used - b.used)[0];
   }

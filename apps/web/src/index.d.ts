@@ -331,8 +331,8 @@ export interface Sequence extends Terrain {
    * shows all its frames once its header is there. What is no group, or does not follow, is refused
    * (`corrupt`), and so is all behind it. */
   append(bytes: Uint8Array): Promise<number>;
-  /** Of openLive(): gives up all groups that end before a frame, so that memory stays where it was.
-   * The numbers of frames stay. */
+  /** Of openLive(): gives up all groups that end before a frame and that its group does not go on
+   * from, so that memory stays where it was. The numbers of frames stay. */
   forget(frame: number): void;
 }
 

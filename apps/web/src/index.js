@@ -5,6 +5,7 @@ import {startDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {goesRound} from './globe.js';
 import {groundScale} from './ground.js';
+import {KeptSource} from './kept_source.js';
 import {LiveSource} from './live_source.js';
 import {FIRST_BYTES, FIRST_FRAME} from './pace.js';
 import {gathered} from './pieces.js';
@@ -39,7 +40,8 @@ export async function open(input, options = {}) {
   try {
     const first = await gathered((take) => source.next(0, FIRST_BYTES, take, signal));
     if (isSequence(first)) {
-      opened = sequenceOf(await anyOrder(source, first, signal), decoder, options);
+      const kept = new KeptSource(await anyOrder(source, first, signal), first);
+      opened = sequenceOf(kept, decoder, options);
       await opened.begin(first, signal);
     } else {
       opened = new Terrain(new BegunSource(source, first), decoder, requestBytes);

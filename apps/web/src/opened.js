@@ -20,8 +20,9 @@ const TEXELS = 2 ** 18;
  */
 export class Opened {
   #header;  // a copy, which the decoder reads until it gets more bytes
-  /** first: gives so many of the first bytes, as far as they are here. */
-  constructor(instance, first, memory) {
+  /** first: gives so many of the first bytes, as far as they are here; chain: the address of what
+   * the stream goes on from. */
+  constructor(instance, first, chain) {
     this.instance = instance;
     const {calls} = instance;
     const needed = Opened.#headerBytes(instance, first(MOST_BEFORE_BODY));
@@ -30,7 +31,7 @@ export class Opened {
     this.#header = instance.allocate(this.size);
     instance.view(Uint8Array, this.#header, this.size).set(header);
     instance.with(4 + MESSAGE_BYTES, (out) => {
-      const status = calls.web_open(this.#header, this.size, memory, out, out + 4, MESSAGE_BYTES);
+      const status = calls.web_open(chain, this.#header, this.size, out, out + 4, MESSAGE_BYTES);
       if (status !== 0) {
         calls.free(this.#header);
         throw Object.assign(TksError.ofStatus(status, instance.text(out + 4)), {needed});

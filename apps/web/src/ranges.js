@@ -1,6 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which bytes of a stream are here, and which requests bring others of them.
 
+/** What is missing of [begin, end) among ranges in their order. */
+export function gapsIn(ranges, begin, end) {
+  const gaps = [];
+  for (const [b, e] of ranges) {
+    if (e <= begin) continue;
+    if (b >= end) break;
+    if (b > begin) gaps.push([begin, b]);
+    begin = e;
+  }
+  if (begin < end) gaps.push([begin, end]);
+  return gaps;
+}
+
 /** Places of bytes that are here, as [begin, end) in their order, none of which touch. */
 export class Held {
   ranges = [];
@@ -18,15 +31,7 @@ export class Held {
   }
   /** What is missing of [begin, end). */
   gaps(begin, end) {
-    const gaps = [];
-    for (const [b, e] of this.ranges) {
-      if (e <= begin) continue;
-      if (b >= end) break;
-      if (b > begin) gaps.push([begin, b]);
-      begin = e;
-    }
-    if (begin < end) gaps.push([begin, end]);
-    return gaps;
+    return gapsIn(this.ranges, begin, end);
   }
 }
 

@@ -22,7 +22,7 @@ export class Sequence {
     this.#source = source;
     this.#decoder = decoder;
     this.#groups = new Groups(source, decoder);
-    this.#held = new HeldGroups(source, decoder, options);
+    this.#held = new HeldGroups(source, this.#groups, decoder, options);
   }
 
   get info() {
@@ -53,7 +53,18 @@ export class Sequence {
   /** Of a file that begins with these bytes. */
   async begin(first, signal) {
     const found = await this.#groups.begin(first, signal);
-    await this.#use(found, {bytes: 0, signal}, () => {});
+    await this.#beginAt(found, signal);
+  }
+  /** Of a sequence that was cut out of another one the first groups may go on from what is gone. */
+  async #beginAt(found, signal) {
+    const {firstFrame, times} = found.group, next = firstFrame + times.length;
+    try {
+      await this.#use(found, {bytes: 0, signal}, () => {});
+    } catch (error) {
+      if (error.code !== 'truncated' || next >= this.frames) throw error;
+      await this.#beginAt(
+        await this.#groups.find(next, false, {bytes: FIRST_BYTES, signal}), signal);
+    }
   }
   /** Of a live one: the bytes that follow those before. */
   append(bytes) {

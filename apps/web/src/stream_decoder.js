@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The decoder of one stream, whose bytes come bit by bit. Nothing here waits: workers run it, too.
+import {Chain} from './chain.js';
 import {TksError} from './error.js';
 import {partsOf} from './frame.js';
 import {locate, readHead} from './group_calls.js';
@@ -38,11 +39,12 @@ export class Decoder {
   #opened = null;
   #chunks = [];  // in the order in which they came
   #length = 0;
+  #chain;  // that the stream goes on from
   #centre = null;  // that positions of an object count from, in all frames
 
   constructor(module, memory) {
     this.module = module;
-    this.memory = memory;
+    this.#chain = new Chain(memory);
   }
 
   /** Bytes that are not here yet, from a place of the stream on. All of its header comes first. */
@@ -55,9 +57,11 @@ export class Decoder {
     this.put({place: this.#length, chunk: bytes});
   }
 
-  /** Forgets the stream for another one. The memory of the instance stays for it. */
-  forget() {
+  /** Forgets the stream for another one, which goes on from these as Chain.follow() takes them.
+   * The memory of the instance stays for it. */
+  forget(behind) {
     this.#close();
+    this.#chain.follow(behind);
     [this.#chunks, this.#length, this.#centre] = [[], 0, null];
   }
 
@@ -84,7 +88,8 @@ export class Decoder {
     if (this.#opened && this.#opened.size > size) this.#close();
     this.#instance ??= new Instance(this.module);
     this.#opened ??= new Opened(
-      this.#instance, (bytes) => this.#first(Math.min(bytes, size)), this.memory);
+      this.#instance, (bytes) => this.#first(Math.min(bytes, size)),
+      this.#chain.addressIn(this.#instance));
     // The decoder looks through its index each time that it gets bytes.
     const runs = runsOf(this.#behind(this.#opened.size, size));
     for (const {place, parts} of runs) this.#opened.put(place, parts);
@@ -97,6 +102,12 @@ export class Decoder {
     opened?.close();
   }
 
+  /** An instance that aborted does no more. */
+  #leave() {
+    this.#opened = this.#instance = null;
+    this.#chain.leave();
+  }
+
   /** Takes the steps of `use`, a generator, with the first `bytes` bytes that came, opened. */
   *#steps(bytes, use) {
     try {
@@ -107,7 +118,7 @@ export class Decoder {
         throw error;
       }
     } catch (error) {
-      if (!(error instanceof TksError)) this.#opened = this.#instance = null;
+      if (!(error instanceof TksError)) this.#leave();
       throw failureOf(error, EXHAUSTED);
     }
   }

@@ -11,11 +11,10 @@ import {startDecoder} from '../src/decoders.js';
 import {open, openLive} from '../src/index.js';
 import {Sequence} from '../src/sequence.js';
 import {sourceOf} from '../src/source.js';
-import {sequenceOf} from './sequences.js';
+import {HEIGHTS, equal, sequenceOf, using} from './sequences.js';
 import {serve} from './server.js';
 
 const vectors = new URL('../../../conformance/vectors/', import.meta.url);
-const HEIGHTS = {mesh: false, surface: true};
 let folder, site, whole, rasters, many, large;
 
 before(async () => {
@@ -38,18 +37,6 @@ after(async () => {
   await rm(folder, {recursive: true});
 });
 
-/** Calls use(opened), and disposes that. */
-async function using(opening, use) {
-  const opened = await opening;
-  try {
-    return await use(opened);
-  } finally {
-    opened.dispose();
-  }
-}
-/** Samples of synth are tenths of metres. */
-const equal = ({data}, raster) =>
-  assert.deepEqual(data.map((height) => Math.round(10 * height)), Float32Array.from(raster));
 const isUsage = {code: 'usage'};
 
 test('every frame is that of its file, of bytes, a Blob and a URL alike', async () => {

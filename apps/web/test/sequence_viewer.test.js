@@ -16,12 +16,17 @@ const vectors = new URL('../../../conformance/vectors/', import.meta.url);
 let site, flood, clouds;
 
 before(async () => {
-  ({bytes: flood} = await sequenceOf({heights: 'flood', frames: 12, size: 65},
-    '--lossless', '--fps', 4, '--epoch', '2026-03-01T00:00:00Z', '--group', 4));
+  const frames = {heights: 'flood', frames: 12, size: 65};
+  const options = ['--lossless', '--fps', 4, '--epoch', '2026-03-01T00:00:00Z'];
+  ({bytes: flood} = await sequenceOf(frames, ...options, '--group', 4));
+  const {bytes: going} =
+    await sequenceOf(frames, ...options, '--group', 2, '--reference', 'all', '--entry', 3);
+  const late = going.subarray(Buffer.from(going).indexOf('TKG\x1a', 1));
   ({bytes: clouds} = await sequenceOf({texture: 'clouds', frames: 4, size: 64},
     '--bytes', '40k', '--group', 2));
   const single = await readFile(new URL('frames_joint_30x30_40x40.tks', vectors));
-  site = await viewerSite({'flood.tks': flood, 'clouds.tks': clouds, 'single.tks': single});
+  site = await viewerSite({'flood.tks': flood, 'going.tks': going, 'late.tks': late,
+    'clouds.tks': clouds, 'single.tks': single});
 });
 after(() => site.close());
 
@@ -117,6 +122,30 @@ test('frames play one after the other, round and round, faster where it is asked
     assert.equal((await numbers()).length, length);
     const {frame} = await page.evaluate(() => document.body.dataset);
     assert.match(await spoken(page), new RegExp(`frame ${frame} of 12`));
+  });
+});
+
+test('groups that go on from those before are shown as others are, and play', async () => {
+  await site.withPage('tks=going.tks#frame=10', async (page) => {
+    assert.match(await page.locator('#rmse').textContent(), /exact/);
+    const numbers = await shown(page);
+    await page.locator('#speed').selectOption('4');
+    await page.locator('#play').click();
+    await page.waitForFunction(() => window.shown.length > 12);
+    (await numbers()).forEach((number, i) => assert.equal(number, (i + 11) % 12));
+  });
+});
+
+test('where groups are gone the page says so, and plays on from the next entry', async () => {
+  await site.withPage('tks=late.tks#frame=7', async (page) => {
+    const numbers = await shown(page);
+    await page.locator('#frame').fill('3');
+    await page.waitForFunction(() =>
+      /goes on from group 0, which is not there/.test(document.body.textContent));
+    await page.locator('#speed').selectOption('4');
+    await page.locator('#play').click();
+    await page.waitForFunction(() => window.shown.length > 7);
+    assert.deepEqual([...new Set(await numbers())].sort((a, b) => a - b), [6, 7, 8, 9, 10, 11]);
   });
 });
 

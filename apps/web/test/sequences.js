@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sequences for tests, which the command line makes (TETRAKIS_CLI: a built `tetrakis`).
+import assert from 'node:assert/strict';
 import {execFile} from 'node:child_process';
 import {mkdtemp, readFile, readdir, rm} from 'node:fs/promises';
 import {tmpdir} from 'node:os';
@@ -10,6 +11,22 @@ import {fromArrayBuffer} from 'geotiff';
 export const CLI = process.env.TETRAKIS_CLI ??
   new URL('../../../build/tetrakis', import.meta.url).pathname;
 const run = promisify(execFile);
+
+/** Of decode(): the heights alone. */
+export const HEIGHTS = {mesh: false, surface: true};
+
+/** Calls use(opened), and disposes that. */
+export async function using(opening, use) {
+  const opened = await opening;
+  try {
+    return await use(opened);
+  } finally {
+    opened.dispose();
+  }
+}
+/** Samples of synth are tenths of metres. */
+export const equal = ({data}, raster) =>
+  assert.deepEqual(data.map((height) => Math.round(10 * height)), Float32Array.from(raster));
 
 async function samplesOf(file) {
   const tiff = await fromArrayBuffer((await readFile(file)).buffer);

@@ -65,7 +65,7 @@ export class Player {
   async play() {
     const signal = this.#begin(true), {firstFrame, frames} = this.#terrain;
     const ask = (number) => {
-      const asked = this.#decode({frame: number, signal});
+      const asked = this.#decodeFrom(number, signal);
       asked.catch(() => {});
       return asked;
     };
@@ -83,6 +83,17 @@ export class Player {
       this.#onend();
     } catch (error) {
       this.#failed(signal, error);
+    }
+  }
+  /** A frame; where groups are gone that it goes on from, the first one of a later group. */
+  async #decodeFrom(number, signal) {
+    try {
+      return await this.#decode({frame: number, signal});
+    } catch (error) {
+      if (error.code !== 'truncated') throw error;
+      const {endFrame} = await this.#terrain.group(number);
+      if (endFrame >= this.#terrain.frames) throw error;
+      return this.#decodeFrom(endFrame, signal);
     }
   }
   #failed(signal, error) {
