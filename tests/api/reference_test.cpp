@@ -209,7 +209,7 @@ TEST(References, LargestErrorsHold) {
 /// A receiver that has only so many bytes of a frame of each group sees later groups as one does
 /// that has all of them.
 TEST(References, ReceiversNeedTheStatedBytesAlone) {
-  const FrameRasters truth = hills(12);
+  const FrameRasters truth = still(hills(1), 12);
   const tks_encode_options encode = budget(150);
   const EncodedSequence encoded = encodeSequence(truth, goingOn(encode, 4, 60));
   Sequence all{encoded.bytes};
@@ -229,7 +229,7 @@ TEST(References, ReceiversNeedTheStatedBytesAlone) {
 }
 
 TEST(References, ThinSequencesKeepWhatLaterGroupsGoOnFrom) {
-  const FrameRasters truth = hills(12);
+  const FrameRasters truth = still(hills(1), 12);
   const tks_encode_options encode = budget(150);
   const EncodedSequence encoded = encodeSequence(truth, goingOn(encode, 4, 60));
   Sequence all{encoded.bytes};
