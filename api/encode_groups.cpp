@@ -118,16 +118,21 @@ Status encodeEach(tks_sequence_encoder& encoder) {
 /// Whether frames that all have to come back take clearly fewer bytes each by itself than together:
 /// drawings, few values and corrections are coded in ways that only a stream of one frame has. The
 /// first frame tells whether it is worth a try.
-bool eachIsShorter(tks_sequence_encoder& encoder, uint64_t together) {
+bool eachIsShorter(tks_sequence_encoder& encoder, const EncodedGroup& all) {
+  const auto bytes_of = [&](const EncodedGroup& group) {
+    return encoder.groups.bytesBeside(group.head, group.stream.size()) + group.stream.size();
+  };
+  const uint64_t together = bytes_of(all);
   const tks_encode_options& options = encoder.options;
   const size_t count = encoder.pending.frames.size();
-  if (count < 2 || refers(encoder) || (options.lossless == 0 && options.max_error == 0))
+  constexpr size_t kLeast = 4;  // of fewer frames there is little to gain
+  if (count < kLeast || refers(encoder) || (options.lossless == 0 && options.max_error == 0))
     return false;
   uint64_t each = 0;
   for (size_t t = 0; t < count; ++t) {
     const Result<EncodedGroup> frame = encodeGroupOf(encoder, t, 1);
     if (!frame.ok()) return false;
-    each += frame->stream.size();
+    each += bytes_of(*frame);
     if (each * count >= together * (t + 1)) return false;  // these stand for the others
   }
   return true;
@@ -141,7 +146,7 @@ Status encodePending(tks_sequence_encoder& encoder) {
   const Result<EncodedGroup> group = encodeGroupOf(encoder, 0, count);
   const bool apart = group.status().code() == TKS_UNSUPPORTED && count > 1;
   Status status = group.status();
-  if (apart || (group.ok() && eachIsShorter(encoder, group->stream.size()))) {
+  if (apart || (group.ok() && eachIsShorter(encoder, *group))) {
     status = encodeEach(encoder);
   } else if (group.ok()) {
     write(encoder, *group);
