@@ -112,6 +112,7 @@ class SequenceEncoder:
             self.follow_handle(sequence)
 
     def follow_handle(self, written: SequenceHandle) -> None:
+        """As `follow`, behind a sequence that is open."""
         self._run(c.lib.tks_sequence_encoder_continue, (written.address,), True)
         self._next = written.time(written.info().end_frame - 1) + 1
 
