@@ -156,6 +156,7 @@ class Clock:
         return 86400 * int(days) + 3600 * hours + 60 * minutes + seconds + fraction
 
     def struct(self) -> s.Clock:
+        """The struct of the C interface."""
         tick = self.tick or Fraction(0)
         return s.Clock(
             size=ctypes.sizeof(s.Clock),
