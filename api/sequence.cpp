@@ -220,7 +220,9 @@ Status forgetBefore(tks_sequence& sequence, uint64_t frame) {
   if (groups.empty()) return {};
   first -= static_cast<size_t>(std::min<uint64_t>(first, groups[first].parsed.head.back.depth));
   if (first == 0) return {};
-  if (sequence.opened != nullptr && placeOf(sequence, *sequence.opened) < first)
+  // The opened group stays open if all that it goes on from stays.
+  const KeptGroup* const opened = sequence.opened;
+  if (opened != nullptr && placeOf(sequence, *opened) < first + opened->parsed.head.back.depth)
     closeDecoder(sequence);
   if (sequence.opened == nullptr) sequence.chain.clear();
   groups.erase(groups.begin(), groups.begin() + static_cast<ptrdiff_t>(first));

@@ -99,7 +99,7 @@ struct HeightWay {
   std::vector<uint8_t> masks;
   FrameCoding coding;
 
-  /// Bits to the last step, of steps of a given size.
+  /// The bits that coefficients take down to steps of another size, estimated.
   double bitsAt(double step) const {
     return coding.bits + static_cast<double>(truth.validSamples()) * std::log2(truth.step / step);
   }
@@ -148,9 +148,9 @@ Result<HeightWay> chooseWay(const GroupInputs& inputs) {
   if (!all && going_on.truth.step > kCoarser * found->step)
     return wayOf(inputs, *std::move(found), nullptr);
   HeightWay alone = wayOf(inputs, *std::move(found), nullptr);
-  const double step = all ? going_on.truth.step : alone.truth.step;
-  const double bits = all ? alone.coding.bits : alone.bitsAt(step);
-  return going_on.bitsAt(step) < bits ? std::move(going_on) : std::move(alone);
+  // Both keep a promise, whatever their steps; lossy ones are compared at the same error.
+  const double bits = all ? going_on.coding.bits : going_on.bitsAt(alone.truth.step);
+  return bits < alone.coding.bits ? std::move(going_on) : std::move(alone);
 }
 
 }  // namespace

@@ -35,6 +35,7 @@ typedef struct tks_clock {
   const char* calendar; /* UTF-8, of CF: "noleap", "360_day"; NULL: that of everyday life */
 } tks_clock;
 
+/* Of tks_sequence_options.reference: all bytes of a group. */
 #define TKS_ALL_BYTES (~(uint64_t)0)
 /* The most groups between a group and the one that it is decoded from. */
 #define TKS_MOST_DEPTH 63
@@ -61,7 +62,8 @@ typedef struct tks_sequence_options {
 
 /* Encodes frames as they come into a sequence: groups of frames, one behind the other. What it has
  * written is never changed, so that a file grows at its end, and one that was cut is read up to its
- * last whole bytes. It takes memory for one group, and 50 bytes for each group before. */
+ * last whole bytes. It takes memory for one group and the frame that the next one goes on from, and
+ * 50 bytes for each group before. */
 typedef struct tks_sequence_encoder tks_sequence_encoder;
 
 /* message: as of tks_encode. */
@@ -82,7 +84,8 @@ tks_status tks_sequence_encoder_continue(tks_sequence_encoder* encoder,
 /* Takes one frame, which it copies, at a time in ticks after that of the frame before, within
  * +-2^61. The last frame of a group is pushed when the group is encoded. All frames of a sequence
  * are alike, as those of tks_encode_frames. Where frames together cannot be coded as the target
- * asks for, each is a group by itself. TKS_USAGE, with a sentence in message: as tks_encode; the
+ * asks for, or take more bytes to be lossless or within a largest error than one by one, each is a
+ * group by itself. TKS_USAGE, with a sentence in message: as tks_encode; the
  * frame is not like the first one, or is not later than the one before. The frame then is not
  * taken. */
 tks_status tks_sequence_push(tks_sequence_encoder* encoder, const tks_heights* heights,
@@ -150,8 +153,8 @@ tks_status tks_sequence_group(const tks_sequence* sequence, uint64_t frame, tks_
  * decoders show it. It belongs to the sequence, keeps its levels and threads while it stays the
  * same, and is there until the next call of tks_sequence_frame for a frame of another group,
  * tks_sequence_append, _forget or _close. The first call that decodes a group of tks_group.depth >
- * 0 decodes the last frame of each of so many groups before it as well, unless it comes behind the
- * call for the group before. TKS_USAGE: there is no such frame; TKS_TRUNCATED: the frame goes on
+ * 0, and be it a window, decodes all of the last frame of each of so many groups before it as well,
+ * unless it comes behind the call for the group before. TKS_USAGE: there is no such frame; TKS_TRUNCATED: the frame goes on
  * from a group that is not there; else as tks_open. */
 tks_status tks_sequence_frame(tks_sequence* sequence, uint64_t frame, tks_decoder** decoder);
 

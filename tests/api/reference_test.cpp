@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
+#include <limits>
 #include <string>
 
 #include "tests/support/sequences.hpp"
@@ -320,6 +322,83 @@ TEST(References, ForgettingKeepsWhatLaterFramesGoOnFrom) {
     EXPECT_LE(sequence.info().groups, 10u);
   }
   EXPECT_GE(sequence.info().first_frame, 16u);
+}
+
+/// A group that goes on from a lost one keeps as many groups before it as it goes on from, and these
+/// may begin in the middle of an earlier run: an opened group of that is given up.
+TEST(References, ForgettingBehindALostGroupIsSafe) {
+  const FrameRasters truth = hills(8);
+  const tks_encode_options encode = lossless();
+  const EncodedSequence encoded = encodeSequence(truth, goingOn(encode, 1, TKS_ALL_BYTES, 4));
+  const tks_group gap = Sequence{encoded.bytes}.group(5);
+  Bytes rest = encoded.bytes;
+  rest.erase(rest.begin() + static_cast<ptrdiff_t>(gap.offset),
+             rest.begin() + static_cast<ptrdiff_t>(gap.offset + gap.bytes));
+  const tks_status expected[] = {TKS_USAGE, TKS_USAGE, TKS_USAGE, TKS_TRUNCATED, TKS_OK};
+  for (uint64_t opened = 0; opened < 5; ++opened) {
+    Sequence sequence{rest};
+    ASSERT_NE(sequence.decoder(opened), nullptr);  // nothing is decoded yet
+    ASSERT_EQ(tks_sequence_forget(sequence.get(), 6), TKS_OK);
+    EXPECT_EQ(sequence.info().first_frame, 3u);
+    tks_decoder* decoder = nullptr;
+    EXPECT_EQ(tks_sequence_frame(sequence.get(), opened, &decoder), expected[opened]) << opened;
+    EXPECT_EQ(tks_sequence_frame(sequence.get(), 7, &decoder), TKS_TRUNCATED);
+    EXPECT_TRUE(sameBytes(sequence.heights(4), truth[4].data));
+  }
+}
+
+/// Kinds of samples, of which none is known to be kind to differences.
+TEST(References, OddFramesComeBack) {
+  struct Kind {
+    samples::Recipe recipe;
+    uint32_t frames;
+  };
+  const auto lowest = std::numeric_limits<int32_t>::min();
+  for (const Kind& kind :
+       {Kind{{Pattern::kHills, 1, 1, 1, TKS_U8}, 4}, Kind{{Pattern::kRidges, 1, 40, 1, TKS_U16}, 4},
+        Kind{{Pattern::kNoise, 33, 1, 1, TKS_I32}, 4},
+        Kind{{Pattern::kNoise, 19, 14, 1, TKS_F32}, 5},
+        Kind{{Pattern::kNoise, 16, 16, 1, TKS_U8}, 5}}) {
+    FrameRasters frames = movingFrames(kind.recipe, kind.frames);
+    const auto all_of = [&](std::byte value) {
+      samples::Raster flat = frames.front();
+      std::fill(flat.data.begin(), flat.data.end(), value);
+      frames.push_back(flat);
+    };
+    all_of(std::byte{0});  // flat, and as far off as the type goes
+    if (kind.recipe.sample == TKS_I32) {
+      samples::Raster far = frames.front();
+      for (size_t i = 0; i + 4 <= far.data.size(); i += 4)
+        std::memcpy(far.data.data() + i, &lowest, 4);
+      frames.push_back(far);
+    }
+    if (kind.recipe.sample != TKS_F32) all_of(std::byte{0x7f});
+    frames.push_back(frames.front());
+    const tks_encode_options encode = lossless();
+    for (const uint32_t group : {1u, 3u}) {
+      Sequence sequence{encodeSequence(frames, goingOn(encode, group)).bytes};
+      for (uint64_t t = 0; t < frames.size(); ++t)
+        EXPECT_TRUE(sameBytes(sequence.heights(t), frames[t].data))
+            << kind.recipe.width << " x " << kind.recipe.height << ", frame " << t;
+    }
+  }
+}
+
+/// Nothing is seen, then a little, then nothing again, then all.
+TEST(References, FramesWithoutAnythingComeBack) {
+  FrameRasters frames = seenGround(4);
+  const samples::Raster all = samples::make({Pattern::kHills, 33, 26, 1, TKS_I16});
+  samples::Raster none = all;
+  const int16_t nodata = -32768;
+  for (size_t i = 0; i < none.data.size(); i += 2) std::memcpy(none.data.data() + i, &nodata, 2);
+  frames.insert(frames.begin(), none);
+  frames.insert(frames.end(), {none, all, none, frames[2]});
+  const tks_encode_options encode = lossless();
+  for (const uint32_t group : {1u, 2u, 4u}) {
+    Sequence sequence{encodeSeen(frames, goingOn(encode, group)).bytes};
+    for (uint64_t t = 0; t < frames.size(); ++t)
+      EXPECT_TRUE(sameBytes(sequence.heights(t), frames[t].data)) << group << ", frame " << t;
+  }
 }
 
 TEST(References, DamageIsSafe) {

@@ -236,13 +236,13 @@ Status compareFrames(const CompareArguments& arguments, bool quiet) {
   CompareArguments one = arguments;
   FrameTotals totals;
   Json of_frames = Json::array();
-  uint64_t bytes = 0;
+  one.source.frame = 0;
+  Result<OpenStream> stream = openStream(one.source);
+  if (!stream.ok()) return stream.status();
   for (size_t t = 0; t < names->count(); ++t) {
     one.height = names->height(t);
     one.texture = names->texture(t);
-    one.source.frame = t;
-    Result<OpenStream> stream = openStream(one.source);
-    if (!stream.ok()) return stream.status();
+    if (Status status = showFrame(*stream, t); !status.ok()) return status;
     const tks_info& info = stream->decoder.info();
     const Result<Reference> reference = readReference(one, info, quiet || t > 0);
     if (!reference.ok()) return reference.status();
@@ -258,8 +258,8 @@ Status compareFrames(const CompareArguments& arguments, bool quiet) {
         measured->heights ? finiteOrNull(measured->heights->max_error) : Json();
     addPsnr(json, "texture", measured->texture_psnr);
     of_frames.push_back(std::move(json));
-    bytes = stream->sequence ? stream->sequence->bytes : stream->bytes.size();
   }
+  const uint64_t bytes = stream->sequence ? stream->sequence->bytes : stream->bytes.size();
   return printJson(arguments, totals.json(bytes, arguments.json ? of_frames : Json()));
 }
 

@@ -156,6 +156,15 @@ Result<OpenStream> openCut(const StreamSource& source, std::vector<std::byte> by
 
 }  // namespace
 
+Status showFrame(OpenStream& stream, uint64_t frame) {
+  if (!stream.groups)
+    return stream.decoder.setFrame(static_cast<uint32_t>(std::min<uint64_t>(frame, UINT32_MAX)));
+  Result<Decoder> decoder = stream.groups->decoder(frame);
+  if (!decoder) return decoder.status();
+  stream.decoder = std::move(*decoder);
+  return checkSound(stream.decoder);
+}
+
 Result<OpenStream> openStream(const StreamSource& source) {
   Result<std::vector<std::byte>> bytes = readBytes(source.path);
   if (!bytes.ok()) return bytes.status();

@@ -52,6 +52,7 @@ std::span<const uint8_t> octets(std::span<const std::byte> bytes);
 /// (memory_limit.hpp).
 tks_limits limitsOfTools();
 
+/// A decoder with these limits.
 Result<Decoder> openDecoder(std::span<const uint8_t> bytes);
 
 /// Whether the bytes begin as a sequence does, and not as a stream.
@@ -60,6 +61,10 @@ bool isSequence(std::span<const std::byte> bytes);
 /// Reads, checks (strict), cuts and opens. Of a sequence it opens the group of a frame. A cut
 /// that leaves no whole header gives TKS_TRUNCATED.
 Result<OpenStream> openStream(const StreamSource& source);
+
+/// Shows another frame of an open stream, or of the sequence that it belongs to: of that its bytes
+/// and its place stay those of the frame before.
+Status showFrame(OpenStream& stream, uint64_t frame);
 
 /// Whether a stream holds an object: heights over a base mesh, or triangles as they are.
 inline bool isObject(const tks_info& info) {
