@@ -13,7 +13,7 @@ import {open, openLive} from '../src/index.js';
 import {Sequence} from '../src/sequence.js';
 import {sourceOf} from '../src/source.js';
 import {Player} from '../viewer/player.js';
-import {HEIGHTS, equal, sequenceOf, using} from './sequences.js';
+import {HEIGHTS, countingMemory, equal, sequenceOf, using} from './sequences.js';
 import {serve} from './server.js';
 
 /** Groups of three frames; every fourth one stands by itself. */
@@ -188,24 +188,12 @@ test('playing passes over groups that do not decode', async () => {
   });
 });
 
-test('memory stays where it was from entry to entry', async () => {
-  const memories = [], {Instance} = WebAssembly;
-  WebAssembly.Instance = class extends Instance {
-    constructor(...parts) {
-      super(...parts);
-      memories.push(this.exports.memory);
-    }
-  };
-  const size = () => memories.reduce((sum, {buffer}) => sum + buffer.byteLength, 0);
-  try {
-    await using(open(bytes, {worker: false}), async (sequence) => {
+test('memory stays where it was from entry to entry', () =>
+  countingMemory(({modules, size}) =>
+    using(open(bytes, {worker: false}), async (sequence) => {
       await play(sequence, 0, 2 * ENTRY * GROUP);
       const before = size();
       for (let i = 0; i < 4; ++i) await play(sequence, 0, 2 * ENTRY * GROUP);
-      assert.equal(memories.length, 2);
+      assert.equal(modules(), 2);
       assert.equal(size(), before);
-    });
-  } finally {
-    WebAssembly.Instance = Instance;
-  }
-});
+    })));

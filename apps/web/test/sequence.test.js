@@ -11,7 +11,7 @@ import {startDecoder} from '../src/decoders.js';
 import {open, openLive} from '../src/index.js';
 import {Sequence} from '../src/sequence.js';
 import {sourceOf} from '../src/source.js';
-import {HEIGHTS, equal, sequenceOf, using} from './sequences.js';
+import {HEIGHTS, countingMemory, equal, sequenceOf, using} from './sequences.js';
 import {serve} from './server.js';
 
 const vectors = new URL('../../../conformance/vectors/', import.meta.url);
@@ -240,30 +240,18 @@ test('what does not follow is refused, and what was there stays', async () => {
     assert.rejects(sequence.append(whole), isUsage));
 });
 
-test('memory stays where it was while groups follow each other', async () => {
-  const memories = [], {Instance} = WebAssembly;
-  WebAssembly.Instance = class extends Instance {
-    constructor(...parts) {
-      super(...parts);
-      memories.push(this.exports.memory);
-    }
-  };
-  const size = () => memories.reduce((sum, {buffer}) => sum + buffer.byteLength, 0);
-  try {
-    await using(open(many.bytes, {worker: false}), async (sequence) => {
+test('memory stays where it was while groups follow each other', () =>
+  countingMemory(({modules, size}) =>
+    using(open(many.bytes, {worker: false}), async (sequence) => {
       const play = async (from, to) => {
         for (let frame = from; frame < to; ++frame) await sequence.decode({...HEIGHTS, frame});
       };
       await play(0, 10);
       const before = size();
       await play(10, 90);
-      assert.equal(memories.length, 2);
+      assert.equal(modules(), 2);
       assert.equal(size(), before);
-    });
-  } finally {
-    WebAssembly.Instance = Instance;
-  }
-});
+    })));
 
 test('a stream of several frames shows any of them', async () => {
   const bytes = await readFile(new URL('frames_joint_30x30_40x40.tks', vectors));

@@ -57,3 +57,23 @@ export async function sequenceOf({heights, texture, frames, size}, ...options) {
     await rm(folder, {recursive: true});
   }
 }
+
+/** Runs use({modules, size}): how many modules were instantiated within, and how much memory they
+ * have. */
+export async function countingMemory(use) {
+  const memories = [], {Instance} = WebAssembly;
+  WebAssembly.Instance = class extends Instance {
+    constructor(...parts) {
+      super(...parts);
+      memories.push(this.exports.memory);
+    }
+  };
+  try {
+    await use({
+      modules: () => memories.length,
+      size: () => memories.reduce((sum, {buffer}) => sum + buffer.byteLength, 0),
+    });
+  } finally {
+    WebAssembly.Instance = Instance;
+  }
+}

@@ -3,13 +3,12 @@
 
 import io
 import pickle
-import threading
 from concurrent.futures import ThreadPoolExecutor
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 import numpy as np
 import pytest
 from conftest import photograph
+from range_server import Server
 
 import tetrakis
 
@@ -21,46 +20,6 @@ def stream():
     noise = np.random.default_rng(5).integers(0, 900, (SIDE, SIDE), "i2")
     texture = photograph(300, 310)
     return tetrakis.encode(noise, texture, regions=64, index="windows")
-
-
-class Server:
-    """Serves `body`, with ranges or without, and counts."""
-
-    def __init__(self, body, ranges=True):
-        self.body, self.sent, self.requests, self.etag = body, 0, 0, '"one"'
-        outer = self
-
-        class Handler(BaseHTTPRequestHandler):
-            def do_GET(self):
-                outer.requests += 1
-                part, status = outer.body, 200
-                asked = self.headers.get("Range")
-                if ranges and asked:
-                    first, last = (int(n) for n in asked[len("bytes=") :].split("-"))
-                    part, status = outer.body[first : last + 1], 206
-                    if not part:
-                        self.send_error(416)
-                        return
-                outer.sent += len(part)
-                self.send_response(status)
-                self.send_header("ETag", outer.etag)
-                self.send_header("Content-Length", str(len(part)))
-                self.end_headers()
-                self.wfile.write(part)
-
-            def log_message(self, *_):
-                pass
-
-        self._server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-        self.url = f"http://127.0.0.1:{self._server.server_port}/a.tks"
-
-    def __enter__(self):
-        threading.Thread(target=self._server.serve_forever, daemon=True).start()
-        return self
-
-    def __exit__(self, *_):
-        self._server.shutdown()
-        self._server.server_close()
 
 
 WINDOWS = [np.s_[0:40, 0:40], np.s_[100:164, 500:560], np.s_[639:640, 639:640]]

@@ -4,13 +4,12 @@ group."""
 
 import io
 import pickle
-import threading
 from concurrent.futures import ThreadPoolExecutor
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 import numpy as np
 import pytest
 from conftest import moving
+from range_server import Server
 
 import tetrakis
 from tetrakis import _groups
@@ -35,44 +34,6 @@ def sequence():
 @pytest.fixture(scope="module")
 def unindexed():
     return tetrakis.encode_sequence(CUBE[::3], times=TIMES[::3], group=2, seekable=False)
-
-
-class Server:
-    """Answers requests for ranges of `body`, and counts them."""
-
-    def __init__(self, body):
-        self.requests = self.sent = 0
-        outer = self
-
-        class Handler(BaseHTTPRequestHandler):
-            def do_GET(self):
-                first, last = (int(n) for n in self.headers["Range"][len("bytes=") :].split("-"))
-                part = body[first : last + 1]
-                if not part:
-                    self.send_error(416)
-                    return
-                outer.requests, outer.sent = outer.requests + 1, outer.sent + len(part)
-                self.send_response(206)
-                self.send_header("Content-Length", str(len(part)))
-                self.send_header(
-                    "Content-Range", f"bytes {first}-{first + len(part) - 1}/{len(body)}"
-                )
-                self.end_headers()
-                self.wfile.write(part)
-
-            def log_message(self, *_):
-                pass
-
-        self._server = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-        self.url = f"http://127.0.0.1:{self._server.server_port}/a.tks"
-
-    def __enter__(self):
-        threading.Thread(target=self._server.serve_forever, daemon=True).start()
-        return self
-
-    def __exit__(self, *_):
-        self._server.shutdown()
-        self._server.server_close()
 
 
 def test_a_server_sends_few_bytes_for_a_frame(sequence):

@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 from conftest import moving, photograph
-from test_sequence_ranges import Server
+from range_server import Server
 
 import tetrakis
 from tetrakis import _groups
