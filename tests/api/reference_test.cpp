@@ -324,8 +324,8 @@ TEST(References, ForgettingKeepsWhatLaterFramesGoOnFrom) {
   EXPECT_GE(sequence.info().first_frame, 16u);
 }
 
-/// A group that goes on from a lost one keeps as many groups before it as it goes on from. These may
-/// begin in the middle of an earlier run: an opened group of that is given up.
+/// A group that goes on from a lost one keeps as many groups before it as it goes on from. They may
+/// begin in the middle of an earlier run: an opened group of that run is given up.
 TEST(References, ForgettingBehindALostGroupIsSafe) {
   const FrameRasters truth = hills(8);
   const tks_encode_options encode = lossless();
