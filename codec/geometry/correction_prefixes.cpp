@@ -68,7 +68,7 @@ class WatchedCorrections {
   }
 
   void ofHints(const std::vector<uint8_t>& hints) {
-    CorrectionReader<GrowingDecoder> reader(codeword_);
+    DecisionDecoding<GrowingDecoder> reader(codeword_);
     codeCorrections({hints, geometry_.extent(), geometry_.valid}, reader, noting<int32_t>(reader),
                     [](size_t, std::span<const int32_t>) {});
     end(reader);
@@ -80,7 +80,7 @@ class WatchedCorrections {
     end(reader);
   }
   void ofRelative() {
-    CorrectionReader<GrowingDecoder> reader(codeword_);
+    DecisionDecoding<GrowingDecoder> reader(codeword_);
     withSampleType(static_cast<tks_sample>(header_.sample), [&](auto type) {
       using T = decltype(type);
       codeRelativeRows<T>({header_, layers_.relative, plane_, geometry_.fraction_bits}, reader,

@@ -25,7 +25,7 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"long_160x5", "doubled low bands, heights by wavelet"},
     {"hills_u16_80x70", "fraction bits, heights by wavelet"},
     {"hills_lossless_64x50", "doubled low bands, heights by wavelet"},
-    {"steps_40x40", "exact corrections, fraction bits, heights by wavelet, repeated lines"},
+    {"steps_40x48", "exact corrections, fraction bits, heights by wavelet, repeated lines"},
     {"negative_i16_48x31", "doubled low bands, heights by wavelet"},
     {"float_65x65", "doubled low bands, heights by wavelet"},
     {"fine_i32_budget_60x45", "fraction bits, heights by wavelet"},

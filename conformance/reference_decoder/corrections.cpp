@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reference decoder: corrections of steps and of samples (docs/FORMAT.md, section 8.1).
-#include "conformance/reference_decoder/corrections.hpp"
+#include "conformance/reference_decoder/numbers.hpp"
 
 #include "conformance/reference_decoder/layers.hpp"
 

@@ -7,6 +7,7 @@
 
 #include "conformance/reference_decoder/error_forecast.hpp"
 #include "conformance/reference_decoder/mixed.hpp"
+#include "conformance/reference_decoder/numbers.hpp"
 #include "conformance/reference_decoder/range_decoder.hpp"
 #include "conformance/reference_decoder/sample_corrections.hpp"
 #include "conformance/reference_decoder/samples.hpp"
@@ -129,7 +130,7 @@ struct About {
 class FacetDecoder {
  public:
   FacetDecoder(const GeometryHeader& header, const Units& units, RangeDecoder& decoder)
-      : header_(header), units_(units), decoder_(decoder) {
+      : header_(header), units_(units), decoder_(decoder), beyond_(decoder) {
     for (auto& weights : right_) weights.fill(kFirstWeight);
     for (auto& weights : rest_) weights.fill(kFirstWeight);
   }
@@ -189,14 +190,8 @@ class FacetDecoder {
     const int64_t open =
         about.level + 2 * (Digits(header_.step).log2() - spacingOf(header_, about.bits));
     const int o = static_cast<int>(std::clamp<int64_t>(open, 0, 63));
-    const int k = ones(32, [&](int i) { return bits_[o * 32 + i].decode(decoder_); });
-    if (k == 0) return {about.bits, units_.of(about.bits)};
-    const int negative = sign_[o].decode(decoder_);
-    const uint32_t size = digits(k, [&](int i, uint32_t number) {
-      return i < 3 ? high_[k * 4 + static_cast<int>(number)].decode(decoder_) : decoder_.even();
-    });
-    const uint32_t order = orderOf(header_, about.bits);
-    const uint32_t bits = orderOf(header_, negative ? order - size : order + size);
+    const uint32_t c = beyond_.next(Nearby(), o, 0);
+    const uint32_t bits = orderOf(header_, orderOf(header_, about.bits) + c);
     return {bits, units_.of(bits)};
   }
 
@@ -205,7 +200,7 @@ class FacetDecoder {
   RangeDecoder& decoder_;
   ModelTable right_way_ = ModelTable(6 * 64 * kWays), right_far_ = ModelTable(6 * 8 * 16 * 2);
   ModelTable rest_place_ = ModelTable(8 * 8 * 4), rest_way_ = ModelTable(kWays * 64 * 4);
-  ModelTable bits_ = ModelTable(64 * 32), sign_ = ModelTable(64), high_ = ModelTable(33 * 4);
+  NumberDecoder beyond_;
   std::array<std::array<int64_t, 2>, 6> right_;
   std::array<std::array<int64_t, 2>, 4> rest_;
 };

@@ -15,7 +15,7 @@ namespace {
 
 /// FORMAT 8.1: hints of corrections of samples.
 int openBits(const GeometryHeader& header, uint32_t bits) {
-  return std::clamp(Digits(header.step).log2() - spacingOf(header, bits), 0, 31);
+  return std::clamp(Digits(header.step).log2() - spacingOf(header, bits), 0, 15);
 }
 
 /// FORMAT 8.1: hints of corrections of steps.

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "conformance/reference_decoder/corrections.hpp"
+#include "conformance/reference_decoder/numbers.hpp"
 #include "conformance/reference_decoder/range_decoder.hpp"
 #include "conformance/reference_decoder/sample_corrections.hpp"
 #include "conformance/reference_decoder/samples.hpp"

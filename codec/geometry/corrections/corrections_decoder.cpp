@@ -27,7 +27,7 @@ std::vector<uint8_t> activityHints(std::span<const uint8_t> significant, Extent 
 
 void decodeCorrections(std::span<const uint8_t> codeword, const CorrectionHints& hints,
                        const TakeCorrections& take) {
-  CorrectionReader reader(codeword);
+  DecisionDecoding reader(codeword);
   codeCorrections(
       hints, reader, [](size_t) { return 0; }, take);
 }

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/plane.hpp"
-#include "bitstream/coder/range_decoder.hpp"
 #include "codec/geometry/corrections/correction_coder.hpp"
 
 namespace tetrakis::inline corrections {
@@ -22,26 +21,6 @@ namespace tetrakis::inline corrections {
 /// Returns the hints (correction_coder.hpp) of corrections of steps: how many of a vertex and its
 /// four neighbours are significant. significant: of the samples of a part.
 std::vector<uint8_t> activityHints(std::span<const uint8_t> significant, Extent extent);
-
-// CorrectionReader is the decoder's side of a correction (correction_coder.hpp).
-
-/// Decoder: a RangeDecoder, or a class with the same functions.
-template <class Decoder = RangeDecoder>
-class CorrectionReader {
- public:
-  /// codeword: any prefix of a codeword of corrections; outlives the reader.
-  explicit CorrectionReader(std::span<const uint8_t> codeword) : decoder_(codeword) {}
-
-  bool more(AdaptiveBit& model, int32_t, int) { return decoder_.decode(model); }
-  bool negative(AdaptiveBit& model, int32_t, bool flip) { return decoder_.decode(model) != flip; }
-  bool high(AdaptiveBit& model, int32_t, int) { return decoder_.decode(model); }
-  bool low(int32_t, int) { return decoder_.decodeEven(); }
-  bool stopped() const { return decoder_.exhausted(); }
-  const Decoder& decoder() const { return decoder_; }
-
- private:
-  Decoder decoder_;
-};
 
 // decodeCorrections() decodes a codeword of corrections (correction_coder.hpp) into one small
 // integer for each sample.

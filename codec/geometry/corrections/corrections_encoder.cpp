@@ -11,7 +11,7 @@ namespace tetrakis::inline corrections {
 std::vector<uint8_t> encodeCorrections(std::span<const int32_t> corrections,
                                        const CorrectionHints& hints) {
   assert(corrections.size() == hints.extent().samples());
-  CorrectionWriter writer;
+  DecisionEncoding writer;
   codeCorrections(
       hints, writer, [&](size_t sample) { return corrections[sample]; },
       [](size_t, std::span<const int32_t>) {});

@@ -4,7 +4,6 @@
 // encodeParts() does so for each region of a plane.
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -14,44 +13,10 @@
 #include "base/parallel.hpp"
 #include "base/plane.hpp"
 #include "base/view.hpp"
-#include "bitstream/coder/range_encoder.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/corrections/correction_coder.hpp"
 
 namespace tetrakis::inline corrections {
-
-// CorrectionWriter is the encoder's side of a correction (correction_coder.hpp).
-
-class CorrectionWriter {
- public:
-  bool more(AdaptiveBit& model, int32_t known, int depth) {
-    const bool bit = static_cast<int>(std::bit_width(magnitudeOf(known))) > depth;
-    encoder_.encode(model, bit);
-    return bit;
-  }
-  bool negative(AdaptiveBit& model, int32_t known, bool flip) {
-    const bool negative = known < 0;
-    encoder_.encode(model, negative != flip);
-    return negative;
-  }
-  bool high(AdaptiveBit& model, int32_t known, int position) {
-    const bool bit = (magnitudeOf(known) >> position) & 1;
-    encoder_.encode(model, bit);
-    return bit;
-  }
-  bool low(int32_t known, int position) {
-    const bool bit = (magnitudeOf(known) >> position) & 1;
-    encoder_.encodeEven(bit);
-    return bit;
-  }
-  static constexpr bool stopped() { return false; }
-
-  /// The codeword, after which nothing is written.
-  std::vector<uint8_t> finish() { return encoder_.finish(); }
-
- private:
-  RangeEncoder encoder_;
-};
 
 // encodeParts() codes the corrections of each region of a plane as a codeword of its own
 // (bitstream/stream/geometry_header.hpp), on several threads. A plane in one track is one part.

@@ -27,8 +27,6 @@ inline size_t levelOf(uint64_t size) {
 
 class ErrorForecast {
  public:
-  static constexpr size_t kLevels = 20;
-
   explicit ErrorForecast(uint32_t width) {
     for (Row& row : errors_) row.resize(width + kMargins);
     for (std::vector<uint32_t>& row : missed_) row.resize(width + kMargins);
@@ -58,7 +56,6 @@ class ErrorForecast {
 
   /// The level of the error by which forecasts nearby have missed.
   size_t missedLevel() const { return levelOf(missed_nearby_); }
-  size_t level() const { return std::min(missedLevel(), kLevels - 1); }
 
   /// Learns the error of the sample that look() was called for.
   void learn(uint32_t x, int64_t error) {

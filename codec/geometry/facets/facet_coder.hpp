@@ -60,7 +60,7 @@ class FacetCoder {
  public:
   /// grid: of the base and step of the decoded heights.
   FacetCoder(const StepGrid& grid, const FacetUnit& unit, Io& io)
-      : grid_(grid), unit_(unit), io_(io) {}
+      : grid_(grid), unit_(unit), io_(io), beyond_(io) {}
 
   /// A sample, and where it lies before it is rounded, in units.
   struct Located {
@@ -83,8 +83,7 @@ class FacetCoder {
  private:
   static constexpr size_t kAsked = 6, kAgreeing = 8, kDistances = 16;
   static constexpr size_t kBefore = size_t{1} << FacetRows::kNeighbours;
-  static constexpr size_t kRests = 4, kOpen = 64;
-  static constexpr int kBits = 32;
+  static constexpr size_t kRests = 4;
 
   /// How many predictions came before one, up to kAsked - 1, and whether none comes behind it.
   struct Turn {
@@ -134,32 +133,17 @@ class FacetCoder {
     return std::clamp(predicted + (there - predicted) / 4, there - half, there + half);
   }
 
-  /// The sample by its difference from the foretold one, the digits of which are coded as those of
-  /// corrections are.
+  /// The sample by its difference from the foretold one.
   float codeBeyond(const ForetoldSample& foretold, float known) {
     const uint32_t from = orderOf(foretold.sample);
     const int spacings = grid_.exponent() - spacingExponent(foretold.sample);
-    const auto open = static_cast<size_t>(
-        std::clamp(static_cast<int>(foretold.level) + 2 * spacings, 0, int{kOpen} - 1));
+    constexpr int kMost = int{NumberSize::kLevels} - 1;
+    const int level = std::clamp(static_cast<int>(foretold.level) + 2 * spacings, 0, kMost);
     const auto difference = static_cast<int32_t>(orderOf(known) - from);
-    const uint32_t known_size = magnitudeOf(difference);
-    const int known_bits = std::bit_width(known_size);
-    int bits = 0;
-    while (bits < kBits &&
-           decide(bits_[open * kBits + static_cast<size_t>(bits)], known_bits > bits))
-      ++bits;
-    if (bits == 0) return foretold.sample;
-    const bool negative = decide(sign_[open], difference < 0);
-    uint32_t size = 1;
-    for (int position = bits - 2; position >= 0; --position) {
-      const bool bit = known_size >> position & 1;
-      const size_t digits = static_cast<size_t>(bits) * 4 + size;
-      size = 2 * size + (position >= bits - 3 ? decide(high_[digits], bit) : io_.even(bit));
-    }
-    return fromOrder<float>(from + (negative ? 0u - size : size));
+    const int32_t found = beyond_.code({}, {static_cast<size_t>(level), 0}, difference);
+    return fromOrder<float>(from + static_cast<uint32_t>(found));
   }
 
-  bool decide(AdaptiveBit& model, bool known) { return io_.decide(model, known); }
   template <size_t kModels>
   bool decide(Mixture<kModels> mixture, bool known) {
     const bool answer = io_.decideOf(mixture.zero(), known);
@@ -184,7 +168,7 @@ class FacetCoder {
   Models far_ = Models(kAsked * kAgreeing * kDistances * 2);  ///< by how many agree, how far off
   Models rest_place_ = Models(kAgreeing * kFloatPlaces * kRests);
   Models rest_way_ = Models(kWays * kBefore * kRests);
-  Models sign_ = Models(kOpen), bits_ = Models(kOpen * kBits), high_ = Models((kBits + 1) * 4);
+  NumberCoder<Io> beyond_;
   Weights<kAsked> right_weights_ = fresh<kAsked>();
   Weights<kRests> rest_weights_ = fresh<kRests>();
   const OddsTable odds_ = makeOddsTable();

@@ -2,7 +2,7 @@
 #include "codec/geometry/relative/relative_pass.hpp"
 
 #include "base/samples.hpp"
-#include "codec/geometry/corrections/corrections_decoder.hpp"
+#include "bitstream/coder/range_decoder.hpp"
 #include "codec/geometry/steps/restore.hpp"
 
 namespace tetrakis::inline relative {
@@ -11,7 +11,7 @@ DecodedHeights restoreRelative(DecodedHeights decoded, const GeometryHeader& hea
                                const RelativeSteps& relative, std::span<const uint8_t> codeword) {
   DecodedGeometry& geometry = decoded.geometry;
   decoded.corrections.assign(geometry.heights.size(), 0);
-  CorrectionReader reader(codeword);
+  DecisionDecoding reader(codeword);
   const StepGrid grid(header.base, header.step);
   const PlaneView<const int32_t> plane(geometry.heights, geometry.extent(), geometry.valid);
   withSampleType(static_cast<tks_sample>(header.sample), [&](auto type) {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/samples.hpp"
-#include "codec/geometry/corrections/corrections_encoder.hpp"
+#include "bitstream/coder/range_encoder.hpp"
 #include "codec/geometry/relative/relative_pass.hpp"
 
 namespace tetrakis::inline relative {
@@ -18,7 +18,7 @@ std::vector<uint8_t> encodeRelative(const tks_heights& samples, PlaneView<const 
   const Extent plane = steps.extent();
   const WindowValues<int32_t> heights(steps.values(), plane, part);
   const WindowValues<uint8_t> valid(steps.valid.bytes(), plane, part);
-  CorrectionWriter writer;
+  DecisionEncoding writer;
   withSampleType(samples.sample, [&](auto type) {
     using T = decltype(type);
     const WindowValues<T> exact({static_cast<const T*>(samples.data), plane.samples()}, plane,

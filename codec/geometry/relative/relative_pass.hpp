@@ -38,7 +38,7 @@ namespace tetrakis::inline relative {
 
 inline constexpr size_t kMultipleHints = 8;
 /// Places between a value and the middle of two; then those of multiples that planes do not say.
-inline constexpr size_t kRestPlaces = 8, kRestHints = kRestPlaces + 2;
+inline constexpr size_t kRestPlaces = 8;
 
 /// The whole steps in so many units, to the nearest, and not too many for 32 bits.
 inline int64_t nearestSteps(int64_t units, int64_t step) {
@@ -210,7 +210,7 @@ void codeRelativeRows(const RelativeHeights& of, Io& io, const ExactSample& exac
   KnownMultiples known(width, relative);
   const StepUnits units = known.units();
   const StepGrid grid(header.base, header.step);
-  CorrectionCoder<Io> multiples(width, kMultipleHints, io), rests(width, kRestHints, io);
+  CorrectionCoder<Io> multiples(width, io), rests(width, io);
   for (uint32_t y = 0; y < heights.height; ++y) {
     known.nextRow();
     multiples.nextRow();

@@ -43,11 +43,11 @@ int spacingExponent(T sample) {
   }
 }
 
-/// How many low bits of a sample's word a step of 2^exponent or more leaves open, 0 to 31: the hint
+/// How many low bits of a sample's word a step of 2^exponent or more leaves open, 0 to 15: the hint
 /// of its correction.
 template <class T>
 uint8_t openBits(T sample, int exponent) {
-  return static_cast<uint8_t>(std::clamp(exponent - spacingExponent(sample), 0, 31));
+  return static_cast<uint8_t>(std::clamp(exponent - spacingExponent(sample), 0, 15));
 }
 
 }  // namespace tetrakis::inline steps

@@ -153,7 +153,7 @@ TEST(Corrections, ComeBackAndPrefixesAgree) {
       std::vector<int32_t> corrections(valid.size());
       std::vector<uint8_t> hints(valid.size());
       for (size_t i = 0; i < valid.size(); ++i) {
-        hints[i] = static_cast<uint8_t>(random() % kHints);
+        hints[i] = static_cast<uint8_t>(random() % NumberSize::kPlaces);
         const auto r = static_cast<uint32_t>(random()) >> (32 - bits);
         if (valid[i] && random() % 3 == 0) corrections[i] = static_cast<int32_t>(r);
       }
