@@ -72,7 +72,8 @@ class CorrectedCut {
 
   /// Bytes of the coefficients that leave a mean squared error, in steps.
   uint64_t bytesFor(double mean_square) const;
-  /// Bytes of the coefficients up to the cut, and of the corrections behind it.
+  /// Bytes of the coefficients up to the cut, and of the corrections behind it. Exact corrections
+  /// are coded for it, those within a bound are estimated.
   uint64_t total(uint64_t bytes);
 
   /// The cut with the fewest bytes in all; only roughly, where these are clearly more than the
@@ -81,6 +82,9 @@ class CorrectedCut {
 
  private:
   DecodedGeometry decoded(uint64_t bytes);
+  uint64_t codedBytes(uint64_t bytes);
+  double entropyBytes(uint64_t bytes);
+  uint64_t boundedBytes(uint64_t bytes);
   void forgetFarthest();
 
   const HeightSteps& steps_;
@@ -90,7 +94,8 @@ class CorrectedCut {
   int32_t largest_;
   std::map<uint64_t, TrackMemory> known_;  ///< by bytes
   std::map<uint64_t, uint64_t> totals_;
-  uint64_t shortest_ = 0;  ///< of the cuts that were tried, if there are any
+  std::optional<double> taken_of_entropy_ = {};  ///< by the corrections of the usual cut
+  uint64_t shortest_ = 0;                        ///< of the cuts that were tried, if there are any
 };
 
 /// The RMSE, in steps, that cuts usually leave where the total bytes are fewest: ahead of exact

@@ -47,10 +47,10 @@ class NumberCoder {
   /// counts. known: the correction, or any number in decoders. Where io has stopped the result
   /// means nothing.
   int32_t code(const NearNumbers& near, NumberSize size, int32_t known) {
+    const bool expected = near.expectedEverywhere();
+    if (expected && !io_.decide(models_.askExpected(size), known != 0)) return 0;
     models_.look(near, size);
-    if (near.expectedEverywhere()) {
-      if (!io_.decide(models_.askExpected(), known != 0)) return 0;
-    } else {
+    if (!expected) {
       if (const std::optional<int32_t> far = codeFar(near, known)) return *far;
       if (!decide(Question::any(), known != 0)) return 0;
     }

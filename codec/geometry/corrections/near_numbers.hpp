@@ -60,6 +60,7 @@ class NumberRows {
   /// `backwards`. Where a neighbour is missing, as at voids, the next neighbour on the way to the
   /// sample stands in for it; the expected number itself, if there is neither W nor N.
   NearNumbers near(uint32_t x, int32_t expected, bool backwards) const {
+    if (allNearAre(x, expected)) return {};
     const auto &here = rows_[0], &above = rows_[1], &upper = rows_[2];
     const size_t i = x + kLeft;
     const auto counted = [&](int64_t number, int64_t else_counted) {
@@ -79,7 +80,6 @@ class NumberRows {
     for (const bool same :
          {w == nw, w == n, n == ne, n == nn, w == ww, n == nw, ne == nne, nw == nww, nw == nnw})
       near.alike |= size_t{same} << bit++;
-    if (near.alike == NearNumbers::kAllAlike) return near;
     near.spread = static_cast<size_t>(std::bit_width(
         static_cast<uint64_t>(std::abs(w - nw) + std::abs(n - nw) + std::abs(n - ne))));
     for (const int64_t other : {nw, n, ne, ww, nn, nne, nnw, nww}) {
@@ -90,6 +90,17 @@ class NumberRows {
   }
 
  private:
+  /// Whether no neighbour is missing, and each has the number: so it is in most places.
+  bool allNearAre(uint32_t x, int64_t number) const {
+    const auto &here = rows_[0], &above = rows_[1], &upper = rows_[2];
+    const size_t i = x + kLeft;
+    int64_t differ = 0;
+    for (const int64_t other : {here[i - 1], here[i - 2], above[i - 2], above[i - 1], above[i],
+                                above[i + 1], upper[i - 1], upper[i], upper[i + 1]})
+      differ |= other ^ number;
+    return differ == 0;
+  }
+
   using Row = std::vector<int64_t>;
   static constexpr int64_t kNone = std::numeric_limits<int64_t>::min();
   static constexpr uint32_t kLeft = 2, kMargins = kLeft + 1;

@@ -29,6 +29,8 @@ struct NumberSize {
 
   size_t level;  ///< of kLevels: how large numbers nearby are
   size_t place;  ///< of kPlaces: what the decoded height says
+
+  size_t index() const { return level * kPlaces + place; }
 };
 
 /// The questions about a correction. Small magnitudes are asked for one by one, others by their
@@ -75,16 +77,16 @@ class NumberModels {
         far_alike_(NearNumbers::kAlike * kSizesOfFar * kFar),
         far_weights_(kSpreads * kFar, freshWeights<kFarModels>()) {}
 
+  /// Asks whether the sample has a correction, where all neighbours have the expected number.
+  AdaptiveBit& askExpected(NumberSize size) { return expected_[size.index()]; }
+
   /// Sets the contexts of a sample before the first question about it.
   void look(const NearNumbers& near, NumberSize size) {
     near_ = near;
     level_ = size.level;
-    sizes_ = size.level * NumberSize::kPlaces + size.place;
+    sizes_ = size.index();
     spread_ = std::min(near.spread, kSpreads - 1);
   }
-
-  /// Asks whether the sample has a correction, where all neighbours have the expected number.
-  AdaptiveBit& askExpected() { return expected_[sizes_]; }
 
   Mixture<kModels> ask(const Question& question) {
     const auto away = [&](int64_t number, int64_t most) {
