@@ -33,6 +33,9 @@ constexpr std::array<double, 3> kStrides = {1.3, 1.1, 1.04};
 /// The search ends after its first factor where a cut takes this many times the bytes of another
 /// way: smaller factors save less. A larger number takes time.
 constexpr double kClearlyLost = 1.03;
+/// Corrections are coded to learn their bytes, and not estimated, where at most one sample in this
+/// number has one. A smaller number finds better cuts, and takes time.
+constexpr size_t kSparse = 32;
 
 /// A part of the plane: its steps, and the heights decoded from its cut.
 struct DecodedPart {
@@ -56,15 +59,6 @@ struct DecodedPart {
     return int64_t{steps.values()[i]} - wholeStep(heights.values()[i], fraction_bits);
   }
 };
-
-/// Corrections of a part, in multiples of 2 * largest + 1 steps; 0 where samples are void.
-std::vector<int32_t> correctionsWithin(const DecodedPart& part, int32_t largest) {
-  const Mask valid(part.valid.values());
-  std::vector<int32_t> corrections(part.extent.samples());
-  for (size_t i = 0; i < corrections.size(); ++i)
-    corrections[i] = valid[i] ? nearestMultiple(part.error(i), largest) : 0;
-  return corrections;
-}
 
 /// What a search for the best cut takes for the bytes of corrections: the entropy of their numbers
 /// of bits, by those of their neighbours and by their hints, and their digits. It is within some
@@ -97,23 +91,67 @@ class CorrectionEntropy {
   uint64_t digits_ = 0;
 };
 
-/// About how many bytes the corrections take.
-double bytesWithin(const std::vector<int32_t>& corrections, const CorrectionHints& hints) {
-  const uint32_t width = hints.width;
+/// Corrections of a part within a bound, and their hints.
+struct HintedCorrections {
+  std::vector<int32_t>
+      numbers;  ///< in multiples of 2 * largest + 1 steps; 0 where samples are void
+  std::vector<uint8_t> hints;
+  Extent extent;
+  Mask valid;
+
+  /// significant, and the part: outlive it.
+  HintedCorrections(const DecodedPart& part, std::span<const uint8_t> significant, int32_t largest)
+      : numbers(part.extent.samples()),
+        hints(activityHints(significant, part.extent)),
+        extent(part.extent),
+        valid(part.valid.values()) {
+    for (size_t i = 0; i < numbers.size(); ++i)
+      numbers[i] = valid[i] ? nearestMultiple(part.error(i), largest) : 0;
+  }
+
+  size_t zeros() const {
+    return static_cast<size_t>(std::count(numbers.begin(), numbers.end(), 0));
+  }
+  bool none() const { return zeros() == numbers.size(); }
+  bool areFew() const { return (numbers.size() - zeros()) * kSparse <= numbers.size(); }
+  std::vector<uint8_t> encode() const { return encodeCorrections(numbers, {hints, extent, valid}); }
+  double entropyBytes() const;
+};
+
+double HintedCorrections::entropyBytes() const {
   CorrectionEntropy entropy;
-  std::vector<uint8_t> above(size_t{width} + 2), here(above);  // bits, with margins
-  for (uint32_t y = 0; y < hints.height; ++y) {
+  std::vector<uint8_t> above(size_t{extent.width} + 2), here(above);  // bits, with margins
+  for (uint32_t y = 0; y < extent.height; ++y) {
     std::swap(above, here);
-    for (uint32_t x = 0; x < width; ++x) {
-      const size_t i = size_t{y} * width + x;
-      const uint32_t magnitude = magnitudeOf(corrections[i]);
+    for (uint32_t x = 0; x < extent.width; ++x) {
+      const size_t i = size_t{y} * extent.width + x;
+      const uint32_t magnitude = magnitudeOf(numbers[i]);
       here[x + 1] = static_cast<uint8_t>(std::bit_width(magnitude));
-      if (!hints.valid[i]) continue;
+      if (!valid[i]) continue;
       const int nearby = 2 * (here[x] + above[x + 1]) + above[x] + above[x + 2];
-      entropy.add(static_cast<size_t>(nearby), hints.data[i], magnitude);
+      entropy.add(static_cast<size_t>(nearby), hints[i], magnitude);
     }
   }
   return entropy.bytes();
+}
+
+/// Bytes of the corrections of a plane.
+struct BoundedBytes {
+  std::optional<uint64_t> coded;  ///< nothing: only estimated
+  double entropy = 0;
+};
+
+/// Corrections are coded where they are few, or `anyway`.
+BoundedBytes bytesWithin(const HeightSteps& steps, const DecodedGeometry& decoded, int32_t largest,
+                         bool anyway) {
+  const Window whole = {0, 0, decoded.width, decoded.height};
+  const DecodedPart part(steps, decoded.extent(), {decoded, whole, {&whole, 1}}, whole);
+  const HintedCorrections corrections(part, decoded.significant, largest);
+  BoundedBytes bytes;
+  if (anyway || corrections.areFew())
+    bytes.coded = corrections.none() ? 0 : corrections.encode().size();
+  if (anyway || !bytes.coded) bytes.entropy = corrections.entropyBytes();
+  return bytes;
 }
 
 /// Corrections of a part to whole steps.
@@ -145,9 +183,7 @@ Corrected correctPart(const DecodedPart& part, std::span<const uint8_t> signific
     result.codewords.push_back(encodeExact(part));
     return result;
   }
-  const std::vector<uint8_t> hints = activityHints(significant, part.extent);
-  result.codewords.push_back(encodeCorrections(correctionsWithin(part, largest),
-                                               {hints, part.extent, part.valid.values()}));
+  result.codewords.push_back(HintedCorrections(part, significant, largest).encode());
   return result;
 }
 
@@ -218,22 +254,15 @@ uint64_t CorrectedCut::codedBytes(uint64_t bytes) {
   return corrected.any ? bytesOf(corrected.codewords) : 0;
 }
 
-double CorrectedCut::entropyBytes(uint64_t bytes) {
-  const DecodedGeometry decoded = this->decoded(bytes);
-  const Window whole = {0, 0, decoded.width, decoded.height};
-  const DecodedPart part(steps_, decoded.extent(), {decoded, whole, {&whole, 1}}, whole);
-  const std::vector<uint8_t> hints = activityHints(decoded.significant, part.extent);
-  return bytesWithin(correctionsWithin(part, largest_), {hints, part.extent, part.valid.values()});
-}
-
-/// Entropies are scaled to the bytes that the corrections of the usual cut really take.
+/// The entropy of corrections is scaled to the bytes that those of the usual cut take of theirs.
 uint64_t CorrectedCut::boundedBytes(uint64_t bytes) {
   if (!taken_of_entropy_) {
-    const uint64_t usual = bytesFor(usualCut(largest_));
-    const double entropy = entropyBytes(usual);
-    taken_of_entropy_ = entropy > 0 ? static_cast<double>(codedBytes(usual)) / entropy : 1;
+    const DecodedGeometry usual = decoded(bytesFor(usualCut(largest_)));
+    const BoundedBytes both = bytesWithin(steps_, usual, largest_, true);
+    taken_of_entropy_ = both.entropy > 0 ? static_cast<double>(*both.coded) / both.entropy : 1;
   }
-  return static_cast<uint64_t>(*taken_of_entropy_ * entropyBytes(bytes));
+  const BoundedBytes taken = bytesWithin(steps_, decoded(bytes), largest_, false);
+  return taken.coded ? *taken.coded : static_cast<uint64_t>(*taken_of_entropy_ * taken.entropy);
 }
 
 Corrected CorrectedCut::correct(uint64_t bytes) {

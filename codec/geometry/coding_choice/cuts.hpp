@@ -73,7 +73,7 @@ class CorrectedCut {
   /// Bytes of the coefficients that leave a mean squared error, in steps.
   uint64_t bytesFor(double mean_square) const;
   /// Bytes of the coefficients up to the cut, and of the corrections behind it. Exact corrections
-  /// are coded for it, those within a bound are estimated.
+  /// and few ones are coded for it, others are estimated.
   uint64_t total(uint64_t bytes);
 
   /// The cut with the fewest bytes in all; only roughly, where these are clearly more than the
@@ -83,7 +83,6 @@ class CorrectedCut {
  private:
   DecodedGeometry decoded(uint64_t bytes);
   uint64_t codedBytes(uint64_t bytes);
-  double entropyBytes(uint64_t bytes);
   uint64_t boundedBytes(uint64_t bytes);
   void forgetFarthest();
 
