@@ -176,8 +176,8 @@ class CorrectionDecoder {
   /// The correction of the next valid sample.
   uint32_t next(int hint, int x, int y) {
     const Nearby nearby(known_, x, y, 0, 1);
-    const int64_t n = 2 * std::abs(nearby.w) + 2 * std::abs(nearby.n) + std::abs(nearby.nw) +
-                      std::abs(nearby.ne);
+    const int64_t n =
+        2 * std::abs(nearby.w) + 2 * std::abs(nearby.n) + std::abs(nearby.nw) + std::abs(nearby.ne);
     const uint32_t c = numbers_.next(nearby, std::min(levelOf(n), 63), hint);
     known_.put(x, y, static_cast<int32_t>(c));
     return c;
