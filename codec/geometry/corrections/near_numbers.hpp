@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // NumberRows keeps the numbers of the samples before one, row by row, and NearNumbers tells those
-// near it: the coder of corrections (correction_coder.hpp) expects the number of a sample from them.
+// near it, from which the coder of corrections (correction_coder.hpp) expects the next number.
 #pragma once
 
 #include <algorithm>
