@@ -23,8 +23,9 @@ struct Url {
 
 Result<Url> urlOf(const std::string& text) {
   constexpr std::string_view kScheme = "http://";
-  const size_t slash = text.find('/', kScheme.size());
-  if (!text.starts_with(kScheme) || slash == kScheme.size() || slash + 1 >= text.size())
+  const bool has_scheme = text.starts_with(kScheme);
+  const size_t slash = has_scheme ? text.find('/', kScheme.size()) : std::string::npos;
+  if (slash == std::string::npos || slash == kScheme.size() || slash + 1 == text.size())
     return Status(TKS_USAGE,
                   tools::quoted(text) + " is no URL as http://127.0.0.1:8000/frames.tks");
   return Url{text.substr(0, slash), text.substr(slash)};

@@ -14,12 +14,12 @@
 namespace tetrakis::tools {
 
 struct ReceiveOptions {
-  std::string url;                 ///< http://HOST[:PORT]/NAME
-  uint32_t link = (1u << 28) - 1;  ///< bytes a second
-  bool has_link = false;           ///< frames pass as if no more came
-  uint32_t triangles = 0;          ///< of the meshes that are drawn; 0: any number
-  bool live = false;               ///< the newest frame again and again, for `seconds`
-  std::optional<double> seconds;   ///< how long that goes on; none: for ever
+  std::string url;                     ///< http://HOST[:PORT]/NAME
+  uint32_t link = (1u << 28) - 1;      ///< bytes a second
+  bool has_link = false;               ///< frames pass as if no more came
+  uint32_t triangles = 0;              ///< of the meshes that are drawn; 0: any number
+  bool live = false;                   ///< the newest frame again and again, for `seconds`
+  std::optional<double> seconds = {};  ///< how long that goes on; none: for ever
 };
 
 /// What came.

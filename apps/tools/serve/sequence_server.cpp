@@ -16,7 +16,7 @@ constexpr uint32_t kReceivers = 64;
 constexpr size_t kThreads = kReceivers + 16;  ///< for those who read ranges besides
 constexpr uint64_t kKeptFrames = 1024;        ///< of a live sequence; ranges give older ones
 constexpr std::chrono::milliseconds kBetweenLooks(30);
-constexpr std::chrono::seconds kLongestWait(5), kLongestWrite(30);
+constexpr std::chrono::seconds kLongestWait(2), kLongestWrite(30);
 
 std::string_view textOf(std::span<const uint8_t> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

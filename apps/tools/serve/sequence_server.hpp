@@ -25,9 +25,10 @@ namespace tetrakis::tools {
 struct ServeOptions {
   std::string path;
   std::string address = kLoopback;
-  int port = 0;                                  ///< 0: any free one
-  bool live = false;                             ///< the file grows
-  std::function<void(const std::string&)> tell;  ///< is told why a file is not followed any more
+  int port = 0;       ///< 0: any free one
+  bool live = false;  ///< the file grows
+  std::function<void(const std::string&)> tell =
+      {};  ///< is told why a file is not followed any more
 };
 
 class SequenceServer {
