@@ -2,11 +2,13 @@
 #include "api/answer_plan.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "api/outlook.hpp"
+#include "api/renderer_bound.hpp"
 
 namespace tetrakis::inline api {
 
@@ -92,26 +94,53 @@ Result<KnownGroup*> AnswerPlan::known(size_t place) {
   return &transmitter_.known.try_emplace(number, KnownGroup{*std::move(parsed)}).first->second;
 }
 
+size_t AnswerPlan::entryOf(size_t place) const {
+  return place - static_cast<size_t>(groups()[place].parsed.head.back.depth);
+}
+
+Result<tks_decoder*> AnswerPlan::decoderOfEntry(size_t place) {
+  tks_decoder* decoder = nullptr;
+  tks_sequence& sequence = transmitter_.sequence;
+  const uint64_t frame = groups()[entryOf(place)].endFrame() - 1;
+  const tks_status status = tks_sequence_frame(&sequence, frame, &decoder);
+  if (status != TKS_OK) return Status(status, tks_sequence_message(&sequence));
+  return decoder;
+}
+
 Result<std::vector<WeightedSighting>> AnswerPlan::sightings(size_t place, Ground ground) {
   if (ground == Ground::kAll || !message_.view)
     return std::vector<WeightedSighting>{{{0, 0, {}, message_.triangles}, 1}};
-  // What hides what changes little behind a point of entry, whose frames are decoded by themselves.
-  const KeptGroup& here = groups()[place];
-  const size_t entry = place - static_cast<size_t>(here.parsed.head.back.depth);
-  const Result<KnownGroup*> group = known(entry);
+  const Result<KnownGroup*> group = known(entryOf(place));
   if (!group.ok()) return group.status();
   if (!(*group)->ground) {
-    tks_decoder* decoder = nullptr;
-    tks_sequence& sequence = transmitter_.sequence;
-    const tks_status status =
-        tks_sequence_frame(&sequence, groups()[entry].endFrame() - 1, &decoder);
-    if (status != TKS_OK) return Status(status, tks_sequence_message(&sequence));
-    Result<CoarseGround> coarse = coarseGround(*decoder);
+    const Result<tks_decoder*> decoder = decoderOfEntry(place);
+    if (!decoder.ok()) return decoder.status();
+    Result<CoarseGround> coarse = coarseGround(**decoder);
     if (!coarse.ok()) return coarse.status();
     (*group)->ground = *std::move(coarse);
   }
   return std::vector<WeightedSighting>{
       {sightingOf(*(*group)->ground, cameraOf(*message_.view), message_.triangles), 1}};
+}
+
+Result<ByteRanges> AnswerPlan::beyondRenderer(size_t place) {
+  constexpr double kShare = 0.5;  // of the error of the mesh, which then hardly grows
+  if (message_.triangles == 0) return ByteRanges();
+  const Result<KnownGroup*> entry = known(entryOf(place));
+  if (!entry.ok()) return entry.status();
+  if (!(*entry)->parsed.header.geometry) return ByteRanges();
+  const uint32_t triangles = std::bit_ceil(message_.triangles);
+  auto& errors = (*entry)->mesh_errors;
+  if (!errors.contains(triangles)) {
+    const Result<tks_decoder*> decoder = decoderOfEntry(place);
+    if (!decoder.ok()) return decoder.status();
+    const Result<double> error = meshError(**decoder, triangles);
+    errors[triangles] = error.ok() ? *error : 0;  // of what has no such mesh all is shown
+  }
+  const double error = kShare * errors[triangles];
+  const Result<KnownGroup*> group = known(place);
+  if (!group.ok()) return group.status();
+  return beyondError((*group)->parsed, groups()[place].stream, error);
 }
 
 void AnswerPlan::add(size_t place, ByteRange range) {
@@ -148,11 +177,16 @@ Status AnswerPlan::give(size_t place, uint64_t most, Ground ground) {
   if (!group.ok()) return group.status();
   const uint64_t head = groups()[place].parsed.bytes, number = groups()[place].parsed.head.number;
   const uint64_t there = groups()[place].stream.size();
+  const Result<ByteRanges> beyond = beyondRenderer(place);
+  if (!beyond.ok()) return beyond.status();
   const auto missing = [&](uint64_t begin, uint64_t end) {
     std::vector<ByteRange> gaps;
     if (begin >= std::min(end, there)) return gaps;
-    gaps = sent_.missing(number, {head + begin, head + std::min(end, there)});
-    for (ByteRange& gap : gaps) gap = {gap.begin - head, gap.end - head};
+    for (const ByteRange& gap :
+         sent_.missing(number, {head + begin, head + std::min(end, there)})) {
+      const auto shown = beyond->missing({gap.begin - head, gap.end - head});
+      gaps.insert(gaps.end(), shown.begin(), shown.end());
+    }
     return gaps;
   };
   const auto ranges =

@@ -36,6 +36,12 @@ class AnswerPlan {
   uint64_t shareOf(size_t place) const;
 
   Result<KnownGroup*> known(size_t place);
+  /// The decoder of the last frame of the group that a group goes on from at first: what takes
+  /// long to find changes little behind it, and it is decoded by itself.
+  Result<tks_decoder*> decoderOfEntry(size_t place);
+  size_t entryOf(size_t place) const;
+  /// What of a group's stream a mesh of so many triangles does not show.
+  Result<ByteRanges> beyondRenderer(size_t place);
   Result<std::vector<WeightedSighting>> sightings(size_t place, Ground ground);
   /// Adds what is missing of a range of a group, as far as there are bytes left.
   void add(size_t place, ByteRange range);

@@ -18,6 +18,8 @@ namespace tetrakis::inline api {
 struct KnownGroup {
   ParsedHeader parsed;
   std::optional<CoarseGround> ground = {};  ///< of the last frame
+  /// How far meshes of it are from it, by their numbers of triangles: powers of two.
+  std::map<uint32_t, double> mesh_errors = {};
 };
 
 /// What a transmitter knows of a receiver.

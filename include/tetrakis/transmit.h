@@ -124,8 +124,9 @@ tks_status tks_transmitter_get_info(const tks_transmitter* transmitter, tks_sequ
 /* Answers a control message, with nothing but a head where nothing is left that helps. What goes
  * first: what the wanted frame goes on from; of its group, and of those up to 10 s after it, each
  * its share of the link, by what the view shows; then more of them; then what the view does not
- * show. Nothing finer goes than meshes of so many triangles show, if the stream has a front index
- * (tks_encode_options.index); without one streams go in their order. Release `out` with
+ * show. Heights that meshes of so many triangles, rounded up to a power of two, do not show stay:
+ * those behind half of the error of the best such mesh. Only a front index
+ * (tks_encode_options.index) lets bytes go in another order than they have. Release `out` with
  * tks_free_buffer. The transmitter takes all of it for received, unless a later message says
  * that it was lost, or 32 further answers go and none tells of it. TKS_CORRUPT, TKS_UNSUPPORTED: this is no control message; TKS_USAGE: it tells of
  * answers that were not given, or is older than one before; the receiver's state stays. A receiver

@@ -2,6 +2,7 @@
 // System control: receivers of any link get from the same groups what helps them, and nothing
 // twice, whatever is lost and whoever lies.
 #include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "tests/support/indexed_terrain.hpp"
@@ -14,6 +15,10 @@ using samples::Pattern;
 
 FrameRasters hills(uint32_t count) {
   return movingFrames({Pattern::kHills, 70, 60, 1, TKS_I16}, count);
+}
+
+FrameRasters smallHills(uint32_t count) {
+  return movingFrames({Pattern::kHills, 40, 33, 1, TKS_I16}, count);
 }
 
 tks_encode_options indexed(tks_encode_options encode) {
@@ -41,7 +46,7 @@ Bytes encodeSeconds(const FrameRasters& frames, const Coding& coding, tks_encode
 class EveryCoding : public ::testing::TestWithParam<Coding> {};
 
 TEST_P(EveryCoding, GivesEveryReceiverAllOfItAndNothingTwice) {
-  const FrameRasters truth = hills(12);
+  const FrameRasters truth = smallHills(12);
   Transmitter transmitter = transmitterOf(encodeSeconds(truth, GetParam(), lossless()));
   for (const uint32_t link : {300u, 9000u, 200000u}) {
     Listener listener(link);
@@ -55,7 +60,7 @@ TEST_P(EveryCoding, GivesEveryReceiverAllOfItAndNothingTwice) {
 }
 
 TEST_P(EveryCoding, BringsWhatWasLostAgain) {
-  const FrameRasters truth = hills(12);
+  const FrameRasters truth = smallHills(12);
   Transmitter transmitter = transmitterOf(encodeSeconds(truth, GetParam(), lossless()));
   std::mt19937 random(5);
   Listener listener(1);
@@ -71,7 +76,7 @@ TEST_P(EveryCoding, BringsWhatWasLostAgain) {
 }
 
 TEST_P(EveryCoding, LongSilenceLosesNothing) {
-  const FrameRasters truth = hills(4);
+  const FrameRasters truth = smallHills(4);
   Transmitter transmitter = transmitterOf(encodeSeconds(truth, GetParam(), lossless()));
   Listener listener(1);
   listener.take(listener.ask(transmitter, wantsOf(0, 400)));
@@ -84,7 +89,7 @@ TEST_P(EveryCoding, LongSilenceLosesNothing) {
 }
 
 TEST_P(EveryCoding, WhatIsThereOfACutGroupComes) {
-  const FrameRasters truth = hills(6);
+  const FrameRasters truth = smallHills(6);
   const Bytes bytes = encodeSeconds(truth, GetParam(), lossless());
   Sequence whole{bytes};
   const tks_group last = whole.group(4);
@@ -101,7 +106,7 @@ TEST_P(EveryCoding, WhatIsThereOfACutGroupComes) {
 }
 
 TEST_P(EveryCoding, LateAndStalledReceiversAreRightAgain) {
-  const FrameRasters truth = hills(24);
+  const FrameRasters truth = smallHills(24);
   const Bytes bytes = encodeSeconds(truth, GetParam(), lossless());
   Sequence whole{bytes};
   Transmitter transmitter = transmitterOf({});
@@ -124,7 +129,7 @@ TEST_P(EveryCoding, LateAndStalledReceiversAreRightAgain) {
 }
 
 TEST_P(EveryCoding, WhatCameIsASequence) {
-  const FrameRasters truth = hills(16);
+  const FrameRasters truth = smallHills(16);
   Transmitter transmitter = transmitterOf(encodeSeconds(truth, GetParam(), lossless()));
   Listener listener(1);
   Bytes written;
@@ -175,21 +180,37 @@ TEST(Transmitters, EachGroupHasItsShareBeforeTheFirstHasAll) {
   }
 }
 
-TEST(Transmitters, NothingFinerGoesThanTheRendererShows) {
-  Transmitter transmitter = transmitterOf(encodeSeconds(hills(4), {true, 0}, lossless()));
-  uint64_t before = UINT64_MAX;
-  for (const uint32_t triangles : {0u, 20u, 1u}) {
-    Listener listener(triangles);
-    tks_wants wants = wantsOf(0, 50000);
-    wants.triangles = triangles;
-    listener.fill(transmitter, wants);
-    const uint64_t bytes = listener.receiver.info().bytes;
-    EXPECT_LE(bytes, before) << triangles;
-    before = bytes;
+/// RMSE of the best mesh of so many triangles of the decoded frame.
+double meshErrorOf(Result<Decoder> decoder, const samples::Raster& truth, uint32_t count) {
+  const Result<Mesh> mesh = decoder->budgetMesh(count);
+  EXPECT_TRUE(mesh.ok());
+  double sum = 0;
+  for (uint32_t v = 0; v < mesh->vertexCount(); ++v) {
+    const double d =
+        mesh->heights()[v] - sampleAt(truth.data, truth.sample, mesh->gridIndices()[v]);
+    sum += d * d;
   }
-  Listener all(9);
-  all.fill(transmitter, wantsOf(0, 50000));
-  EXPECT_LT(before, all.receiver.info().bytes);
+  return std::sqrt(sum / mesh->vertexCount());
+}
+
+TEST(Transmitters, StopWhereTheRendererHasEnough) {
+  const FrameRasters truth = hills(2);
+  for (const bool has_index : {false, true}) {
+    Transmitter transmitter = transmitterOf(encodeSeconds(truth, {has_index, 0}, lossless()));
+    Listener all(1);
+    all.fill(transmitter, wantsOf(0, 50000));
+    uint64_t before = all.receiver.info().bytes;
+    for (const uint32_t triangles : {1000u, 100u, 20u}) {
+      Listener few(triangles);
+      tks_wants wants = wantsOf(0, 50000);
+      wants.triangles = triangles;
+      few.fill(transmitter, wants);
+      EXPECT_LT(few.receiver.info().bytes, before) << triangles;
+      before = few.receiver.info().bytes;
+      const double enough = meshErrorOf(few.receiver.decoder(0), truth[0], triangles);
+      EXPECT_LT(enough, 1.3 * meshErrorOf(all.receiver.decoder(0), truth[0], triangles) + 1);
+    }
+  }
 }
 
 TEST(Transmitters, WhatIsLookedAtComesFirst) {
