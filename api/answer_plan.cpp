@@ -25,7 +25,7 @@ tks_screen_camera cameraOf(const ControlView& view) {
   camera.height = view.height;
   constexpr std::array<size_t, 3> kRows = {0, 1, 3};
   for (size_t i = 0; i < view.rows.size(); ++i)
-    camera.clip[4 * kRows[i / 4] + i % 4] = static_cast<double>(view.rows[i]);
+    camera.clip[4 * kRows[i / 4] + i % 4] = static_cast<double>(std::bit_cast<float>(view.rows[i]));
   return camera;
 }
 

@@ -2,6 +2,7 @@
 #include "api/receiver.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -228,9 +229,9 @@ Result<ControlView> controlViewOf(const tks_screen_camera& given) {
   ControlView view{camera.width, camera.height, {}};
   constexpr std::array<size_t, 3> kRows = {0, 1, 3};
   for (size_t i = 0; i < view.rows.size(); ++i) {
-    view.rows[i] = static_cast<float>(camera.clip[4 * kRows[i / 4] + i % 4]);
-    if (!std::isfinite(view.rows[i]))
-      return Status(TKS_USAGE, "The matrix of the view exceeds floats.");
+    const auto rounded = static_cast<float>(camera.clip[4 * kRows[i / 4] + i % 4]);
+    if (!std::isfinite(rounded)) return Status(TKS_USAGE, "The matrix of the view exceeds floats.");
+    view.rows[i] = std::bit_cast<uint32_t>(rounded);
   }
   return view;
 }

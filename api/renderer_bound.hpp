@@ -12,12 +12,12 @@
 
 namespace tetrakis::inline api {
 
-/// RMSE in the unit of the heights, over the samples that the mesh covers. Of a stream with heights.
+/// RMSE in the unit of the heights, which there are, over the samples that the mesh covers.
 Result<double> meshError(tks_decoder& decoder, uint32_t max_triangles);
 
-/// The bytes of a stream, of which `bytes` are there, that hold heights behind the packet with which
-/// their stated RMSE comes down to `error`, in their unit. Without a front index, which lets packets
-/// be left out, only those behind all others.
+/// The bytes of a stream, of which `bytes` are there, that hold heights behind the packet with
+/// which their stated RMSE comes down to `error`, in their unit. Only a front index lets packets be
+/// left out; without one these are the bytes behind the last packet that is shown.
 ByteRanges beyondError(const ParsedHeader& parsed, std::span<const uint8_t> bytes, double error);
 
 }  // namespace tetrakis::inline api

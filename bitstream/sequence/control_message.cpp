@@ -2,8 +2,6 @@
 #include "bitstream/sequence/control_message.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <string>
 #include <string_view>
 
@@ -23,12 +21,10 @@ constexpr uint32_t kMostSide = 32768;
 constexpr uint64_t kMostFrame = kMostFirstFrame + kMostFrames;
 constexpr uint64_t kMostPlace = UINT64_MAX >> 2;
 
-template <class V>
-void visitFloat(V& v, float& value) {
-  uint32_t bits = std::bit_cast<uint32_t>(value);
-  v.u32("matrix", bits);
-  value = std::bit_cast<float>(bits);
-  v.require("matrix", std::isfinite(value));
+/// Neither infinite nor NaN.
+bool isFinite(uint32_t bits) {
+  constexpr uint32_t kExponent = 0x7f800000;
+  return (bits & kExponent) != kExponent;
 }
 
 template <class V>
@@ -39,7 +35,10 @@ void visitView(V& v, std::optional<ControlView>& view) {
   if (!view) view.emplace();
   view->width = width;
   v.varint("height", view->height, 1, kMostSide);
-  for (float& value : view->rows) visitFloat(v, value);
+  for (uint32_t& bits : view->rows) {
+    v.u32("matrix", bits);
+    v.require("matrix", isFinite(bits));
+  }
 }
 
 template <class V>

@@ -19,10 +19,11 @@ inline constexpr size_t kMostControlBytes = 100;
 inline constexpr uint32_t kToldAnswers = 32;
 inline constexpr uint32_t kMostRate = (1u << 28) - 1;  ///< of links and renderers: 4 bytes
 
-/// What a receiver looks at: the rows of a matrix that give x, y and w of clip coordinates.
+/// What a receiver looks at: the rows of a matrix that give x, y and w of clip coordinates, as the
+/// bits of numbers of 32 bits (IEEE 754), which are finite.
 struct ControlView {
   uint32_t width = 0, height = 0;  ///< of its picture, in pixels
-  std::array<float, 12> rows{};
+  std::array<uint32_t, 12> rows{};
 
   bool operator==(const ControlView&) const = default;
 };

@@ -2,6 +2,7 @@
 // System control: receivers of any link get from the same groups what helps them, and nothing
 // twice, whatever is lost and whoever lies.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -256,7 +257,8 @@ TEST(Transmitters, LiarsHarmNobodyButThemselves) {
     lie.frame = below(20);
     lie.triangles = below(50);
     lie.view = ControlView{1 + below(32768), 1, {}};
-    for (float& value : lie.view->rows) value = static_cast<float>(below(1000)) * 1e30f;
+    for (uint32_t& bits : lie.view->rows)
+      bits = std::bit_cast<uint32_t>(static_cast<float>(below(1000)) * 1e30f);
     const auto given = lied_to.answer(writeControl(lie));
     if (given.ok()) {
       ++answered;

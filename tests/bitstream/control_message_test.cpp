@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <random>
 #include <span>
@@ -28,7 +29,7 @@ ControlMessage longest() {
                          kMostRate,
                          ControlView{}};
   message.view->width = message.view->height = 32768;
-  message.view->rows.fill(-std::numeric_limits<float>::max());
+  message.view->rows.fill(std::bit_cast<uint32_t>(-std::numeric_limits<float>::max()));
   return message;
 }
 
@@ -36,7 +37,8 @@ std::vector<ControlMessage> someMessages() {
   std::vector<ControlMessage> messages = {longest(), {.receiver = 7}};
   messages.push_back({.receiver = 1, .answers = 5, .lost = 9, .frame = 0, .link = 8000});
   messages.push_back({.answers = 33, .lost = UINT32_MAX, .kept = 12, .triangles = 3000});
-  messages.back().view = ControlView{640, 400, {1, 0, 0, -0.5f, 0, 1, 0, 2, 0, 0, 1e-20f, 3}};
+  messages.back().view =
+      ControlView{640, 400, {1, 0, 0x80000000, 0x3f800000, 0, 7, 0, 2, 0, 0, 9, 3}};
   return messages;
 }
 
@@ -115,7 +117,7 @@ TEST(ControlMessages, LiesAreRefused) {
   message.view->height = 0;
   refused(message);
   message = longest();
-  message.view->rows[5] = std::numeric_limits<float>::quiet_NaN();
+  message.view->rows[5] = std::bit_cast<uint32_t>(std::numeric_limits<float>::quiet_NaN());
   refused(message);
 }
 
