@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "bitstream/stream/header.hpp"
 #include "tests/support/indexed_terrain.hpp"
 #include "tests/support/transmissions.hpp"
 
@@ -294,6 +295,44 @@ TEST(Transmitters, WithoutGroupsTellThatThereAreNone) {
   EXPECT_EQ(listener.receiver.info().source_end_frame, 0u);
   EXPECT_FALSE(listener.receiver.decoder(0).ok());
   EXPECT_FALSE(listener.receiver.find(9).ok());
+}
+
+/// An answer of which a few bytes are others, with a checksum that is right.
+Bytes damaged(Bytes answer, std::mt19937& random) {
+  for (int i = 0; i < 3; ++i)
+    answer[4 + random() % (answer.size() - 8)] = static_cast<uint8_t>(random());
+  const uint32_t crc = crc32(Prefix(answer).first(answer.size() - 4));
+  for (size_t i = 0; i < 4; ++i)
+    answer[answer.size() - 4 + i] = static_cast<uint8_t>(crc >> (8 * i));
+  return answer;
+}
+
+TEST(Receivers, TakeAnyBytesOrRefuseThemWithASentence) {
+  const Bytes bytes = encodeSeconds(smallHills(4), {true, 300}, lossless());
+  std::mt19937 random(4);
+  int refused = 0, shown = 0;
+  for (uint64_t number = 0; number < 150; ++number) {
+    Transmitter transmitter = transmitterOf(bytes);
+    const tks_limits limits = smallLimits();
+    Receiver receiver = *Receiver::open(number, limits);
+    for (int i = 0; i < 6; ++i) {
+      const auto control = receiver.control(wantsOf(number % 4, 3000));
+      const auto answer = transmitter.answer(*control);
+      if (!answer.ok()) break;  // it tells of answers that were never given
+      Bytes given(answer->bytes().begin(), answer->bytes().end());
+      if (random() % 2 == 0) given = damaged(std::move(given), random);
+      const Status status = receiver.take(given);
+      if (!status.ok()) {
+        ++refused;
+        EXPECT_FALSE(status.message().empty());
+      }
+      Result<Decoder> decoder = receiver.decoder(number % 4);
+      if (decoder.ok() && decoder->heights().ok()) ++shown;
+      EXPECT_NE(receiver.write(number % 3).status().code(), TKS_NO_MEMORY);
+    }
+  }
+  EXPECT_GT(refused, 20);
+  EXPECT_GT(shown, 20);
 }
 
 TEST(Receivers, RefuseAnswersThatCannotBe) {

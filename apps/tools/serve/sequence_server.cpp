@@ -83,6 +83,7 @@ std::string SequenceServer::url() const {
 }
 
 Status SequenceServer::run() {
+  if (stopped_) return {};
   if (options_.live) follower_ = std::thread([this] { followUntilStopped(); });
   const bool ended_well = server_.listen_after_bind() || stopped_;
   stop();
