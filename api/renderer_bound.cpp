@@ -12,11 +12,11 @@ namespace tetrakis::inline api {
 
 namespace {
 
-struct Point {
+struct MeshCorner {
   double x, y, height;
 };
 
-double doubledArea(const Point& a, const Point& b, double x, double y) {
+double doubledArea(const MeshCorner& a, const MeshCorner& b, double x, double y) {
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
@@ -30,8 +30,8 @@ class MeshSquares {
     for (uint32_t t = 0; t < mesh.triangle_count; ++t) {
       const auto corner = [&](int i) {
         const uint32_t v = mesh.triangles[3 * size_t{t} + i], at = mesh.grid_index[v];
-        return Point{static_cast<double>(at % width_), static_cast<double>(at / width_),
-                     mesh.height[v]};
+        return MeshCorner{static_cast<double>(at % width_), static_cast<double>(at / width_),
+                          mesh.height[v]};
       };
       add(corner(0), corner(1), corner(2));
     }
@@ -39,7 +39,7 @@ class MeshSquares {
   double mean() const { return count_ > 0 ? sum_ / static_cast<double>(count_) : 0; }
 
  private:
-  void add(const Point& a, const Point& b, const Point& c) {
+  void add(const MeshCorner& a, const MeshCorner& b, const MeshCorner& c) {
     const double area = doubledArea(a, b, c.x, c.y);
     const auto [left, right] = std::minmax({a.x, b.x, c.x});
     const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
