@@ -52,6 +52,18 @@ tks_status reporting(char* message, size_t message_size, F&& f) {
   return guarded(work, write);
 }
 
+/// The same of a function of a handle that keeps its sentence.
+template <class Handle, class F>
+tks_status keepingSentence(Handle* handle, F&& f) {
+  if (handle == nullptr) return TKS_USAGE;
+  const auto work = [&] {
+    handle->last = f();
+    handle->sentence = handle->last.message().c_str();
+    return handle->last.code();
+  };
+  return guarded(work, [&](const char* sentence) { handle->sentence = sentence; });
+}
+
 inline Status outputMissing() {
   return {TKS_USAGE, "The output is missing."};
 }

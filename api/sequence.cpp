@@ -140,7 +140,8 @@ Status append(tks_sequence& sequence, std::span<const uint8_t> bytes) {
   return {};
 }
 
-/// The groups that decode are all but the last, and it as well if its header is there.
+}  // namespace
+
 size_t decodingGroups(const tks_sequence& sequence) {
   const size_t count = sequence.groups.size();
   return count > 0 && !sequence.groups.back().decodes() ? count - 1 : count;
@@ -155,6 +156,8 @@ const KeptGroup* groupOf(const tks_sequence& sequence, uint64_t frame) {
   const KeptGroup& group = *(after - 1);
   return frame < group.endFrame() ? &group : nullptr;
 }
+
+namespace {
 
 /// The place of a group among those that are there.
 size_t placeOf(const tks_sequence& sequence, const KeptGroup& group) {
@@ -245,6 +248,8 @@ uint64_t frameAt(const tks_sequence& sequence, int64_t time) {
   return head.first_frame + static_cast<uint64_t>(behind - head.times.begin()) - 1;
 }
 
+}  // namespace
+
 tks_sequence_info infoOf(const tks_sequence& sequence) {
   tks_sequence_info info = {};
   info.groups = decodingGroups(sequence);
@@ -260,17 +265,7 @@ tks_sequence_info infoOf(const tks_sequence& sequence) {
   return info;
 }
 
-/// Runs f and keeps its sentence.
-template <class F>
-tks_status keepingSentence(tks_sequence* sequence, F&& f) {
-  if (sequence == nullptr) return TKS_USAGE;
-  const auto work = [&] {
-    sequence->last = f();
-    sequence->sentence = sequence->last.message().c_str();
-    return sequence->last.code();
-  };
-  return guarded(work, [&](const char* sentence) { sequence->sentence = sentence; });
-}
+namespace {
 
 /// The end of a file that may have been cut: up to the last index in it.
 std::optional<ReadIndex> lastIndex(std::span<const uint8_t>& tail) {

@@ -50,6 +50,15 @@ struct tks_sequence {
 
 namespace tetrakis::inline api {
 
+/// The groups that decode are the first ones: all but the last, and it as well if its header is
+/// there.
+size_t decodingGroups(const tks_sequence& sequence);
+
+/// The group of a frame; null: there is none that decodes.
+const KeptGroup* groupOf(const tks_sequence& sequence, uint64_t frame);
+
+tks_sequence_info infoOf(const tks_sequence& sequence);
+
 /// TKS_USAGE unless its groups and frames are numbered without gaps from 0 on.
 Status checkGapless(const tks_sequence& sequence);
 

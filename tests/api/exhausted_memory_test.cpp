@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every function of tetrakis.h and sequence.h while memory ends at its first allocation, at its
-// second, and so on until it meets none: it says so in its sentence, writes nothing, leaks nothing,
-// and its decoder goes on, or says that it does not.
+// Every function of tetrakis.h, sequence.h and transmit.h while memory ends at its first
+// allocation, at its second, and so on until it meets none: it says so in its sentence, writes
+// nothing, leaks nothing, and its decoder goes on, or says that it does not.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -482,6 +482,124 @@ std::vector<Called> sequenceCalls() {
           })};
 }
 
+tks_status openReceiver(Desk& d) {
+  tks_receiver_close(d.receiver);
+  d.receiver = nullptr;
+  return tks_receiver_open(7, nullptr, &d.receiver);
+}
+
+tks_status openTransmitter(Desk& d) {
+  tks_transmitter_close(d.transmitter);
+  d.transmitter = nullptr;
+  return tks_transmitter_open(nullptr, &d.transmitter, d.message, sizeof d.message);
+}
+
+tks_status appendToTransmitter(Desk& d) {
+  return tks_transmitter_append(d.transmitter, smallSequence().data(), smallSequence().size(),
+                                d.message, sizeof d.message);
+}
+
+/// Writes it where other outputs go.
+tks_status control(Desk& d) {
+  tks_wants wants = {};
+  wants.size = sizeof wants;
+  wants.link = 1000;
+  const tks_screen_camera camera = mapOf(0, 0, 4, 3);
+  wants.view = &camera;
+  size_t size = 0;
+  return tks_receiver_control(d.receiver, &wants, d.out.data(), &size);
+}
+
+tks_status answer(Desk& d) {
+  tks_free_buffer(&d.buffer);
+  static const Bytes message = [] {
+    Desk other({});
+    size_t size = 0;
+    tks_wants wants = {};
+    wants.size = sizeof wants;
+    wants.link = 1000;
+    EXPECT_EQ(openReceiver(other), TKS_OK);
+    EXPECT_EQ(tks_receiver_control(other.receiver, &wants, other.out.data(), &size), TKS_OK);
+    return Bytes(other.out.begin(), other.out.begin() + static_cast<ptrdiff_t>(size));
+  }();
+  return tks_transmitter_answer(d.transmitter, message.data(), message.size(), &d.buffer, d.message,
+                                sizeof d.message);
+}
+
+void serve(Desk& d) {
+  EXPECT_EQ(openTransmitter(d), TKS_OK);
+  EXPECT_EQ(appendToTransmitter(d), TKS_OK);
+}
+
+/// What a receiver gets of the small sequence.
+const Bytes& smallAnswer() {
+  static const Bytes bytes = [] {
+    Desk d({});
+    serve(d);
+    EXPECT_EQ(answer(d), TKS_OK);
+    return Bytes(d.buffer.data, d.buffer.data + d.buffer.size);
+  }();
+  return bytes;
+}
+
+tks_status takeAnswer(Desk& d) {
+  return tks_receiver_take(d.receiver, smallAnswer().data(), smallAnswer().size());
+}
+
+std::vector<Called> transmitterCalls() {
+  const auto opened = [](Desk& d) { EXPECT_EQ(openTransmitter(d), TKS_OK); };
+  const auto about = [&](const char* name, const std::function<tks_status(Desk&)>& run) {
+    return Called{name, run, serve, [](Desk&) {}, false};
+  };
+  return {{"tks_transmitter_open", openTransmitter},
+          {"tks_transmitter_append", appendToTransmitter, opened, [](Desk&) {}, false},
+          about("tks_transmitter_forget",
+                [](Desk& d) { return tks_transmitter_forget(d.transmitter, 2); }),
+          about("tks_transmitter_get_info",
+                [](Desk& d) {
+                  tks_sequence_info info = {};
+                  info.size = sizeof info;
+                  return tks_transmitter_get_info(d.transmitter, &info);
+                }),
+          {"tks_transmitter_answer", answer, serve, [](Desk&) {}, true, false, false}};
+}
+
+std::vector<Called> receiverCalls() {
+  const auto opened = [](Desk& d) { EXPECT_EQ(openReceiver(d), TKS_OK); };
+  const auto filled = [](Desk& d) {
+    EXPECT_EQ(openReceiver(d), TKS_OK);
+    EXPECT_EQ(takeAnswer(d), TKS_OK);
+  };
+  const auto about = [&](const char* name, const std::function<tks_status(Desk&)>& run) {
+    return Called{name, run, filled, [](Desk&) {}, false};
+  };
+  return {{"tks_receiver_open", openReceiver, [](Desk&) {}, [](Desk&) {}, false},
+          {"tks_receiver_control", control, opened, [](Desk&) {}, false},
+          {"tks_receiver_take", takeAnswer, opened, [](Desk&) {}, false},
+          about("tks_receiver_get_info",
+                [](Desk& d) {
+                  tks_receiver_info info = {};
+                  info.size = sizeof info;
+                  return tks_receiver_get_info(d.receiver, &info);
+                }),
+          about("tks_receiver_find",
+                [](Desk& d) {
+                  uint64_t found = 0;
+                  int64_t time = 0;
+                  return tks_receiver_find(d.receiver, 3, &found, &time);
+                }),
+          about("tks_receiver_frame",
+                [](Desk& d) {
+                  tks_decoder* decoder = nullptr;
+                  return tks_receiver_frame(d.receiver, 3, &decoder);
+                }),
+          about("tks_receiver_forget", [](Desk& d) { return tks_receiver_forget(d.receiver, 2); }),
+          about("tks_receiver_write", [](Desk& d) {
+            tks_free_buffer(&d.buffer);
+            return tks_receiver_write(d.receiver, TKS_NEWEST_FRAME, &d.buffer);
+          })};
+}
+
 /// Of a stream of several frames.
 std::vector<Called> frameCalls() {
   const auto heights = heightCalls();
@@ -538,6 +656,11 @@ TEST(ExhaustedMemory, OfSequences) {
   exhaust(textureCalls().front(), vectorOf("frames_rgb_40x30"));
 }
 
+TEST(ExhaustedMemory, OfTransmissions) {
+  exhaustAll(transmitterCalls(), {});
+  exhaustAll(receiverCalls(), {});
+}
+
 TEST(ExhaustedMemory, OfEncoders) {
   for (const Called& called : encodingCalls()) exhaust(called, {});
 }
@@ -570,21 +693,23 @@ TEST(ExhaustedMemory, OfThreads) {
   exhaustAll(calls, indexedStream());
 }
 
-/// All functions that the header declares.
+/// All functions that the headers declare.
 TEST(ExhaustedMemory, IsTriedOfEveryFunction) {
   std::set<std::string> tried = {
       "tks_free_buffer",     "tks_free_mesh",        "tks_free_ranges",
       "tks_close",           "tks_free_mesh_tree",   "tks_message",
       "tks_free_globe_mesh", "tks_free_object_mesh", "tks_encode_object",
-      "tks_sequence_close",  "tks_sequence_message", "tks_sequence_encoder_close"};
+      "tks_sequence_close",  "tks_sequence_message", "tks_sequence_encoder_close",
+      "tks_receiver_close",  "tks_receiver_message", "tks_transmitter_close"};
   for (const auto& calls :
        {firstCalls(), decoderCalls(), indexCalls(), givingCalls(), meshCalls(), globeCalls(),
         objectCalls(), fittingCalls(), positionCalls(), cubeCalls(), encodingCalls(), heightCalls(),
-        textureCalls(), sequenceEncoderCalls(), sequenceCalls(), frameCalls()})
+        textureCalls(), sequenceEncoderCalls(), sequenceCalls(), frameCalls(), receiverCalls(),
+        transmitterCalls()})
     for (const Called& called : calls) tried.insert(called.name);
   const std::regex declared("\\n[a-z][A-Za-z0-9_ *]*[ *](tks_[a-z_]+)\\(");
   std::set<std::string> functions;
-  for (const char* name : {"tetrakis.h", "sequence.h"}) {
+  for (const char* name : {"tetrakis.h", "sequence.h", "transmit.h"}) {
     std::ifstream file(std::string(TETRAKIS_HEADERS "/") + name);
     const std::string header{std::istreambuf_iterator<char>(file), {}};
     for (std::sregex_iterator at(header.begin(), header.end(), declared), end; at != end; ++at)

@@ -285,8 +285,9 @@ TEST_F(CliUsage, HelpAndVersionGoToStandardOutput) {
 }
 
 TEST_F(CliUsage, HelpOfAVerbHasItsOptionsAsTheyAreTyped) {
-  for (const std::string verb : {"encode", "decode", "truncate", "info", "compare", "verify",
-                                 "plan", "reorder", "profile", "synth", "view", "tiles"}) {
+  for (const std::string verb :
+       {"encode", "decode", "truncate", "info", "compare", "verify", "plan", "reorder", "profile",
+        "synth", "view", "serve", "receive", "tiles"}) {
     const std::string help = cli("help " + verb).out;
     // CLI11 lists excluded options in the order of their addresses.
     EXPECT_EQ(help.size(), cli(verb + " --help").out.size());

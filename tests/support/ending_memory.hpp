@@ -8,7 +8,7 @@
 
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/stream_fixture.hpp"
-#include "tetrakis/sequence.h"
+#include "tetrakis/transmit.h"
 
 namespace tetrakis::test {
 
@@ -36,6 +36,8 @@ class Desk {
     tks_close(decoder);
     tks_sequence_close(sequence);
     tks_sequence_encoder_close(sequence_encoder);
+    tks_receiver_close(receiver);
+    tks_transmitter_close(transmitter);
     EXPECT_FALSE(allocationHasFailed());
     failAllocation(0);
   }
@@ -79,6 +81,8 @@ class Desk {
   tks_mesh_tree* tree = nullptr;
   tks_sequence* sequence = nullptr;
   tks_sequence_encoder* sequence_encoder = nullptr;
+  tks_receiver* receiver = nullptr;
+  tks_transmitter* transmitter = nullptr;
   char message[128] = "";
 };
 

@@ -32,5 +32,7 @@ void addMosaic(CLI::App& app, CommandLine& line);
 void addProfile(CLI::App& app, CommandLine& line);
 void addSynth(CLI::App& app, CommandLine& line);
 void addView(CLI::App& app, CommandLine& line);
+void addServe(CLI::App& app, CommandLine& line);
+void addReceive(CLI::App& app, CommandLine& line);
 
 }  // namespace tetrakis::tools

@@ -63,6 +63,8 @@ void addVerbs(CLI::App& app, CommandLine& line) {
   addProfile(app, line);
   addSynth(app, line);
   addView(app, line);
+  addServe(app, line);
+  addReceive(app, line);
   addTiles(app, line);
   app.footer(std::string(kHelpOfVerbs) + kExitCodes);
 }

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tks_transmitter holds a sequence and what each of its receivers has of it. choosePieces() of
+// an answer is in answer_plan.hpp.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "api/sequence.hpp"
+#include "ratecontrol/receiver/ground_sight.hpp"
+#include "ratecontrol/receiver/sent_pieces.hpp"
+#include "tetrakis/transmit.h"
+
+namespace tetrakis::inline api {
+
+/// What plans take from a group, which takes time to find.
+struct KnownGroup {
+  ParsedHeader parsed;
+  std::optional<CoarseGround> ground = {};  ///< of the last frame
+  /// How far meshes of it are from it, by their numbers of triangles: powers of two.
+  std::map<uint32_t, double> mesh_errors = {};
+};
+
+/// What a transmitter knows of a receiver.
+struct KnownReceiver {
+  SentPieces sent;
+  uint64_t last_turn = 0;  ///< when it was heard
+};
+
+}  // namespace tetrakis::inline api
+
+struct tks_transmitter {
+  tks_sequence sequence;
+  double seconds = 0.5;
+  uint64_t answer_bytes = uint64_t{1} << 20;
+  uint32_t most_receivers = 64;
+  std::map<uint64_t, tetrakis::KnownReceiver> receivers;  ///< by their numbers
+  uint64_t turn = 0;                                      ///< messages that were answered
+  std::map<uint64_t, tetrakis::KnownGroup> known;         ///< by the numbers of groups
+};

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tools/serve/sequence_server.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "apps/tools/files/stream.hpp"
+
+namespace tetrakis::tools {
+
+namespace {
+
+constexpr uint32_t kReceivers = 64;
+constexpr size_t kThreads = kReceivers + 16;  ///< for those who read ranges besides
+constexpr uint64_t kKeptFrames = 1024;        ///< of a live sequence; ranges give older ones
+constexpr std::chrono::milliseconds kBetweenLooks(30);
+constexpr std::chrono::seconds kLongestWait(2), kLongestWrite(30);
+
+std::string_view textOf(std::span<const uint8_t> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void refuse(const Status& status, httplib::Response& response) {
+  response.status = status.code() == TKS_USAGE ? 409 : 400;
+  response.set_content(status.message() + "\n", "text/plain; charset=utf-8");
+}
+
+/// Sends an answer chunk by chunk, as its reader takes it.
+void send(Buffer answer, httplib::Response& response) {
+  constexpr size_t kChunk = 16 << 10;
+  const auto kept = std::make_shared<const Buffer>(std::move(answer));
+  response.set_chunked_content_provider("application/octet-stream",
+                                        [kept](size_t begin, httplib::DataSink& sink) {
+                                          const std::string_view all = textOf(kept->bytes());
+                                          if (begin >= all.size()) return sink.done(), true;
+                                          const std::string_view chunk = all.substr(begin, kChunk);
+                                          return sink.write(chunk.data(), chunk.size());
+                                        });
+}
+
+/// The number of ?after=N.
+std::optional<uint64_t> afterOf(const httplib::Request& request) {
+  if (!request.has_param("after")) return std::nullopt;
+  const std::string text = request.get_param_value("after");
+  const bool is_number = !text.empty() && text.size() < 19 &&
+                         text.find_first_not_of("0123456789") == std::string::npos;
+  return is_number ? std::optional<uint64_t>(std::stoull(text)) : std::nullopt;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SequenceServer>> SequenceServer::open(const ServeOptions& options) {
+  Result<GrowingFile> file = GrowingFile::open(options.path);
+  if (!file.ok()) return file.status();
+  tks_transmitter_options transmit = makeTransmitterOptions();
+  const tks_limits limits = limitsOfTools();
+  transmit.limits = &limits;
+  transmit.receivers = kReceivers;
+  Result<Transmitter> transmitter = Transmitter::open(transmit);
+  if (!transmitter.ok()) return transmitter.status();
+  std::unique_ptr<SequenceServer> server(
+      new SequenceServer(options, *std::move(file), *std::move(transmitter)));
+  if (Status status = server->follow(); !status.ok()) return status;
+  if (!options.live && server->transmitter_.info().end_frame == 0)
+    return Status(TKS_TRUNCATED, "the sequence has no frame; --live waits for some");
+  server->addRoutes();
+  const Result<int> port = bindServer(server->server_, options.address, options.port);
+  if (!port.ok()) return port.status();
+  server->port_ = *port;
+  return server;
+}
+
+SequenceServer::~SequenceServer() {
+  stop();
+  if (follower_.joinable()) follower_.join();
+}
+
+std::string SequenceServer::url() const {
+  return "http://" + options_.address + ":" + std::to_string(port_) + "/" +
+         percentEncoded(nameInUrl(options_.path, "sequence.tks"));
+}
+
+Status SequenceServer::run() {
+  if (stopped_) return {};
+  if (options_.live) follower_ = std::thread([this] { followUntilStopped(); });
+  const bool ended_well = server_.listen_after_bind() || stopped_;
+  stop();
+  return ended_well ? Status() : Status(TKS_IO, "the server ended unexpectedly");
+}
+
+void SequenceServer::stop() {
+  {
+    const std::lock_guard held(lock_);
+    stopped_ = true;
+  }
+  grown_.notify_all();
+  server_.stop();
+}
+
+void SequenceServer::addRoutes() {
+  const std::string path = "/" + nameInUrl(options_.path, "sequence.tks");
+  if (options_.address == kLoopback) answerLoopbackAlone(server_);
+  server_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  server_.set_payload_max_length(TKS_MOST_CONTROL_BYTES);
+  server_.set_keep_alive_max_count(1 << 20);
+  server_.set_write_timeout(kLongestWrite);
+  server_.set_tcp_nodelay(true);
+  addBytes(server_, path,
+           {[this] { return static_cast<size_t>(file_.size()); },
+            [this](size_t begin, size_t count, httplib::DataSink& sink) {
+              std::vector<uint8_t> bytes(std::min<size_t>(count, 64 << 10));
+              const std::string_view text = textOf(bytes);
+              return file_.read(begin, bytes) && sink.write(text.data(), text.size());
+            }});
+  server_.Post(path, [this](const httplib::Request& request, httplib::Response& response) {
+    takeMessage(request, response);
+  });
+}
+
+void SequenceServer::takeMessage(const httplib::Request& request, httplib::Response& response) {
+  const auto* const body = reinterpret_cast<const uint8_t*>(request.body.data());
+  Result<Buffer> given = answer({body, request.body.size()}, afterOf(request));
+  if (given.ok())
+    send(*std::move(given), response);
+  else
+    refuse(given.status(), response);
+}
+
+Result<Buffer> SequenceServer::answer(std::span<const uint8_t> control,
+                                      std::optional<uint64_t> after) {
+  std::unique_lock held(lock_);
+  if (after && options_.live)
+    grown_.wait_for(held, kLongestWait,
+                    [&] { return stopped_ || transmitter_.info().end_frame > *after; });
+  return transmitter_.answer(control);
+}
+
+Status SequenceServer::follow() {
+  for (;;) {
+    const Result<std::vector<uint8_t>> more = file_.more();
+    if (!more.ok()) return more.status();
+    if (more->empty()) return {};
+    const std::lock_guard held(lock_);
+    if (Status status = transmitter_.append(*more); !status.ok()) return status;
+    const uint64_t end = transmitter_.info().end_frame;
+    if (!options_.live || end <= kKeptFrames) continue;
+    if (Status status = transmitter_.forget(end - kKeptFrames); !status.ok()) return status;
+  }
+}
+
+void SequenceServer::followUntilStopped() {
+  while (!stopped_) {
+    if (const Status status = follow(); !status.ok()) {
+      return options_.tell(status.message() + "; what was there before is still served");
+    }
+    grown_.notify_all();
+    std::this_thread::sleep_for(kBetweenLooks);
+  }
+}
+
+}  // namespace tetrakis::tools
