@@ -127,11 +127,11 @@ tks_status tks_transmitter_get_info(const tks_transmitter* transmitter, tks_sequ
  * show. Heights that meshes of so many triangles, rounded up to a power of two, do not show stay:
  * those behind half of the error of the best such mesh. Only a front index
  * (tks_encode_options.index) lets bytes go in another order than they have. Release `out` with
- * tks_free_buffer. The transmitter takes all of it for received, unless a later message says
- * that it was lost, or 32 further answers go and none tells of it. TKS_CORRUPT, TKS_UNSUPPORTED: this is no control message; TKS_USAGE: it tells of
- * answers that were not given, or is older than one before; the receiver's state stays. A receiver
- * that was forgotten begins anew. A frame that is not there yet, or no more, stands for the next or
- * the first one. One call at a time. */
+ * tks_free_buffer. The transmitter takes all of it for received, unless a later message says that
+ * it was lost, or 32 further answers go and none tells of it. TKS_CORRUPT, TKS_UNSUPPORTED: this is
+ * no control message; TKS_USAGE: it tells of answers that were not given, or is older than one
+ * before; the receiver's state stays. A receiver that was forgotten begins anew. A frame that is
+ * not there yet, or no more, stands for the next or the first one. One call at a time. */
 tks_status tks_transmitter_answer(tks_transmitter* transmitter, const uint8_t* control, size_t size,
                                   tks_buffer* out, char* message, size_t message_size);
 
