@@ -72,8 +72,8 @@ tks_status tks_sequence_encoder_open(const tks_sequence_options* options,
                                      size_t message_size);
 void tks_sequence_encoder_close(tks_sequence_encoder* encoder);
 
-/* Lets an encoder that has taken no frame go on behind a sequence that was written before: its bytes
- * follow those of that one. TKS_USAGE, with a sentence in message: the sequence ends inside a group
+/* Lets an encoder that has taken no frame go on behind a sequence that was written before: its
+ * bytes follow those of that one. TKS_USAGE, with a sentence in message: the sequence ends inside a group
  * (keep its first tks_sequence_info.whole_bytes), groups of it are missing or forgotten, its clock
  * is another one; the encoder has taken frames. */
 typedef struct tks_sequence tks_sequence;
@@ -154,8 +154,8 @@ tks_status tks_sequence_group(const tks_sequence* sequence, uint64_t frame, tks_
  * same, and is there until the next call of tks_sequence_frame for a frame of another group,
  * tks_sequence_append, _forget or _close. The first call that decodes a group of tks_group.depth >
  * 0, and be it a window, decodes all of the last frame of each of so many groups before it as well,
- * unless it comes behind the call for the group before. TKS_USAGE: there is no such frame; TKS_TRUNCATED: the frame goes on
- * from a group that is not there; else as tks_open. */
+ * unless it comes behind the call for the group before. TKS_USAGE: there is no such frame;
+ * TKS_TRUNCATED: the frame goes on from a group that is not there; else as tks_open. */
 tks_status tks_sequence_frame(tks_sequence* sequence, uint64_t frame, tks_decoder** decoder);
 
 /* Writes a sequence for a thinner channel: of each whole group at most so many bytes a frame, head

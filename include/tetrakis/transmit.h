@@ -32,7 +32,7 @@ extern "C" {
 /* Of tks_wants.frame: the newest frame that the transmitter has. */
 #define TKS_NEWEST_FRAME (~(uint64_t)0)
 
-/* ---- receivers -------------------------------------------------------------------------------- */
+/* ---- receivers ------------------------------------------------------------------------------ */
 
 /* What a receiver wants, and what it can take. */
 typedef struct tks_wants {
@@ -76,13 +76,14 @@ typedef struct tks_receiver_info {
 } tks_receiver_info;
 tks_status tks_receiver_get_info(const tks_receiver* receiver, tks_receiver_info* info);
 
-/* The last frame that can be decoded up to a given one, and its time in ticks. TKS_USAGE: none can. */
+/* The last frame that can be decoded up to a given one, and its time in ticks. TKS_USAGE: none
+ * can. */
 tks_status tks_receiver_find(tks_receiver* receiver, uint64_t frame, uint64_t* found,
                              int64_t* time);
 
 /* The decoder of the stream that holds a frame, with that frame set, as of tks_sequence_frame; it
- * is there until the next call of tks_receiver_frame for a frame of another group, _take, _forget or
- * _close. TKS_USAGE: the frame is not there; TKS_TRUNCATED: it goes on from what is not there. */
+ * is there until the next call of tks_receiver_frame for a frame of another group, _take, _forget
+ * or _close. TKS_USAGE: the frame is not there; TKS_TRUNCATED: it goes on from what is not there. */
 tks_status tks_receiver_frame(tks_receiver* receiver, uint64_t frame, tks_decoder** decoder);
 
 /* Gives up all groups that end before a frame and that its group does not go on from. The next
@@ -95,7 +96,7 @@ tks_status tks_receiver_forget(tks_receiver* receiver, uint64_t frame);
  * TKS_NEWEST_FRAME: all groups. Release `out` with tks_free_buffer. */
 tks_status tks_receiver_write(tks_receiver* receiver, uint64_t frame, tks_buffer* out);
 
-/* ---- transmitters ----------------------------------------------------------------------------- */
+/* ---- transmitters --------------------------------------------------------------------------- */
 
 typedef struct tks_transmitter_options {
   size_t size;              /* sizeof(tks_transmitter_options) */
