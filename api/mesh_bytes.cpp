@@ -21,8 +21,9 @@ uint64_t forestBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   const int level = fitted ? spareLevels(forest, request.max_triangles) : 0;
   const HeightsBytes heights(decoder, levelOf(geometry, level));
   const bool there = level == 0 && decoder.heights;
-  const uint64_t mesh =
-      kOnceBytes + forestMeshBytes(Forest(forest.depth() - level, forest.sides()));
+  const Forest of_level(forest.depth() - level, forest.sides());
+  const uint64_t mesh = kOnceBytes + (fitted ? fittedMeshBytes(of_level, request.max_triangles)
+                                             : forestMeshBytes(of_level));
   return there ? mesh : std::max(heights.decoding(), heights.kept() + mesh);
 }
 

@@ -42,7 +42,7 @@ class Forest {
   /// The same surface with patches of a level.
   Forest atLevel(int level) const {
     Forest forest = *this;
-    forest.depth_ -= level;
+    if (!isGrid()) forest.depth_ -= level;
     return forest;
   }
 

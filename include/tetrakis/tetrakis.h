@@ -225,7 +225,7 @@ typedef struct tks_image {
   uint32_t white_level;          /* 0: that of tks_find_white_level */
   const uint8_t* positions;      /* of tks_fit_positions; NULL: none but those of the heights */
   size_t positions_size;
-  tks_domain domain; /* 0: a plane, whatever the heights are */
+  tks_domain domain; /* 0: a plane, whatever the heights are; beside an object a forest */
   tks_forest forest; /* with TKS_DOMAIN_FOREST, as of heights; beside heights on a forest
                                     of as many patches, whose sides are glued alike */
 } tks_image;
@@ -681,12 +681,12 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
 
 /* Sets the mip levels that calls decode from now on. Level k of W x H samples is the image of
  * ceil(W / 2^k) x ceil(H / 2^k) whose sample (x, y) lies on sample (x 2^k, y 2^k), low-pass
- * filtered; level 0 is the image itself. tks_get_info then tells the level's sizes and spacing. A
- * level takes no inverse transform of the finer ones, and reads the stream only up to the last byte
- * that concerns it. Voids follow the mask at the level's samples. No maximum error is guaranteed
- * above level 0. Calls that make meshes need level 0 of the heights to be set, and choose the level
- * that their triangles can show themselves. TKS_USAGE beyond the coarsest levels (those
- * of a missing part: 0); the levels are then as before. */
+ * filtered, of a forest that of each patch; level 0 is the image itself. tks_get_info then tells
+ * the level's sizes and spacing. A level takes no inverse transform of the finer ones, and reads
+ * the stream only up to the last byte that concerns it. Voids follow the mask at the level's
+ * samples. No maximum error is guaranteed above level 0. Calls that make meshes need level 0 of the
+ * heights to be set, and choose the level that their triangles can show themselves. TKS_USAGE
+ * beyond the coarsest levels (those of a missing part: 0); the levels are then as before. */
 tks_status tks_set_levels(tks_decoder* decoder, uint32_t heights, uint32_t texture);
 
 /* Sets the frame that calls decode from now on, of a stream of several (tks_info.frames); at first

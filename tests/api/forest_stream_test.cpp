@@ -358,6 +358,37 @@ int64_t characteristic(const tks_mesh& mesh, const Edges& edges) {
          mesh.triangle_count;
 }
 
+/// As an image of longitudes and latitudes over a globe on a cube.
+TEST(ForestStream, MayHaveATextureThatLiesElsewhere) {
+  const ForestRaster surface = surfaceOn(cubeShape(), 4);
+  const tks_heights heights = surface.heights();
+  const samples::Raster picture = samples::make({samples::Pattern::kRidges, 60, 30, 3, TKS_U8, 8});
+  for (const tks_domain domain : {TKS_DOMAIN_PLANE, TKS_DOMAIN_CYLINDER}) {
+    tks_image image = picture.image();
+    image.domain = domain;
+    Stream exact(encodeGiven(&heights, &image, lossless()));
+    EXPECT_EQ(exact.info().domain, TKS_DOMAIN_FOREST);
+    EXPECT_EQ(exact.info().texture_domain, domain);
+    EXPECT_EQ(decoded(exact), surface.samples<int16_t>());
+    EXPECT_EQ(exact.texture(), picture.data);
+    const Bytes bytes = encodeGiven(&heights, &image, budget(3000));
+    EXPECT_LE(bytes.size(), 3000u);
+    for (const size_t cut : {bytes.size(), bytes.size() / 2}) {
+      const reference::Decoded expected = reference::decode(Prefix(bytes).first(cut));
+      Stream stream(Prefix(bytes).first(cut));
+      EXPECT_EQ(levelOf(stream, 0, false).samples, expected.heights);
+      EXPECT_EQ(levelOf(stream, 0, true).samples, expected.texture);
+    }
+  }
+  std::string message;
+  const ForestRaster patches = pictureOn(cubeShape(), 4, 3);
+  const tks_image on_patches = patches.image();
+  tks_heights flat = heights;
+  flat.domain = TKS_DOMAIN_PLANE;
+  flat.forest = {};
+  EXPECT_EQ(statusOf(&flat, &on_patches, lossless(), message), TKS_USAGE);
+}
+
 TEST(ForestStream, MakesClosedMeshesOfAnyNumberOfTriangles) {
   for (const ForestShape& shape : shapes()) {
     const ForestRaster surface = surfaceOn(shape, 5);

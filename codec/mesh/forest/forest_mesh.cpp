@@ -171,4 +171,12 @@ uint64_t forestMeshBytes(const Forest& forest) {
          kMoments * forest.side() * uint64_t{forest.side()};
 }
 
+/// Triangles that are fitted have their moments, and the equations that these make.
+uint64_t fittedMeshBytes(const Forest& forest, uint32_t max_triangles) {
+  constexpr uint64_t kSample = 48, kTriangle = 400;
+  const uint64_t samples = forest.raster().samples();
+  const uint64_t triangles = std::clamp<uint64_t>(max_triangles, 2 * forest.patches(), 2 * samples);
+  return forestMeshBytes(forest) + kSample * samples + kTriangle * triangles;
+}
+
 }  // namespace tetrakis::inline forest

@@ -57,7 +57,9 @@ std::vector<double> fittedHeights(const ForestLattice& lattice, std::span<const 
                                   std::span<const ForestVertex> vertices,
                                   PatchWeights weights = {});
 
-/// The bytes that meshes of a forest take at most beside its heights.
+/// The bytes that meshes of a forest take at most beside its heights, without fitted heights.
 uint64_t forestMeshBytes(const Forest& forest);
+/// The same of a mesh of at most so many triangles with fitted heights.
+uint64_t fittedMeshBytes(const Forest& forest, uint32_t max_triangles);
 
 }  // namespace tetrakis::inline forest

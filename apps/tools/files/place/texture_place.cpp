@@ -65,8 +65,9 @@ std::optional<PlaceAt> byGeoreference(const PlacedRaster& heights, const PlacedR
 
 PlacedRaster PlacedRaster::heightsOf(const tks_info& info) {
   PlacedRaster raster;
-  raster.width = info.width;
-  raster.height = info.height;
+  // Heights on a cube lie where their grid does.
+  raster.width = info.grid_width > 0 ? info.grid_width : info.width;
+  raster.height = info.grid_width > 0 ? info.grid_height : info.height;
   raster.transform = transformOf(info.has_geotransform, info.geotransform);
   raster.crs = info.crs;
   return raster;
