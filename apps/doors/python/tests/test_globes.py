@@ -115,6 +115,22 @@ def test_samples_of_a_cube_keep_their_type():
         assert rmse(opened.surface(), world()) < 6
 
 
+def test_a_texture_stays_on_longitudes_and_latitudes():
+    colours = photograph()
+    rows, columns = colours.shape[:2]
+    with tetrakis.open(on_cube(texture=colours, psnr=None, bytes=40000)) as opened:
+        assert (opened.info.domain, opened.info.texture_domain) == ("cube", "cylinder")
+        place = opened.info.texture_geotransform
+        assert place == pytest.approx((-180, 360 / columns, 0, 90, 0, -180 / rows))
+        assert opened.texture().shape == colours.shape
+        seam = opened.texture(window=(columns - 2, 0, 5, 3))
+        np.testing.assert_array_equal(seam, np.roll(opened.texture(), 2, axis=1)[:3, :5])
+    own = dict(texture_geotransform=(0, 1, 0, 50, 0, -1), texture_crs="EPSG:4326")
+    with tetrakis.open(on_cube(texture=colours, psnr=None, bytes=40000, **own)) as opened:
+        assert opened.info.texture_domain == "plane"
+        assert opened.info.texture_geotransform == own["texture_geotransform"]
+
+
 def test_prefixes_and_files_of_a_cube(tmp_path, cube):
     stream = on_cube(psnr=None, bytes=3000, index=True)
     assert 1500 < len(stream) <= 3000
@@ -172,7 +188,6 @@ def test_what_is_no_globe_is_refused(cube):
         dict(psnr=None, lossless=True),
         dict(psnr=None, max_error=1),
         dict(regions=64),
-        dict(texture=photograph()),
         dict(heights=holes),
         dict(heights=np.where(np.isnan(holes), -9999, holes).astype("i2"), nodata=-9999),
         dict(depth=15),
