@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A texture of longitudes and latitudes over a globe on a cube. Its left border meets its right one
-// along a meridian, and its rows shrink to points at the poles: triangles there get corners of their
-// own, where the texture goes on beyond its border.
+// along a meridian, and its rows shrink to points at the poles: triangles there get corners of
+// their own, where the texture goes on beyond its border.
 import {isForest} from '../src/domains.js';
 import {bodyOf, eccentricityOf} from '../src/body.js';
 import {pixelsOf} from '../src/drape.js';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // forestBudgetVertices() chooses the vertices of the best mesh of a forest within a budget of
-// triangles, forestGains() says what each of them takes off the error of a mesh, and fittedHeights()
-// moves the heights of a mesh to the least squares.
+// triangles, forestGains() says what each of them takes off the error of a mesh, and
+// fittedHeights() moves the heights of a mesh to the least squares.
 #pragma once
 
 #include <cstdint>

@@ -76,8 +76,8 @@ size_t openEdges(const LatticeMesh& mesh) {
   return open;
 }
 
-/// The squared error of a mesh with these heights at its vertices, every sample of the surface once.
-/// weights: of the samples of a patch.
+/// The squared error of a mesh with these heights at its vertices, every sample of the surface
+/// once. weights: of the samples of a patch.
 template <class Height>
 double squaredError(const ForestLattice& lattice, const std::vector<int32_t>& samples,
                     const std::vector<Height>& heights, const std::vector<uint8_t>& set,
