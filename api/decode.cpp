@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <string>
 
 #include "api/decoder.hpp"
@@ -165,9 +166,9 @@ struct ViewPlaces {
   }
 };
 
-/// Writes what a call asks for, of so many bytes a place: give(view, out), one view after the
-/// other.
-template <class Give>
+using Give = std::function<Status(const View& view, std::byte* out)>;
+
+/// Writes what a call asks for, of so many bytes a place, one view after the other.
 Status giveViews(tks_decoder& decoder, const Call& call, Extent shown, size_t place_bytes,
                  const Give& give) {
   const Result<std::vector<View>> views = call.views(decoder);
@@ -191,22 +192,26 @@ Status giveViews(tks_decoder& decoder, const Call& call, Extent shown, size_t pl
   return {};
 }
 
-/// Writes heights of so many bytes a sample: all(decoded, out) from decoded ones, or
-/// unsent(out, count) if nothing of them was sent. Those of whole levels are kept for later calls.
-template <class All, class Unsent>
-Status giveHeights(tks_decoder& decoder, const Call& call, size_t sample_bytes, const All& all,
-                   const Unsent& unsent) {
+/// How callers get heights: what writes decoded ones, and so many of which nothing was sent.
+struct HeightsWriter {
+  void (*decoded)(const tks_decoder& decoder, const DecodedHeights& heights, void* out);
+  void (*unsent)(const tks_decoder& decoder, void* out, size_t count);
+};
+
+/// Writes heights of so many bytes a sample. Those of whole levels are kept for later calls.
+Status giveHeights(tks_decoder& decoder, const Call& call, size_t sample_bytes,
+                   const HeightsWriter& write) {
   const auto& header = decoder.parsed.header.geometry;
   const Extent shown = header ? header->shown() : Extent{};
   return giveViews(decoder, call, shown, sample_bytes, [&](const View& view, void* out) -> Status {
     if (heightsAreUnsent(decoder)) {
-      unsent(out, view.extentIn(shown).samples());
+      write.unsent(decoder, out, view.extentIn(shown).samples());
     } else if (view.window) {
-      all(decodeHeights(decoder, view), out);
+      write.decoded(decoder, decodeHeights(decoder, view), out);
     } else {
       const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
       if (!decoded.ok()) return decoded.status();
-      all(**decoded, out);
+      write.decoded(decoder, **decoded, out);
     }
     return {};
   });
@@ -216,21 +221,17 @@ Status giveSamples(tks_decoder& decoder, const Call& call) {
   const auto& header = decoder.parsed.header.geometry;
   const size_t sample_bytes =
       header ? tks_sample_bytes(static_cast<tks_sample>(header->sample)) : 0;
-  return giveHeights(
-      decoder, call, sample_bytes,
-      [&](const DecodedHeights& decoded, void* out) { writeHeights(decoder, decoded, out); },
-      [&](void* out, size_t count) { writeUnsentHeights(decoder, out, count); });
+  return giveHeights(decoder, call, sample_bytes, {writeHeights, writeUnsentHeights});
 }
 
 Status giveSurface(tks_decoder& decoder, const Call& call) {
-  return giveHeights(
-      decoder, call, sizeof(float),
-      [&](const DecodedHeights& decoded, void* out) {
-        writeSurface(decoder, decoded, static_cast<float*>(out));
-      },
-      [&](void* out, size_t count) {
-        writeUnsentSurface(decoder, static_cast<float*>(out), count);
-      });
+  const HeightsWriter write = {[](const tks_decoder& of, const DecodedHeights& heights, void* out) {
+                                 writeSurface(of, heights, static_cast<float*>(out));
+                               },
+                               [](const tks_decoder& of, void* out, size_t count) {
+                                 writeUnsentSurface(of, static_cast<float*>(out), count);
+                               }};
+  return giveHeights(decoder, call, sizeof(float), write);
 }
 
 Status giveValidity(tks_decoder& decoder, const Call& call) {
