@@ -158,9 +158,10 @@ int levelFedBy(uint64_t bytes, uint64_t samples, int first) {
   return level;
 }
 
-int fedLevel(const tks_decoder& decoder, Component component, const auto& header) {
+int fedLevel(const tks_decoder& decoder, Component component, const auto& of_stream) {
   if (isComplete(decoder)) return 0;
-  int fed = header.wavelet.forest == nullptr ? coarsestLevel(header.shown()) : 0;
+  const auto& header = *of_stream;
+  int fed = coarsestLevelOf(of_stream);
   const auto regions = regionsOf(header.width, header.height, header.regions.side_log2);
   for (size_t i = 0; i < regions.size(); ++i) {
     const uint64_t bytes = decoder.packets.bytesOf(component, static_cast<uint32_t>(i));
@@ -176,11 +177,11 @@ Status giveFedLevel(const tks_decoder& decoder, tks_part part, uint32_t* level) 
   if (level == nullptr) return outputMissing();
   if (part != TKS_PART_HEIGHTS && part != TKS_PART_TEXTURE)
     return {TKS_USAGE, "Levels are fed of heights or of a texture."};
-  if (const Result<View> view = viewOf(decoder, part, nullptr); !view.ok()) return view.status();
+  if (const auto views = askedViews(decoder, part, nullptr); !views.ok()) return views.status();
   const StreamHeader& header = decoder.parsed.header;
   *level = static_cast<uint32_t>(part == TKS_PART_TEXTURE
-                                     ? fedLevel(decoder, Component::kTexture, *header.texture)
-                                     : fedLevel(decoder, Component::kGeometry, *header.geometry));
+                                     ? fedLevel(decoder, Component::kTexture, header.texture)
+                                     : fedLevel(decoder, Component::kGeometry, header.geometry));
   return {};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <string>
 
 #include "api/decoder.hpp"
@@ -71,20 +72,45 @@ void showScale(tks_decoder& decoder) {
   geometry.step = std::ldexp(decoder.step, scale.shift);
 }
 
-Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window* window) {
+namespace {
+
+/// The parts of a window of a cylinder, whose columns go on behind the last one with the first.
+std::vector<Window> partsRound(const Window& window, uint32_t columns) {
+  if (uint64_t{window.x} + window.width <= columns) return {window};
+  const uint32_t before = columns - window.x;
+  return {{window.x, window.y, before, window.height},
+          {0, window.y, window.width - before, window.height}};
+}
+
+}  // namespace
+
+Result<std::vector<View>> askedViews(const tks_decoder& decoder, tks_part part,
+                                     const tks_window* window) {
   const StreamHeader& header = decoder.parsed.header;
   const bool texture = part == TKS_PART_TEXTURE;
   if (texture && !header.texture) return noTexture();
   if (!texture && !header.geometry) return noHeights();
   const int level = texture ? decoder.texture_level : decoder.heights_level;
-  if (window == nullptr) return View{level, {}, decoder.frame};
+  if (window == nullptr) {
+    View whole = texture ? levelOf(*header.texture, level) : levelOf(*header.geometry, level);
+    whole.frame = decoder.frame;
+    return std::vector{whole};
+  }
   if (level > 0) return Status(TKS_USAGE, "Windows are parts of level 0; set the level to 0.");
   const Extent extent = texture ? header.texture->shown() : header.geometry->shown();
+  const bool ring = texture ? header.texture->wavelet.ring : header.geometry->wavelet.ring;
   const Window asked{window->x, window->y, window->width, window->height};
-  if (asked.isInside(extent)) return View{0, asked, decoder.frame};
-  return Status(TKS_USAGE, "The window must lie inside the " + std::to_string(extent.width) +
-                               " x " + std::to_string(extent.height) +
-                               " samples and hold one or more.");
+  // A turn from the window's first column on.
+  const Window inside{ring && asked.x < extent.width ? 0 : asked.x, asked.y, asked.width,
+                      asked.height};
+  if (!inside.isInside(extent))
+    return Status(TKS_USAGE, "The window must lie inside the " + std::to_string(extent.width) +
+                                 " x " + std::to_string(extent.height) +
+                                 " samples and hold one or more.");
+  std::vector<View> views;
+  for (const Window& each : partsRound(asked, extent.width))
+    views.push_back({0, each, decoder.frame});
+  return views;
 }
 
 DecodedHeights decodeHeights(tks_decoder& decoder, const View& asked) {
@@ -99,8 +125,10 @@ DecodedHeights decodeHeights(tks_decoder& decoder, const View& asked) {
 }
 
 Result<const DecodedHeights*> decodedHeights(tks_decoder& decoder) {
-  if (!decoder.parsed.header.geometry) return noHeights();
-  if (!decoder.heights) decoder.heights = decodeHeights(decoder, {decoder.heights_level, {}});
+  const auto& geometry = decoder.parsed.header.geometry;
+  if (!geometry) return noHeights();
+  if (!decoder.heights)
+    decoder.heights = decodeHeights(decoder, levelOf(*geometry, decoder.heights_level));
   return &*decoder.heights;
 }
 
@@ -120,104 +148,141 @@ struct Call {
   void* out;
   size_t bytes;
 
-  Result<View> view(const tks_decoder& decoder) const {
-    if (windowed && window == nullptr && viewOf(decoder, part, nullptr).ok())
+  Result<std::vector<View>> views(const tks_decoder& decoder) const {
+    if (windowed && window == nullptr && askedViews(decoder, part, nullptr).ok())
       return Status(TKS_USAGE, "The window is missing.");
-    return viewOf(decoder, part, window);
-  }
-  /// The output takes as many bytes as so many places, and memory suffices.
-  Status check(tks_decoder& decoder, const View& view, size_t places, size_t place_bytes) const {
-    const size_t wanted = places * place_bytes;
-    if (out == nullptr) return outputMissing();
-    if (bytes != wanted) return wrongSize(wanted, bytes);
-    return checkMemory(decoder, {part, view, 0});
+    return askedViews(decoder, part, window);
   }
 };
 
-/// Writes heights of so many bytes a sample: all(decoded) from decoded ones, or unsent(count) if
-/// nothing of them was sent. Those of whole levels are kept for later calls.
-template <class All, class Unsent>
-Status giveHeights(tks_decoder& decoder, const Call& call, size_t sample_bytes, const All& all,
-                   const Unsent& unsent) {
-  const Result<View> view = call.view(decoder);
-  if (!view.ok()) return view.status();
-  const size_t count = view->extentIn(decoder.parsed.header.geometry->shown()).samples();
-  if (Status s = call.check(decoder, *view, count, sample_bytes); !s.ok()) return s;
-  if (heightsAreUnsent(decoder)) {
-    unsent(count);
-  } else if (view->window) {
-    all(decodeHeights(decoder, *view));
-  } else {
-    const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
-    if (!decoded.ok()) return decoded.status();
-    all(**decoded);
+/// The places of a view in a raster that several views make, beside each other.
+struct ViewPlaces {
+  size_t row_bytes, row_distance, rows;
+
+  /// Puts rows that lie one behind the other where those of the view begin.
+  void put(const std::byte* from, std::byte* to) const {
+    for (size_t y = 0; y < rows; ++y)
+      std::copy_n(from + y * row_bytes, row_bytes, to + y * row_distance);
+  }
+};
+
+using Give = std::function<Status(const View& view, std::byte* out)>;
+
+/// Writes what a call asks for, of so many bytes a place, one view after the other.
+Status giveViews(tks_decoder& decoder, const Call& call, Extent shown, size_t place_bytes,
+                 const Give& give) {
+  const Result<std::vector<View>> views = call.views(decoder);
+  if (!views.ok()) return views.status();
+  size_t columns = 0;
+  for (const View& view : *views) columns += view.extentIn(shown).width;
+  const size_t row = columns * place_bytes, rows = views->front().extentIn(shown).height;
+  if (call.out == nullptr) return outputMissing();
+  if (call.bytes != row * rows) return wrongSize(row * rows, call.bytes);
+  auto* to = static_cast<std::byte*>(call.out);
+  for (const View& view : *views) {
+    const ViewPlaces places{view.extentIn(shown).width * place_bytes, row, rows};
+    const bool alone = views->size() == 1;
+    const size_t copied = alone ? 0 : places.row_bytes * rows;
+    if (Status s = checkMemory(decoder, {call.part, view, 0}, copied); !s.ok()) return s;
+    std::vector<std::byte> part(copied);
+    if (Status s = give(view, alone ? to : part.data()); !s.ok()) return s;
+    if (!alone) places.put(part.data(), to);
+    to += places.row_bytes;
   }
   return {};
+}
+
+/// How callers get heights: what writes decoded ones, and so many of which nothing was sent.
+struct HeightsWriter {
+  void (*decoded)(const tks_decoder& decoder, const DecodedHeights& heights, void* out);
+  void (*unsent)(const tks_decoder& decoder, void* out, size_t count);
+};
+
+/// Writes heights of so many bytes a sample. Those of whole levels are kept for later calls.
+Status giveHeights(tks_decoder& decoder, const Call& call, size_t sample_bytes,
+                   const HeightsWriter& write) {
+  const auto& header = decoder.parsed.header.geometry;
+  const Extent shown = header ? header->shown() : Extent{};
+  return giveViews(decoder, call, shown, sample_bytes, [&](const View& view, void* out) -> Status {
+    if (heightsAreUnsent(decoder)) {
+      write.unsent(decoder, out, view.extentIn(shown).samples());
+    } else if (view.window) {
+      write.decoded(decoder, decodeHeights(decoder, view), out);
+    } else {
+      const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
+      if (!decoded.ok()) return decoded.status();
+      write.decoded(decoder, **decoded, out);
+    }
+    return {};
+  });
 }
 
 Status giveSamples(tks_decoder& decoder, const Call& call) {
   const auto& header = decoder.parsed.header.geometry;
   const size_t sample_bytes =
       header ? tks_sample_bytes(static_cast<tks_sample>(header->sample)) : 0;
-  return giveHeights(
-      decoder, call, sample_bytes,
-      [&](const DecodedHeights& decoded) { writeHeights(decoder, decoded, call.out); },
-      [&](size_t count) { writeUnsentHeights(decoder, call.out, count); });
+  return giveHeights(decoder, call, sample_bytes, {writeHeights, writeUnsentHeights});
 }
 
 Status giveSurface(tks_decoder& decoder, const Call& call) {
-  auto* const out = static_cast<float*>(call.out);
-  return giveHeights(
-      decoder, call, sizeof(float),
-      [&](const DecodedHeights& decoded) { writeSurface(decoder, decoded, out); },
-      [&](size_t count) { writeUnsentSurface(decoder, out, count); });
+  const HeightsWriter write = {[](const tks_decoder& of, const DecodedHeights& heights, void* out) {
+                                 writeSurface(of, heights, static_cast<float*>(out));
+                               },
+                               [](const tks_decoder& of, void* out, size_t count) {
+                                 writeUnsentSurface(of, static_cast<float*>(out), count);
+                               }};
+  return giveHeights(decoder, call, sizeof(float), write);
 }
 
 Status giveValidity(tks_decoder& decoder, const Call& call) {
-  const Result<View> view = call.view(decoder);
-  if (!view.ok()) return view.status();
-  const StreamHeader& header = decoder.parsed.header;
-  const size_t count = view->extentIn(header.geometry->shown()).samples();
-  if (Status s = call.check(decoder, *view, count, 1); !s.ok()) return s;
-  std::vector<uint8_t> valid;
-  if (decoder.heights) {
-    valid = decoder.heights->geometry.valid;
-  } else if (!decoder.packets.payload.nothingOf(Component::kGeometry)) {
-    valid = decodeValidityLayer(*header.geometry, header.layers,
-                                decoder.packets.codewordsOf(Component::kGeometry, {true}), *view);
+  const auto& geometry = decoder.parsed.header.geometry;
+  const Extent shown = geometry ? geometry->shown() : Extent{};
+  return giveViews(decoder, call, shown, 1, [&](const View& view, void* to) -> Status {
+    std::vector<uint8_t> valid;
+    if (decoder.heights) {
+      valid = decoder.heights->geometry.valid;
+    } else if (!decoder.packets.payload.nothingOf(Component::kGeometry)) {
+      valid = decodeValidityLayer(*geometry, decoder.parsed.header.layers,
+                                  decoder.packets.codewordsOf(Component::kGeometry, {true}), view);
+    }
+    auto* const out = static_cast<uint8_t*>(to);
+    if (valid.empty()) {
+      std::fill_n(out, view.extentIn(shown).samples(), uint8_t{1});
+    } else {
+      std::copy(valid.begin(), valid.end(), out);
+    }
+    return {};
+  });
+}
+
+/// Of a view of a texture of which something was sent.
+void giveTexels(tks_decoder& decoder, const View& view, size_t texel_bytes, std::byte* out) {
+  const TextureHeader& header = *decoder.parsed.header.texture;
+  const TextureHeader shown = headerFor(decoder, header, view);
+  const Codewords codewords = decoder.packets.codewordsOf(
+      Component::kTexture, neededTracks(decoder.parsed.header, Component::kTexture, view));
+  TextureMemory* const memory =
+      memoryOf(decoder, decoder.texture_memory, decoder.texture_windows, view);
+  for (const View& strip : textureStrips(decoder, view)) {
+    writeTexels(decodeTexture(shown, codewords, strip, {decoder.threads, memory}),
+                static_cast<tks_sample>(header.sample), out);
+    out += strip.extentIn(header.shown()).samples() * texel_bytes;
   }
-  auto* const out = static_cast<uint8_t*>(call.out);
-  if (valid.empty()) {
-    std::fill_n(out, count, uint8_t{1});
-  } else {
-    std::copy(valid.begin(), valid.end(), out);
-  }
-  return {};
 }
 
 Status giveTexels(tks_decoder& decoder, const Call& call) {
-  const Result<View> view = call.view(decoder);
-  if (!view.ok()) return view.status();
-  const TextureHeader& header = *decoder.parsed.header.texture;
-  const auto sample = static_cast<tks_sample>(header.sample);
-  const size_t count = view->extentIn(header.shown()).samples();
-  const size_t texel_bytes = tks_sample_bytes(sample) * header.channels;
-  if (Status s = call.check(decoder, *view, count, texel_bytes); !s.ok()) return s;
-  if (texelsAreUnsent(decoder)) {
-    writeUnsentTexels(header, call.out, count);
-    return {};
-  }
-  const TextureHeader shown = headerFor(decoder, header, *view);
-  const Codewords codewords = decoder.packets.codewordsOf(
-      Component::kTexture, neededTracks(decoder.parsed.header, Component::kTexture, *view));
-  TextureMemory* const memory =
-      memoryOf(decoder, decoder.texture_memory, decoder.texture_windows, *view);
-  auto* out = static_cast<std::byte*>(call.out);
-  for (const View& strip : textureStrips(decoder, *view)) {
-    writeTexels(decodeTexture(shown, codewords, strip, {decoder.threads, memory}), sample, out);
-    out += strip.extentIn(header.shown()).samples() * texel_bytes;
-  }
-  return {};
+  const auto& header = decoder.parsed.header.texture;
+  const Extent shown = header ? header->shown() : Extent{};
+  const size_t texel_bytes =
+      header ? tks_sample_bytes(static_cast<tks_sample>(header->sample)) * header->channels : 0;
+  return giveViews(decoder, call, shown, texel_bytes, [&](const View& view, std::byte* out) {
+    if (texelsAreUnsent(decoder)) {
+      writeUnsentTexels(*header, out, view.extentIn(shown).samples());
+    } else {
+      giveTexels(decoder, view, texel_bytes, out);
+    }
+    return Status();
+  });
 }
 
 Status checkLevel(const char* what, uint32_t level, int coarsest) {

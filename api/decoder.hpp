@@ -122,9 +122,11 @@ Status noMesh();
 Status lost();
 
 /// What a call shows of the component that a part belongs to: the window, or, without one, all of
-/// the level that is set for the component. TKS_USAGE with a sentence unless the stream holds the
-/// component, the level is 0 or there is no window, and the window lies inside.
-Result<View> viewOf(const tks_decoder& decoder, tks_part part, const tks_window* window);
+/// the level that is set for the component; two views, from left to right, of a window that reaches
+/// across the seam of a cylinder. TKS_USAGE with a sentence unless the stream holds the component,
+/// the level is 0 or there is no window, and the window lies inside.
+Result<std::vector<View>> askedViews(const tks_decoder& decoder, tks_part part,
+                                     const tks_window* window);
 
 /// Whether the stream is there to its end.
 bool isComplete(const tks_decoder& decoder);
@@ -139,10 +141,18 @@ struct SurfaceScale {
 };
 SurfaceScale surfaceScale(const StreamHeader& header, const DecodedGeometry& geometry);
 
-/// The coarsest level of the heights or the texture of a header; 0 where there are none, and on
-/// forests.
+/// The coarsest level of the heights or the texture of a header; 0 where there are none.
 inline int coarsestLevelOf(const auto& component) {
-  return component && component->wavelet.forest == nullptr ? coarsestLevel(component->shown()) : 0;
+  if (!component) return 0;
+  const SharedForest& forest = component->wavelet.forest;
+  return coarsestLevel(forest != nullptr ? Extent{forest->side(), forest->side()}
+                                         : component->shown());
+}
+
+/// All of a level of heights or a texture.
+inline View levelOf(const auto& component, int level) {
+  const SharedForest& forest = component.wavelet.forest;
+  return {level, {}, 0, forest != nullptr ? forest->side() : 0};
 }
 
 /// Runs f and keeps its sentence in the decoder. When memory ends, so does what the decoder

@@ -208,6 +208,8 @@ Status checkOnForests(const tks_heights* heights, const tks_image* image,
   if (o.regions > 1 || o.index == TKS_INDEX_WINDOWS)
     return misuse("On a forest there are no regions.");
   if (heights == nullptr || image == nullptr) return {};
+  // An image of longitudes and latitudes may lie over a globe, which has no base mesh.
+  if (!onForest(image) && heights->base_mesh.position_bits == 0) return {};
   const bool alike =
       onForest(heights) && onForest(image) && heights->forest.patches == image->forest.patches &&
       std::equal(heights->forest.sides, heights->forest.sides + 4 * size_t{heights->forest.patches},

@@ -6,10 +6,11 @@
 namespace tetrakis::inline api {
 namespace {
 
+/// Columns go on behind the last one.
 Result<GridWindow> windowOf(const tks_window* given, const Extent& grid) {
   if (given == nullptr) return GridWindow{0, 0, grid};
   if (given->width == 0 || given->height == 0 || given->x >= grid.width ||
-      given->y >= grid.height || given->width > grid.width - given->x ||
+      given->y >= grid.height || given->width > grid.width ||
       given->height > grid.height - given->y)
     return Status(TKS_USAGE, "The window does not lie in the grid, or holds no sample.");
   return GridWindow{given->x, given->y, {given->width, given->height}};

@@ -77,7 +77,9 @@ uint64_t HeightsBytes::validity() const {
 }
 
 uint64_t HeightsBytes::decodingLines() const {
-  if (!view_.window || !(corrected_ || header_.wavelet.forest != nullptr)) return decodingTaken();
+  const bool forest = header_.wavelet.forest != nullptr;
+  const bool cut = view_.window ? corrected_ || forest : forest && header_.drawn && view_.level > 0;
+  if (!cut) return decodingTaken();
   // Corrected and direct samples of a window, and those of a forest, are cut out of more.
   const HeightsBytes all(*this, decodedView(header_, layers_, view_));
   return all.decodingTaken() + shown_ * (2 * kValueBytes + 1);
@@ -186,6 +188,7 @@ uint64_t HeightsBytes::flatOpeningBytes() const {
 }
 
 uint64_t HeightsBytes::low() const {
+  if (header_.wavelet.forest != nullptr) return shown_;
   return area(Pyramid(header_.extent()).low(view_.level).extent);
 }
 

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "api/decoder.hpp"
 #include "api/guarded.hpp"
 #include "api/triangle_object.hpp"
+#include "base/coordinates.hpp"
 #include "bitstream/stream/georeference.hpp"
 #include "bitstream/stream/header.hpp"
 
@@ -70,6 +73,37 @@ int giveTransform(const Placement& placement, int level, double* out) {
     std::copy(transform.begin(), transform.end(), out);
   }
   return placement.has_transform;
+}
+
+/// Whether the last column is the first one again, on a grid in a usual unit of angles.
+bool repeatsColumn(const PlacedRaster& grid) {
+  constexpr double kInDegrees[] = {1, 180 / std::numbers::pi, 0.9};  // radians, gons
+  return std::any_of(std::begin(kInDegrees), std::end(kInDegrees), [&](double degrees) {
+    return columnsRound(grid, degrees) == ColumnsRound::kRepeating;
+  });
+}
+
+/// The grid that heights on a forest come from: of fewer samples at higher levels, on the same
+/// ground but for a repeated column.
+void fillGrid(const tks_decoder& decoder, tks_info& info) {
+  const StreamHeader& header = decoder.parsed.header;
+  if (!header.geometry || header.geometry->wavelet.forest == nullptr) return;
+  info.grid_width = header.grid.width;
+  info.grid_height = header.grid.height;
+  const Placement& place = header.georeference.heights;
+  if (place.has_transform)
+    std::copy(place.transform.begin(), place.transform.end(), info.geotransform);
+  if (decoder.heights_level == 0 || info.grid_width == 0) return;
+  const auto fewer = [&](uint32_t samples) { return ((samples - 1) >> decoder.heights_level) + 1; };
+  const bool repeats =
+      place.has_transform && repeatsColumn({info.grid_width, info.grid_height, info.geotransform});
+  const uint32_t round = info.grid_width - repeats;
+  info.grid_width = fewer(round);
+  info.grid_height = std::max(fewer(header.grid.height), 2u);
+  for (const size_t i : {1, 4})
+    info.geotransform[i] *= static_cast<double>(round) / info.grid_width;
+  for (const size_t i : {2, 5})
+    info.geotransform[i] *= static_cast<double>(header.grid.height) / info.grid_height;
 }
 
 void fillGeoreference(const tks_decoder& decoder, tks_info& info) {
@@ -146,9 +180,10 @@ tks_domain domainOf(const Header& header) {
   return header.wavelet.ring ? TKS_DOMAIN_CYLINDER : TKS_DOMAIN_PLANE;
 }
 
-tks_forest forestOf(const SharedForest& forest) {
+tks_forest forestOf(const SharedForest& forest, int level) {
   if (forest == nullptr) return {};
-  return {static_cast<uint32_t>(forest->depth()), forest->patches(), forest->sides().data()};
+  return {static_cast<uint32_t>(forest->depth() - level), forest->patches(),
+          forest->sides().data()};
 }
 
 tks_base_mesh baseMeshOf(const BaseMesh& mesh) {
@@ -163,7 +198,7 @@ void fillHeights(const tks_decoder& decoder, tks_info& info) {
   info.max_error = -1;
   if (!header.geometry) return;
   const GeometryHeader& geometry = *header.geometry;
-  const Extent shown = View{decoder.heights_level, {}}.extentIn(geometry.shown());
+  const Extent shown = levelOf(geometry, decoder.heights_level).extentIn(geometry.shown());
   info.width = shown.width;
   info.height = shown.height;
   info.coarsest_level = static_cast<uint32_t>(coarsestLevelOf(header.geometry));
@@ -179,9 +214,7 @@ void fillHeights(const tks_decoder& decoder, tks_info& info) {
   info.has_nodata = header.layers.has_nodata;
   info.nodata = header.layers.nodata;
   info.domain = domainOf(geometry);
-  info.grid_width = header.grid.width;
-  info.grid_height = header.grid.height;
-  info.forest = forestOf(geometry.wavelet.forest);
+  info.forest = forestOf(geometry.wavelet.forest, decoder.heights_level);
   if (decoder.base_mesh) info.base_mesh = baseMeshOf(*decoder.base_mesh);
 }
 
@@ -189,7 +222,7 @@ void fillTexture(const tks_decoder& decoder, tks_info& info) {
   const StreamHeader& header = decoder.parsed.header;
   if (!header.texture) return;
   const TextureHeader& texture = *header.texture;
-  const Extent shown = View{decoder.texture_level, {}}.extentIn(texture.shown());
+  const Extent shown = levelOf(texture, decoder.texture_level).extentIn(texture.shown());
   info.texture_width = shown.width;
   info.texture_height = shown.height;
   info.texture_coarsest_level = static_cast<uint32_t>(coarsestLevelOf(header.texture));
@@ -201,7 +234,7 @@ void fillTexture(const tks_decoder& decoder, tks_info& info) {
   info.texture_drawn = codingOf(texture);
   info.texture_sample = static_cast<tks_sample>(texture.sample);
   info.texture_domain = domainOf(texture);
-  info.texture_forest = forestOf(texture.wavelet.forest);
+  info.texture_forest = forestOf(texture.wavelet.forest, decoder.texture_level);
 }
 
 void fillFrames(const tks_decoder& decoder, tks_info& info) {
@@ -234,8 +267,8 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info) {
     tks_info full = {};
     for (const auto fill :
          {tetrakis::fillStream, tetrakis::fillHeights, tetrakis::fillTexture, tetrakis::fillFrames,
-          tetrakis::fillMetadata, tetrakis::fillGeoreference, tetrakis::fillPositions,
-          tetrakis::fillQuality})
+          tetrakis::fillMetadata, tetrakis::fillGeoreference, tetrakis::fillGrid,
+          tetrakis::fillPositions, tetrakis::fillQuality})
       fill(*decoder, full);
     tetrakis::giveSized(full, *info);
     return {};

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "api/needed.hpp"
 
@@ -89,15 +91,41 @@ uint64_t saturatingSum(uint64_t a, uint64_t b) {
                                                       : a + b;
 }
 
+/// What a view of heights, or of a texture, takes as the caller gets it; floats of heights.
+uint64_t viewBytes(const StreamHeader& header, const MemoryRequest& request) {
+  if (request.part != TKS_PART_TEXTURE)
+    return std::max(sizeof(float),
+                    tks_sample_bytes(static_cast<tks_sample>(header.geometry->sample))) *
+           area(request.view.extentIn(header.geometry->shown()));
+  const TextureHeader& texture = *header.texture;
+  return tks_sample_bytes(static_cast<tks_sample>(texture.sample)) * texture.channels *
+         area(request.view.extentIn(texture.shown()));
+}
+
 /// What tks_check_memory is asked about.
-Result<View> requestedView(const tks_decoder& decoder, tks_part part, const tks_window* window) {
+Result<std::vector<View>> requestedViews(const tks_decoder& decoder, tks_part part,
+                                         const tks_window* window) {
   if (part < TKS_PART_HEIGHTS || part > TKS_PART_BUDGET_MESH)
     return Status(TKS_USAGE, "Unknown part of a stream.");
-  const Result<View> whole = viewOf(decoder, part, nullptr);
+  const Result<std::vector<View>> whole = askedViews(decoder, part, nullptr);
   if (!whole.ok() || window == nullptr) return whole;
   if (part != TKS_PART_HEIGHTS && part != TKS_PART_TEXTURE)
     return Status(TKS_USAGE, "Only heights and textures have windows.");
-  return viewOf(decoder, part, window);
+  return askedViews(decoder, part, window);
+}
+
+/// One view of a call is decoded after the other; several are copied to their places.
+Status checkViews(tks_decoder& decoder, MemoryRequest each, std::span<const View> views,
+                  uint64_t beside, uint64_t* bytes) {
+  if (bytes != nullptr) *bytes = 0;
+  for (const View& view : views) {
+    each.view = view;
+    const uint64_t copied = views.size() > 1 ? viewBytes(decoder.parsed.header, each) : 0;
+    if (bytes != nullptr) *bytes = std::max(*bytes, callBytes(decoder, each) + copied);
+    const Status status = checkMemory(decoder, each, saturatingSum(beside, copied));
+    if (!status.ok()) return status;
+  }
+  return {};
 }
 
 }  // namespace
@@ -138,10 +166,8 @@ Status checkMemory(tks_decoder& decoder, const MemoryRequest& request, uint64_t 
 tks_status tks_check_memory(tks_decoder* decoder, tks_part part, const tks_window* window,
                             uint32_t max_triangles, uint64_t beside, uint64_t* bytes) {
   return tetrakis::keeping(decoder, [&]() -> tetrakis::Status {
-    const auto view = tetrakis::requestedView(*decoder, part, window);
-    if (!view.ok()) return view.status();
-    const tetrakis::MemoryRequest request{part, *view, max_triangles};
-    if (bytes != nullptr) *bytes = tetrakis::callBytes(*decoder, request);
-    return tetrakis::checkMemory(*decoder, request, beside);
+    const auto views = tetrakis::requestedViews(*decoder, part, window);
+    if (!views.ok()) return views.status();
+    return tetrakis::checkViews(*decoder, {part, {}, max_triangles}, *views, beside, bytes);
   });
 }

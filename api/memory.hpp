@@ -11,6 +11,7 @@
 #include "api/decoder.hpp"
 #include "base/shown_text.hpp"
 #include "codec/mesh/topology/lattice.hpp"
+#include "codec/wavelet/forest_lifting.hpp"
 #include "codec/wavelet/region_decoder.hpp"
 #include "codec/wavelet/synthesis/view_synthesis.hpp"
 #include "codec/wavelet/wavelet.hpp"
@@ -92,6 +93,11 @@ struct PlanesBytes {
 
   PlanesBytes(const tks_decoder& decoder, const auto& header, const View& view, uint32_t planes,
               bool masked) {
+    if (const SharedForest& forest = header.wavelet.forest; forest != nullptr) {
+      coefficients = kValueBytes * area(view.extentIn(header.extent()));
+      work = ForestLifting::bytesOf(*forest, view.level);
+      return;
+    }
     const Pyramid pyramid(header.extent());
     const ViewSynthesis synthesis(specOf(header.wavelet), pyramid, view);
     const uint64_t at_a_time = view.window ? std::clamp<uint64_t>(decoder.threads, 1, planes) : 1;
@@ -178,7 +184,7 @@ class HeightsBytes {
 /// What a call is asked for.
 struct MemoryRequest {
   tks_part part = TKS_PART_HEIGHTS;
-  View view;                   ///< of viewOf(); meshes ignore it
+  View view;                   ///< of askedViews(); meshes ignore it
   uint32_t max_triangles = 0;  ///< of TKS_PART_BUDGET_MESH
 };
 

@@ -11,6 +11,7 @@
 #include "api/memory.hpp"
 #include "api/written.hpp"
 #include "base/forest.hpp"
+#include "codec/cube/cube_sphere.hpp"
 #include "codec/mesh/forest/forest_lattice.hpp"
 #include "codec/mesh/forest/forest_mesh.hpp"
 #include "codec/mesh/meshes.hpp"
@@ -142,6 +143,10 @@ Result<SurfaceMesh> budgetMeshOf(tks_decoder& decoder, Lattice lattice, uint32_t
                      std::move(heights)};
 }
 
+Status notOfLevel() {
+  return {TKS_USAGE, "Meshes are made of the heights of level 0; ask for few triangles."};
+}
+
 /// Of vertices that are samples.
 std::vector<float> surfaceAtVertices(const tks_decoder& decoder, const DecodedHeights& decoded,
                                      const LatticeMesh& mesh) {
@@ -159,8 +164,7 @@ Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32
                                 std::span<const float> row_weights) {
   if (kind != TKS_MESH_CODED && kind != TKS_MESH_BUDGET)
     return Status(TKS_USAGE, "Unknown kind of mesh.");
-  if (decoder.heights_level > 0)
-    return Status(TKS_USAGE, "Meshes are made of the heights of level 0; ask for few triangles.");
+  if (decoder.heights_level > 0) return notOfLevel();
   const StreamHeader& header = decoder.parsed.header;
   if (!header.geometry) return noHeights();
   if (header.geometry->wavelet.forest != nullptr) return noMesh();
@@ -223,18 +227,77 @@ std::vector<ForestVertex> withAllBefore(ForestVertex first, std::vector<ForestVe
 
 }  // namespace
 
-Result<const DecodedHeights*> heightsForMesh(tks_decoder& decoder, const ForestMeshing& meshing,
-                                             uint64_t beside) {
+namespace {
+
+Status checkMeshing(tks_decoder& decoder, const ForestMeshing& meshing, uint64_t beside) {
+  if (decoder.heights_level > 0) return notOfLevel();
   const bool coded = meshing.kind == TKS_MESH_CODED;
   if (!coded && meshing.kind != TKS_MESH_BUDGET) return Status(TKS_USAGE, "Unknown kind of mesh.");
   const tks_part part = coded ? TKS_PART_CODED_MESH : TKS_PART_BUDGET_MESH;
-  if (Status s = checkMemory(decoder, {part, {}, meshing.max_triangles}, beside); !s.ok()) return s;
+  return checkMemory(decoder, {part, {}, meshing.max_triangles}, beside);
+}
+
+}  // namespace
+
+Result<const DecodedHeights*> heightsForMesh(tks_decoder& decoder, const ForestMeshing& meshing,
+                                             uint64_t beside) {
+  if (Status status = checkMeshing(decoder, meshing, beside); !status.ok()) return status;
   return decodedHeights(decoder);
 }
 
+namespace {
+
+/// What samples of a patch count: on a globe the area that they cover.
+std::vector<float> patchWeights(const tks_decoder& decoder, const Forest& forest) {
+  const bool is_cube = std::equal(forest.sides().begin(), forest.sides().end(), kCubeSides.begin(),
+                                  kCubeSides.end());
+  return is_cube && !decoder.base_mesh ? patchAreas(forest.side()) : std::vector<float>();
+}
+
+/// The sample of the raster that a sample of a level lies on.
+uint32_t rasterSample(const Forest& forest, int level, uint32_t sample) {
+  const uint32_t side = (forest.side() - 1) / (uint32_t{1} << level) + 1;
+  const View view{level, {}, 0, forest.side()};
+  return view.rowOf(sample / side) * forest.side() + (sample % side << level);
+}
+
+/// A mesh within a budget, of the mip level that so few triangles can show, whose heights are
+/// fitted.
+Result<ForestSurface> fittedSurface(tks_decoder& decoder, const ForestMeshing& meshing) {
+  const StreamHeader& header = decoder.parsed.header;
+  const Forest& forest = *header.geometry->wavelet.forest;
+  const int level = spareLevels(forest, meshing.max_triangles);
+  DecodedHeights coarse;
+  if (level > 0) coarse = decodeHeights(decoder, levelOf(*header.geometry, level));
+  const Result<const DecodedHeights*> whole = level > 0 ? &coarse : decodedHeights(decoder);
+  if (!whole.ok()) return whole.status();
+  const DecodedGeometry& geometry = (*whole)->geometry;
+  const Forest of_level(forest.depth() - level, forest.sides());
+  const ForestLattice lattice(of_level);
+  const std::vector<float> weights = patchWeights(decoder, of_level);
+  const std::span<const int32_t> heights = geometry.heights;
+  const std::vector<ForestVertex> vertices =
+      withAllBefore(lattice.firstOf(meshing.first_chosen_level),
+                    forestBudgetVertices(lattice, heights, meshing.max_triangles, weights));
+  ForestSurface surface{meshing.apart ? patchesOf(lattice, vertices) : meshOf(lattice, vertices),
+                        {}};
+  const std::vector<double> fitted =
+      fittedHeights(lattice, heights, geometry.valid, vertices, weights);
+  surface.heights = heightsInUnit(surface.mesh, geometry.valid, surfaceScale(header, geometry),
+                                  [&](size_t v) { return fitted[surface.mesh.vertices[v]]; });
+  for (uint32_t& sample : surface.mesh.vertices) sample = rasterSample(forest, level, sample);
+  leaveOutVoids(surface.mesh, surface.heights);
+  return surface;
+}
+
+}  // namespace
+
 Result<ForestSurface> forestSurface(tks_decoder& decoder, const ForestMeshing& meshing,
                                     uint64_t beside) {
-  const Result<const DecodedHeights*> decoded = heightsForMesh(decoder, meshing, beside);
+  if (Status status = checkMeshing(decoder, meshing, beside); !status.ok()) return status;
+  if (meshing.kind == TKS_MESH_BUDGET && meshing.max_triangles > 0)
+    return fittedSurface(decoder, meshing);
+  const Result<const DecodedHeights*> decoded = decodedHeights(decoder);
   if (!decoded.ok()) return decoded.status();
   const ForestLattice lattice(*decoder.parsed.header.geometry->wavelet.forest);
   const std::span<const int32_t> heights = (*decoded)->geometry.heights;

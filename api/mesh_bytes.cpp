@@ -12,6 +12,21 @@ namespace tetrakis::inline api {
 
 namespace {
 
+/// Of a mesh on a forest, which shows a mip level where its budget is fitted.
+uint64_t forestBytes(const tks_decoder& decoder, const MemoryRequest& request) {
+  const GeometryHeader& geometry = *decoder.parsed.header.geometry;
+  const Forest& forest = *geometry.wavelet.forest;
+  const bool fitted =
+      request.part == TKS_PART_BUDGET_MESH && request.max_triangles > 0 && !decoder.base_mesh;
+  const int level = fitted ? spareLevels(forest, request.max_triangles) : 0;
+  const HeightsBytes heights(decoder, levelOf(geometry, level));
+  const bool there = level == 0 && decoder.heights;
+  const Forest of_level(forest.depth() - level, forest.sides());
+  const uint64_t mesh = kOnceBytes + (fitted ? fittedMeshBytes(of_level, request.max_triangles)
+                                             : forestMeshBytes(of_level));
+  return there ? mesh : std::max(heights.decoding(), heights.kept() + mesh);
+}
+
 /// Samples, or vertices of the lattice, whichever are more.
 uint64_t verticesOf(const Lattice& lattice) {
   return std::max<uint64_t>(lattice.sampleCount(), lattice.vertexCount());
@@ -27,8 +42,7 @@ uint64_t meshBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   const HeightsBytes heights(decoder, {});
   const uint64_t decoding = decoder.heights ? 0 : heights.decoding();
   const uint64_t kept = decoder.heights ? 0 : heights.kept();
-  if (const SharedForest& forest = header.geometry->wavelet.forest; forest != nullptr)
-    return std::max(decoding, kept + kOnceBytes + forestMeshBytes(*forest));
+  if (header.geometry->wavelet.forest != nullptr) return forestBytes(decoder, request);
   const Result<Lattice> lattice =
       Lattice::make(header.geometry->shown().width, header.geometry->shown().height);
   if (!lattice.ok()) return 0;  // refused for that

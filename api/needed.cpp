@@ -2,6 +2,7 @@
 #include "api/needed.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -66,13 +67,14 @@ namespace tetrakis::inline api {
 
 namespace {
 
-/// The view of a call for a part; meshes are made of everything.
-Result<View> viewOfPart(const tks_decoder& decoder, tks_part part, const tks_window* window) {
+/// The views of a call for a part; meshes are made of everything.
+Result<std::vector<View>> askedViewsOfPart(const tks_decoder& decoder, tks_part part,
+                                           const tks_window* window) {
   if (part == TKS_PART_CODED_MESH || part == TKS_PART_BUDGET_MESH) {
     if (!decoder.parsed.header.geometry) return noHeights();
-    return View{};
+    return std::vector{View{}};
   }
-  return viewOf(decoder, part, window);
+  return askedViews(decoder, part, window);
 }
 
 /// The ranges of the packets of such tracks; of streams for windows each track has its own.
@@ -130,15 +132,21 @@ Result<std::vector<tks_range>> neededRanges(tks_decoder& decoder, tks_part part,
                                             const tks_window* window) {
   if (part < TKS_PART_HEIGHTS || part > TKS_PART_BUDGET_MESH)
     return Status(TKS_USAGE, "There is no such part.");
-  const Result<View> view = viewOfPart(decoder, part, window);
-  if (!view.ok()) return view.status();
+  const Result<std::vector<View>> views = askedViewsOfPart(decoder, part, window);
+  if (!views.ok()) return views.status();
   const StreamHeader& header = decoder.parsed.header;
   if (header.index.empty() && header.payload_bytes > 0)
     return Status(TKS_USAGE,
                   "The stream has no front index, which would tell where its packets lie.");
-  if (Status status = checkMemory(decoder, {part, *view, 0}); !status.ok()) return status;
   const Component component = part == TKS_PART_TEXTURE ? Component::kTexture : Component::kGeometry;
-  std::vector<bool> needed = neededTracks(header, component, *view);
+  std::vector<bool> needed;
+  for (const View& view : *views) {
+    if (Status status = checkMemory(decoder, {part, view, 0}); !status.ok()) return status;
+    const std::vector<bool> of_view = neededTracks(header, component, view);
+    needed.resize(of_view.size());
+    std::transform(needed.begin(), needed.end(), of_view.begin(), needed.begin(),
+                   std::logical_or<bool>());
+  }
   if (part == TKS_PART_VALIDITY) needed.assign(1, true);
   return withGap(decoder, rangesOfTracks(decoder, component, needed));
 }

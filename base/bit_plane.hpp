@@ -114,7 +114,7 @@ class BitPlane {
     std::vector<uint8_t> marks(shown.samples());
     for (uint32_t y = 0; y < shown.height; ++y) {
       uint8_t* const to = marks.data() + size_t{y} * shown.width;
-      const uint32_t from = view.firstRow() + (y << view.level);
+      const uint32_t from = view.rowOf(y);
       uint32_t x = 0;
       if (view.isWhole()) {
         for (; x + 8 <= shown.width; x += 8)

@@ -36,19 +36,32 @@ struct View {
   int level = 0;                 ///< the samples at multiples of 2^level in x and y are shown
   std::optional<Window> window;  ///< only the samples in the window are shown
   uint32_t frame = 0;            ///< of a component in frames, the one that is shown
+  uint32_t patch_rows = 0;       ///< of patches that lie one below the other, each of which has
+                                 ///< levels of its own; 0: the plane is one patch
 
   bool isWhole() const { return level == 0 && !window; }
   /// How many samples of a plane of that size are shown.
   Extent extentIn(Extent plane) const {
     assert(!window || (level == 0 && window->isInside(plane)));
     if (window) return window->extent();
-    return {((plane.width - 1) >> level) + 1, ((plane.height - 1) >> level) + 1};
+    const uint32_t of_patch = patch_rows > 0 ? patch_rows : plane.height;
+    return {shownOf(plane.width), plane.height / of_patch * shownOf(of_patch)};
   }
   /// The column and the row of the plane that the first shown sample lies in.
   uint32_t firstColumn() const { return window ? window->x : 0; }
   uint32_t firstRow() const { return window ? window->y : 0; }
+  /// The row of the plane that a shown row lies in.
+  uint32_t rowOf(uint32_t shown) const {
+    if (level == 0 || patch_rows == 0) return firstRow() + (shown << level);
+    const uint32_t of_patch = shownOf(patch_rows);
+    return shown / of_patch * patch_rows + (shown % of_patch << level);
+  }
   /// The distance between shown samples in the plane.
   uint32_t step() const { return uint32_t{1} << level; }
+
+ private:
+  /// How many of so many samples in a line are shown, without a window.
+  uint32_t shownOf(uint32_t samples) const { return ((samples - 1) >> level) + 1; }
 };
 
 /// What a decoder may use, beside what it decodes. Memory is a type of the decoder.
@@ -68,8 +81,7 @@ std::vector<T> slice(std::span<const T> values, Extent plane, const View& view) 
   const Extent extent = view.extentIn(plane);
   shown.reserve(extent.samples());
   for (uint32_t y = 0; y < extent.height; ++y) {
-    const T* row = values.data() + (view.firstRow() + (size_t{y} << view.level)) * plane.width +
-                   view.firstColumn();
+    const T* row = values.data() + size_t{view.rowOf(y)} * plane.width + view.firstColumn();
     if (view.level == 0) {
       shown.insert(shown.end(), row, row + extent.width);
       continue;

@@ -31,7 +31,7 @@ Texels decodeStoredTexture(const TextureHeader& header, std::span<const uint8_t>
   const auto unknown = static_cast<uint16_t>((texels.white() + 1) / 2);
   texels.samples.reserve(extent.samples() * channels);
   for (uint32_t y = 0; y < extent.height; ++y) {
-    const size_t row = (view.firstRow() + size_t{y} * view.step()) * header.width;
+    const size_t row = size_t{view.rowOf(y)} * header.width;
     for (uint32_t x = 0; x < extent.width; ++x) {
       const size_t first = (row + view.firstColumn() + size_t{x} * view.step()) * channels;
       for (size_t i = first; i < first + channels; ++i)
@@ -234,27 +234,34 @@ Texels decodeLines(const TextureHeader& header, const Codewords& codewords, cons
 
 namespace {
 
-/// A forest is decoded as a whole: lines go on in other patches.
-Texels decodeForest(const TextureHeader& header, const Codewords& codewords, const View& view,
-                    const DecodeContext<TextureMemory>& context) {
-  assert(view.level == 0);
-  Texels texels = decodeLines(header, codewords, {}, context);
-  shareOwned(*header.wavelet.forest, std::span(texels.samples), header.wavelet.forest->side() - 1,
-             texels.channels);
-  if (!view.window) return texels;
-  const Window& window = *view.window;
+/// The texels of a view of a whole plane.
+Texels viewOf(Texels texels, const View& view) {
+  const Extent extent = view.extentIn(texels.extent());
+  const size_t channels = texels.channels;
   std::vector<uint16_t> shown;
-  shown.reserve(size_t{window.width} * window.height * texels.channels);
-  for (uint32_t y = 0; y < window.height; ++y) {
-    const size_t row = (size_t{window.y} + y) * texels.width + window.x;
-    const auto first = texels.samples.begin() + static_cast<ptrdiff_t>(row * texels.channels);
-    shown.insert(shown.end(), first,
-                 first + static_cast<ptrdiff_t>(size_t{window.width} * texels.channels));
+  shown.reserve(extent.samples() * channels);
+  for (uint32_t y = 0; y < extent.height; ++y) {
+    const size_t row = size_t{view.rowOf(y)} * texels.width + view.firstColumn();
+    for (uint32_t x = 0; x < extent.width; ++x) {
+      const uint16_t* const texel = &texels.samples[(row + size_t{x} * view.step()) * channels];
+      shown.insert(shown.end(), texel, texel + channels);
+    }
   }
   texels.samples = std::move(shown);
-  texels.width = window.width;
-  texels.height = window.height;
+  texels.width = extent.width;
+  texels.height = extent.height;
   return texels;
+}
+
+/// A window is taken out of all texels, and so is a level of a drawing, whose lattice is that of
+/// the raster.
+Texels decodeForest(const TextureHeader& header, const Codewords& codewords, const View& view,
+                    const DecodeContext<TextureMemory>& context) {
+  const View decoded = header.drawn() ? View{} : wholeIfForest(header, view);
+  Texels texels = decodeLines(header, codewords, decoded, context);
+  shareOwned(*header.wavelet.forest, std::span(texels.samples), texels.width - 1, texels.channels);
+  if (decoded.extentIn(header.extent()) == view.extentIn(header.extent())) return texels;
+  return viewOf(std::move(texels), view);
 }
 
 }  // namespace

@@ -58,8 +58,7 @@ void TextureOpening::paint(Extent whole, const View& view, Texels& texels) const
   assert(texels.extent() == view.extentIn(whole));
   uint16_t* out = texels.samples.data();
   for (uint32_t y = 0; y < texels.height; ++y) {
-    const size_t row =
-        view.firstColumn() + (view.firstRow() + size_t{y} * view.step()) * whole.width;
+    const size_t row = view.firstColumn() + size_t{view.rowOf(y)} * whole.width;
     for (uint32_t x = 0; x < texels.width; ++x, out += texels.channels) {
       const size_t texel = row + size_t{x} * view.step();
       if (!overlay.covers(texel)) continue;

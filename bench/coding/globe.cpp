@@ -3,11 +3,13 @@
 // as planes and as cylinders, with equal samples and with equal areas, and on cubes: bytes at equal
 // RMSE over the area of the Earth, bytes to the last bit (of cubes: of their own samples), and what
 // is left of the seam between the last column and the first one. Errors on cubes are those of the
-// grid that is made of them, what is lost by resampling among them.
+// grid that is made of them, what is lost by resampling among them. Then meshes of few triangles of
+// the streams to the last bit: their RMSE over the area.
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +18,7 @@
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/files/place/ground_spacing.hpp"
 #include "apps/tools/files/stream.hpp"
+#include "bench/coding/globe_meshes.hpp"
 #include "bench/harness/arguments.hpp"
 #include "bench/peers/raster.hpp"
 #include "tetrakis/tetrakis.hpp"
@@ -26,6 +29,7 @@ namespace {
 struct Options {
   std::vector<std::string> files;
   std::vector<double> errors = {110, 80, 55};
+  std::vector<double> triangles = {2000, 20000, 100000};
   uint32_t depth = 0;
 };
 
@@ -86,6 +90,17 @@ class Globe {
     if (!decoded.ok()) return decoded.status();
     const std::vector<double> values = samplesOf(decoded->data, file_.sample);
     return Figures{rmse(values), jump(values)};
+  }
+
+  /// Of the mesh of so many triangles.
+  Result<double> meshError(std::span<const uint8_t> stream, uint32_t triangles) const {
+    Result<Decoder> decoder = Decoder::open(stream);
+    if (!decoder.ok()) return decoder.status();
+    Result<std::vector<float>> surface = surfaceOfGlobe(*decoder, triangles);
+    if (surface.ok() && tools::isGridOnCube(decoder->info()))
+      surface = tools::surfaceOfCube(decoder->info(), *surface, {});
+    if (!surface.ok()) return surface.status();
+    return rmse({surface->begin(), surface->end()});
   }
   /// Between the two sides of the seam, as the ground has it.
   double jump() const { return jump(original_); }
@@ -149,6 +164,12 @@ Status measure(const Options& options, const std::string& path) {
     const Result<Buffer> lossless = globe.coded(coding, 0);
     if (!lossless.ok()) return lossless.status();
     const uint64_t whole = lossless->bytes().size();
+    for (const double triangles : options.triangles) {
+      const Result<double> error =
+          globe.meshError(lossless->bytes(), static_cast<uint32_t>(triangles));
+      if (!error.ok()) return error.status();
+      std::printf("%-17s mesh of %.0f triangles: RMSE %.1f\n", coding.name, triangles, *error);
+    }
     std::printf("%-17s to the last bit: %llu bytes\n", coding.name,
                 static_cast<unsigned long long>(whole));
     for (const double error : options.errors) {
@@ -172,6 +193,7 @@ int main(int argc, char** argv) {
       "Global grids of heights as planes and as cylinders, by samples and by area, and on cubes.");
   arguments.required({"FILE", "global grids"}, options.files);
   arguments.numbers({"--errors", "RMSEs over the area of the Earth"}, options.errors);
+  arguments.numbers({"--triangles", "of meshes"}, options.triangles);
   arguments.within({"--depth", "of the cube; 0: chosen"}, options.depth, 0, TKS_MOST_CUBE_DEPTH);
   if (const auto code = arguments.parse(argc, argv)) return *code;
   for (const std::string& file : options.files) {

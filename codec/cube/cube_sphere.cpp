@@ -79,6 +79,23 @@ double placeAt(double off_middle) {
   return std::clamp(arctangent(off_middle) * (2 / std::numbers::pi) + 0.5, 0.0, 1.0);
 }
 
+std::vector<float> patchAreas(uint32_t side) {
+  std::vector<double> squares;  // of offMiddle()
+  for (uint32_t i = 0; i < side; ++i) {
+    const double off = offMiddle(static_cast<double>(i) / (side - 1));
+    squares.push_back(off * off);
+  }
+  std::vector<float> areas;
+  areas.reserve(size_t{side} * side);
+  for (const double y : squares) {
+    for (const double x : squares) {
+      const double length = 1 + x + y;
+      areas.push_back(static_cast<float>((1 + x) * (1 + y) / (length * std::sqrt(length))));
+    }
+  }
+  return areas;
+}
+
 SpherePoint pointOf(uint32_t patch, double off_x, double off_y) {
   const auto& [middle, east, south] = kFrames[patch];
   const double length = std::sqrt(1 + off_x * off_x + off_y * off_y);

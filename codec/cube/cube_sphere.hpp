@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "base/forest.hpp"
 
@@ -51,6 +52,10 @@ struct Geographic {
 double offMiddle(double x);
 /// The inverse, of -1 to 1.
 double placeAt(double off_middle);
+/// What samples of a patch cover of the sphere, row by row, the one in the middle 1: angles in x
+/// and y are equal, so that areas are the determinant of their directions.
+std::vector<float> patchAreas(uint32_t side);
+
 /// The point of the sphere on the ray through a point of a face, by offMiddle() of x and of y.
 SpherePoint pointOf(uint32_t patch, double off_x, double off_y);
 

@@ -11,7 +11,8 @@
 
 namespace tetrakis::inline cube {
 
-/// A rectangle of samples of a grid, by its first column and row and its size.
+/// A rectangle of samples of a grid, by its first column and row and its size. Columns may lie
+/// behind the last one, where the first ones are.
 struct GridWindow {
   uint32_t x, y;
   Extent extent;

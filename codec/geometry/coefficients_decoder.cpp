@@ -28,10 +28,9 @@ ShownSignificance::ShownSignificance(const Pyramid& pyramid, const View& view, s
 
 void ShownSignificance::take(size_t track, std::span<const Band> bands,
                              std::span<const BandPart> parts) {
-  const size_t subbands = pyramid_.subbandsOf(level_).size();
   for (size_t i = 0; i < parts.size(); ++i) {
-    if (parts[i].subband >= subbands) continue;
     const Subband& subband = pyramid_.subbands()[parts[i].subband];
+    if (!pyramid_.isIn(subband, level_)) continue;
     mark(bands[i], subband, parts[i]);
     if (bands[i].nonzero() && subband.orientation != Orientation::kLL)
       quiet_[track] = std::min(quiet_[track], subband.level - 1 - level_);
@@ -53,7 +52,7 @@ void ShownSignificance::mark(const Band& band, const Subband& subband, const Ban
   const int splits = subband.splits_x - low_.splits_x;
   const size_t first = (subband.isHighX() ? size_t{1} << (splits - 1) : 0) - shown_.x;
   for (uint32_t row = 0; row < part.rows; ++row) {
-    const uint32_t y = (subband.planeRow(part.row + row) >> low_.splits_y) - shown_.y;
+    const uint32_t y = pyramid_.lowRow(subband, part.row + row, level_) - shown_.y;
     if (y >= shown_.height) continue;
     uint8_t* out = marks_.data() + size_t{y} * shown_.width;
     for (uint32_t x = 0; x < band.shape.words(); ++x) {
@@ -76,7 +75,7 @@ void holdShown(const HeldSamples& flat, Extent plane, const View& view,
   if (flat.none()) return;
   const Extent extent = view.extentIn(plane);
   for (uint32_t y = 0; y < extent.height; ++y) {
-    const size_t row = (view.firstRow() + size_t{y} * view.step()) * plane.width;
+    const size_t row = size_t{view.rowOf(y)} * plane.width;
     hold({flat.numbers.data() + row + view.firstColumn(), view.step()}, flat.values,
          std::span(heights).subspan(size_t{y} * extent.width, extent.width));
   }

@@ -114,7 +114,7 @@ bool holdsValid(const SharedBits& valid, const Window& window) {
 
 DecodedView decodedViewOf(const TakenLayers& taken, const SharedBits& valid, const View& asked) {
   const bool corrected = asked.level == 0 && taken.isCorrected();
-  if (taken.header.wavelet.forest != nullptr) return {{}, corrected};
+  if (taken.header.wavelet.forest != nullptr) return {asked, corrected};
   if (!asked.window) return {asked, corrected};
   const View all = correctedView(taken.header, taken.stated, asked);
   if (!corrected || !holdsValid(valid, *asked.window) ||
@@ -172,9 +172,11 @@ DecodedHeights decodeTaken(const TakenLayers& taken, DecodedView& view,
                    {context.threads, keeps ? &context.memory->parts : nullptr});
 }
 
-/// A forest is decoded as a whole: lines go on in other patches.
-View wholeIfForest(const GeometryHeader& header, const View& view) {
-  return header.wavelet.forest != nullptr ? View{} : view;
+/// What of the coded lines is decoded for a view of them.
+View decodedLines(const GeometryHeader& header, const View& view) {
+  // The lattice of a drawing is that of the raster, whose levels are not those of patches.
+  if (header.drawn && header.wavelet.forest != nullptr) return {};
+  return wholeIfForest(header, view);
 }
 
 /// Samples that several patches share become what they are in the patch that owns them.
@@ -182,7 +184,7 @@ void share(const GeometryHeader& header, DecodedHeights& decoded) {
   const SharedForest& forest = header.wavelet.forest;
   if (forest == nullptr) return;
   const auto shareAll = [&](auto& values) {
-    if (!values.empty()) shareOwned(*forest, std::span(values), forest->side() - 1);
+    if (!values.empty()) shareOwned(*forest, std::span(values), decoded.geometry.width - 1);
   };
   shareAll(decoded.geometry.heights);
   shareAll(decoded.geometry.valid);
@@ -190,17 +192,20 @@ void share(const GeometryHeader& header, DecodedHeights& decoded) {
   shareAll(decoded.corrections);
 }
 
-/// Decodes a view of the coded lines; a window is cut out of the decoded part.
+/// Decodes a view of the coded lines, which is taken out of what is decoded for it.
 DecodedHeights decodeLines(const TakenLayers& taken, const View& view,
                            const DecodeContext<HeightsMemory>& context) {
-  DecodedView all{wholeIfForest(taken.header, view)};
+  DecodedView all{decodedLines(taken.header, view)};
   DecodedHeights decoded = decodeTaken(taken, all, context);
   share(taken.header, decoded);
   const Extent plane = taken.header.extent();
-  if (!view.window || all.view.extentIn(plane) == view.extentIn(plane)) return decoded;
-  const Window& window = *view.window;
-  return windowOf(decoded, {window.x - all.view.firstColumn(), window.y - all.view.firstRow(),
-                            window.width, window.height});
+  if (all.view.extentIn(plane) == view.extentIn(plane)) return decoded;
+  View shown = view;
+  if (shown.window) {
+    shown.window->x -= all.view.firstColumn();
+    shown.window->y -= all.view.firstRow();
+  }
+  return viewOf(decoded, shown);
 }
 
 }  // namespace

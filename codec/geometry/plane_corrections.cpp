@@ -168,7 +168,7 @@ DecodedHeights corrected(DecodedHeights decoded, const TakenLayers& taken, const
   CorrectedParts::Call call(context.memory, taken.corrections.size());
   parallelFor(context.threads, parts.size(), [&](size_t i) {
     const auto& [number, window, codeword] = parts[i];
-    DecodedHeights before = windowOf(decoded, window);
+    DecodedHeights before = viewOf(decoded, {0, window});
     if (context.memory == nullptr)
       return put(correctedPart(std::move(before), header, stated, codeword), window, decoded);
     std::optional<CorrectedPart>& part = call.at(number);
@@ -198,14 +198,15 @@ uint64_t CorrectedPart::bytes() const {
   return bytesOf(before) + bytesOf(after);
 }
 
-DecodedHeights windowOf(const DecodedHeights& decoded, const Window& window) {
+DecodedHeights viewOf(const DecodedHeights& decoded, const View& view) {
   const DecodedGeometry& geometry = decoded.geometry;
   const auto cut_out = [&]<class T>(const std::vector<T>& values) {
-    return slice(std::span<const T>(values), geometry.extent(), {0, window});
+    return slice(std::span<const T>(values), geometry.extent(), view);
   };
+  const Extent shown = view.extentIn(geometry.extent());
   DecodedHeights part;
-  part.geometry.width = window.width;
-  part.geometry.height = window.height;
+  part.geometry.width = shown.width;
+  part.geometry.height = shown.height;
   part.geometry.fraction_bits = geometry.fraction_bits;
   part.geometry.heights = cut_out(geometry.heights);
   part.geometry.significant = cut_out(geometry.significant);

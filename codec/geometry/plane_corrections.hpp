@@ -77,8 +77,8 @@ using CorrectedParts = KeptItems<CorrectedPart>;
 DecodedHeights corrected(DecodedHeights decoded, const TakenLayers& taken, const View& view,
                          const DecodeContext<CorrectedParts>& context = {});
 
-/// The heights of a window, cut out of a larger view. They have no marks of vertices if the view
-/// has none.
-DecodedHeights windowOf(const DecodedHeights& decoded, const Window& window);
+/// The heights of a view of decoded ones, which are a whole plane or a window of it. They have no
+/// marks of vertices if those have none.
+DecodedHeights viewOf(const DecodedHeights& decoded, const View& view);
 
 }  // namespace tetrakis::inline geometry

@@ -61,7 +61,7 @@ void forEachValid(const GeometryHeader& header, const BitPlane* valid, const Vie
   size_t rows_before = 0;
   size_t i = 0;
   for (uint32_t y = 0, above = 0; y < extent.height; ++y) {
-    const uint32_t row = view.firstRow() + y * view.step();
+    const uint32_t row = view.rowOf(y);
     for (; above < row; ++above)
       rows_before += valid != nullptr ? valid->countBefore(header.width, above) : header.width;
     uint32_t x = view.firstColumn();

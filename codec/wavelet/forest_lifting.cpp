@@ -22,17 +22,18 @@ uint32_t marginOf(FilterId id) {
 
 }  // namespace
 
-ForestLifting::ForestLifting(const WaveletSpec& spec, const Pyramid& pyramid, int level,
+ForestLifting::ForestLifting(const WaveletSpec& spec, const Pyramid& pyramid, Levels levels,
                              Direction direction, uint32_t threads)
     : forest_(*spec.forest),
       pyramid_(pyramid),
-      level_(level),
-      id_(spec.filter(level)),
+      plane_(pyramid.low(levels.plane)),
+      level_(levels.lifted),
+      id_(spec.filter(level_)),
       direction_(direction),
-      doubled_(spec.doubles(level)),
-      wide_(spec.jointlyWide(level)),
+      doubled_(spec.doubles(level_)),
+      wide_(spec.jointlyWide(level_)),
       threads_(threads),
-      n_(pyramid.low(level - 1).extent.width - 1),
+      n_(pyramid.low(level_ - 1).extent.width - 1),
       margin_(marginOf(id_)),
       width_(n_ + 1 + 2 * margin_),
       patches_(size_t{forest_.patches()} * width_ * width_) {
@@ -40,9 +41,9 @@ ForestLifting::ForestLifting(const WaveletSpec& spec, const Pyramid& pyramid, in
   findCopies();
 }
 
-uint64_t ForestLifting::bytesOf(const Forest& forest) {
-  const uint64_t width = forest.side() + 2 * kWidestMargin;
-  const uint64_t around = 4 * kWidestMargin * width, shared = 4 * uint64_t{forest.side()};
+uint64_t ForestLifting::bytesOf(const Forest& forest, int level) {
+  const uint64_t side = (forest.side() >> level) + 1, width = side + 2 * kWidestMargin;
+  const uint64_t around = 4 * kWidestMargin * width, shared = 4 * side;
   return forest.patches() *
          (width * width * (sizeof(int32_t) + sizeof(uint16_t)) + (around + shared) * sizeof(Copy));
 }
@@ -155,11 +156,12 @@ void ForestLifting::step(size_t round, JointStep step, const HeldCellsOfLevel& h
 
 template <class Move>
 void ForestLifting::forEachSample(std::span<int32_t> values, bool halved, const Move& move) {
-  const size_t lows = n_ / 2 + 1, width = pyramid_.plane().width;
+  const size_t lows = n_ / 2 + 1, width = plane_.extent.width;
+  const int splits = level_ - 1 - plane_.splits_y;
   for (uint32_t patch = 0; patch < forest_.patches(); ++patch) {
     for (size_t y = 0; y <= n_; ++y) {
       int32_t* const row =
-          values.data() + (size_t{patch} * forest_.side() + (y << (level_ - 1))) * width;
+          values.data() + (size_t{patch} * plane_.patch_rows + (y << splits)) * width;
       int32_t* const here = patches_.data() + indexOf(patch, 0, static_cast<int64_t>(y));
       int32_t* const odd = patches_.data() + indexOf(patch, 1, static_cast<int64_t>(y));
       for (size_t k = 0; k < lows; ++k) move(row[halved ? k : 2 * k], here[k]);
@@ -169,7 +171,7 @@ void ForestLifting::forEachSample(std::span<int32_t> values, bool halved, const 
 }
 
 void ForestLifting::run(std::span<int32_t> values, const HeldCellsOfLevel& held) {
-  assert(values.size() == pyramid_.plane().samples());
+  assert(values.size() == plane_.extent.samples());
   const bool analyses = direction_ == Direction::kAnalysis;
   forEachSample(values, !analyses, [](int32_t from, int32_t& to) { to = from; });
   copyAll(shared_);  // what is not owned has no coefficient

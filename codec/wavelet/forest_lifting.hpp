@@ -23,16 +23,21 @@ namespace tetrakis::inline wavelet {
 
 class ForestLifting {
  public:
+  /// The level that is lifted, and the one whose low band the values are; 0: the raster.
+  struct Levels {
+    int plane, lifted;
+  };
+
   /// spec: with a forest, whose pyramid it is. threads: nothing depends on them.
-  ForestLifting(const WaveletSpec& spec, const Pyramid& pyramid, int level, Direction direction,
+  ForestLifting(const WaveletSpec& spec, const Pyramid& pyramid, Levels levels, Direction direction,
                 uint32_t threads = 1);
 
-  /// Turns the samples of the level into coefficients, or back, in place. values: of the raster.
+  /// Turns the samples of the level into coefficients, or back, in place. values: of the low band.
   /// held: what the level makes of the areas that are held; empty: nothing is held.
   void run(std::span<int32_t> values, const HeldCellsOfLevel& held = {});
 
-  /// The bytes that the largest level takes.
-  static uint64_t bytesOf(const Forest& forest);
+  /// The bytes that the largest level above one takes.
+  static uint64_t bytesOf(const Forest& forest, int level);
 
  private:
   /// Values of the patches with their surroundings, by index.
@@ -59,13 +64,14 @@ class ForestLifting {
   void findNumbers();
   /// Gives held samples of a patch their values, of those that a step changes.
   void hold(uint32_t patch, JointStep step, const std::vector<HeldCell>& held);
-  /// Calls move(value of the raster, value here) for all samples of the patches. halved: even
-  /// columns come first in the raster.
+  /// Calls move(value of the low band, value here) for all samples of the patches. halved: even
+  /// columns come first in the low band.
   template <class Move>
   void forEachSample(std::span<int32_t> values, bool halved, const Move& move);
 
   const Forest& forest_;
   const Pyramid& pyramid_;
+  LowBand plane_;  ///< what the values are
   int level_;
   FilterId id_;
   Direction direction_;

@@ -86,12 +86,6 @@ void Pyramid::addSubbands(int level) {
   add(Orientation::kHH, {high_width, high_height}, width, high_y);
 }
 
-std::span<const Subband> Pyramid::subbandsOf(int level) const {
-  assert(level >= 0 && level <= levels());
-  if (level == 0) return subbands_;
-  return std::span(subbands_).first(kBandsPerLevel * static_cast<size_t>(levels() - level) + 1);
-}
-
 std::vector<uint8_t> Pyramid::splitMask(int level, const Window& block) const {
   const LowBand& band = low(level);
   const bool split_rows = level < levels() && splitsX(level + 1);

@@ -112,15 +112,20 @@ class Pyramid {
   /// LL, then HL, LH and HH of the coarsest level, and so on to level 1: 3 * levels() + 1 bands,
   /// some of them empty. Those of a forest follow patch by patch. Together they fill the plane.
   const std::vector<Subband>& subbands() const { return subbands_; }
-  /// The first of these bands, which fill the low band of a level. Of a forest: of level 0.
-  std::span<const Subband> subbandsOf(int level) const;
+  /// Whether the band is one of those that fill the low band of a level.
+  bool isIn(const Subband& subband, int level) const {
+    return subband.orientation == Orientation::kLL || subband.level > level;
+  }
 
   /// The index of the first coefficient of a row of a subband among the values of the low band of a
   /// level, which holds that subband.
   size_t indexOf(const Subband& subband, uint32_t row, int level = 0) const {
+    return size_t{lowRow(subband, row, level)} * low(level).extent.width + subband.x;
+  }
+  /// The row of the low band of a level that a row of a subband of it lies in.
+  uint32_t lowRow(const Subband& subband, uint32_t row, int level) const {
     const LowBand& band = low(level);
-    const size_t patch_row = size_t{subband.patch} * band.patch_rows;
-    return (patch_row + (subband.patchRow(row) >> band.splits_y)) * band.extent.width + subband.x;
+    return subband.patch * band.patch_rows + (subband.patchRow(row) >> band.splits_y);
   }
 
   /// Which samples exist of a rectangle of the low band of a level, laid out like the values that

@@ -51,14 +51,16 @@ class Levels {
   std::optional<HeldLadder> ladder_;  ///< where something is held
 };
 
-/// The levels of a forest, from the first one to the last.
+/// The levels of a forest above one, from the first one to the last. values: of its low band.
 void runForest(const WaveletSpec& spec, const Pyramid& pyramid, Direction direction,
-               uint32_t threads, std::span<int32_t> values) {
+               const InverseOptions& options, std::span<int32_t> values) {
   std::optional<HeldCells> held;
   if (!pyramid.held().none()) held.emplace(spec, pyramid);
-  for (int done = 0; done < pyramid.levels(); ++done) {
-    const int level = direction == Direction::kAnalysis ? done + 1 : pyramid.levels() - done;
-    ForestLifting(spec, pyramid, level, direction, threads)
+  const int levels = pyramid.levels() - options.level;
+  for (int done = 0; done < levels; ++done) {
+    const bool analyses = direction == Direction::kAnalysis;
+    const int level = analyses ? options.level + done + 1 : pyramid.levels() - done;
+    ForestLifting(spec, pyramid, {options.level, level}, direction, options.threads)
         .run(values, held ? held->level(level) : HeldCellsOfLevel());
   }
 }
@@ -68,7 +70,7 @@ void runForest(const WaveletSpec& spec, const Pyramid& pyramid, Direction direct
 void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
                     uint32_t threads) {
   if (spec.forest != nullptr)
-    return runForest(spec, pyramid, Direction::kAnalysis, threads, values);
+    return runForest(spec, pyramid, Direction::kAnalysis, {0, threads}, values);
   const Levels levels(spec, pyramid);
   for (int level = 1; level <= pyramid.levels(); ++level) {
     levels.run(LevelTransform(spec, level, Direction::kAnalysis, threads), level,
@@ -79,9 +81,8 @@ void forwardWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<i
 void inverseWavelet(const WaveletSpec& spec, const Pyramid& pyramid, std::span<int32_t> values,
                     const InverseOptions& options) {
   if (spec.forest != nullptr) {
-    assert(options.level == 0);
-    runForest(spec, pyramid, Direction::kSynthesis, options.threads, values);
-    return shareOwned(*spec.forest, values, spec.forest->side() - 1);
+    runForest(spec, pyramid, Direction::kSynthesis, options, values);
+    return shareOwned(*spec.forest, values, pyramid.low(options.level).extent.width - 1);
   }
   const Levels levels(spec, pyramid);
   for (int split = pyramid.levels(); split > options.level; --split) {

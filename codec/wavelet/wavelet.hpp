@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/forest.hpp"
+#include "base/view.hpp"
 #include "bitstream/stream/coding_headers.hpp"
 #include "codec/wavelet/lifting/lifting.hpp"
 #include "codec/wavelet/lifting/lifting_kernel.hpp"
@@ -69,6 +70,12 @@ inline Pyramid pyramidOf(const WaveletSpec& spec, SharedBits lifted, Extent plan
                          HeldSamples held = {}) {
   if (spec.forest != nullptr) return Pyramid(*spec.forest, held);
   return {std::move(lifted), plane, held};
+}
+
+/// What is decoded for a view: a forest has no windows of its own, since lines go on in other
+/// patches.
+inline View wholeIfForest(const auto& header, const View& view) {
+  return header.wavelet.forest != nullptr && view.window ? View{} : view;
 }
 
 // specOf(), unroundedBits() and fractionBitsOf() turn the fields of a stream header about the

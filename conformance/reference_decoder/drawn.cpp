@@ -99,8 +99,9 @@ std::vector<uint8_t> decodeDrawn(const TextureHeader& header, std::span<const ui
                                  int level) {
   const std::vector<Colour> texels = DrawnDecoder(header, codeword).decode();
   std::vector<uint8_t> samples;
-  for (int y = 0; y < header.height; y += 1 << level) {
-    for (int x = 0; x < header.width; x += 1 << level) {
+  for (int y = 0; y < header.height; ++y) {
+    for (int x = 0; x < header.width; ++x) {
+      if (!header.wavelet.domain.forest.shows(level, x, y)) continue;
       for (int c = 0; c < header.channels; ++c) {
         const int value = texels[static_cast<size_t>(y) * header.width + x][c];
         samples.push_back(static_cast<uint8_t>(value));

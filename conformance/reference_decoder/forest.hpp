@@ -33,6 +33,19 @@ class Forest {
   /// Both are numbers of samples of the raster, row by row.
   size_t ownerOf(size_t sample) const;
 
+  /// FORMAT 7.1: whether a mip level has the sample in column x and row y of the raster.
+  bool shows(int level, int x, int y) const {
+    const int step = 1 << level, row = isGrid() ? y : y % static_cast<int>(side());
+    return x % step == 0 && row % step == 0;
+  }
+  int coarsestLevel() const { return depth_ - 1; }
+  /// The same surface with patches of a level.
+  Forest atLevel(int level) const {
+    Forest forest = *this;
+    if (!isGrid()) forest.depth_ -= level;
+    return forest;
+  }
+
   /// Samples that are not owned become what the owned ones are. of: as many for each sample.
   template <class T>
   void share(std::vector<T>& of) const {

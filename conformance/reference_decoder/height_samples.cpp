@@ -67,7 +67,7 @@ uint32_t besides(const GeometryHeader& header, double nodata) {
 /// FORMAT 8.2: of the samples at the places of a level.
 std::vector<uint32_t> storedSamples(const GeometryHeader& header, std::span<const uint8_t> bytes,
                                     const std::vector<uint8_t>& valid, int level) {
-  const int width = kSampleBytes[header.sample], step = 1 << level;
+  const int width = kSampleBytes[header.sample];
   const size_t count = valid.empty() ? static_cast<size_t>(header.width) * header.height
                                      : std::count(valid.begin(), valid.end(), 1);
   std::vector<uint32_t> samples;
@@ -84,7 +84,7 @@ std::vector<uint32_t> storedSamples(const GeometryHeader& header, std::span<cons
         missing |= !there;
       }
       const bool known = exists && number < bytes.size();
-      if (x % step == 0 && y % step == 0)
+      if (header.wavelet.domain.forest.shows(level, x, y))
         samples.push_back(known ? orderOf(header, narrow(header, order))
                                 : heightSampleOf(header, 0));
       number += exists;
@@ -156,10 +156,9 @@ std::vector<uint8_t> decodeStored(const GeometryHeader& header, const Layers& la
                                   int level) {
   std::vector<uint32_t> samples = storedSamples(header, bytes, valid, level);
   Plane plane;
-  const size_t step = size_t{1} << level;
   for (size_t i = 0; i < valid.size(); ++i) {
-    const size_t x = i % header.width, y = i / header.width;
-    if (x % step == 0 && y % step == 0) plane.valid.push_back(valid[i]);
+    const auto x = static_cast<int>(i % header.width), y = static_cast<int>(i / header.width);
+    if (header.wavelet.domain.forest.shows(level, x, y)) plane.valid.push_back(valid[i]);
   }
   putVoids(header, layers, plane, samples);
   return bytesOf(header, samples);

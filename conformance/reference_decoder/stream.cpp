@@ -241,17 +241,20 @@ Decoded decode(const Stream& stream, Levels levels) {
   if (decoded.outcome == Outcome::kDone && (unknown(stream.geometry) || unknown(stream.texture)))
     decoded.outcome = Outcome::kUnsupported;
   if (decoded.outcome != Outcome::kDone) return decoded;
-  const auto level = [](const Forest& forest, int of) { return forest.isGrid() ? of : 0; };
+  const auto level = [](const Forest& forest, int of) {
+    return forest.isGrid() ? of : std::min(of, forest.coarsestLevel());
+  };
   if (const auto& g = stream.geometry) {
     const Forest& forest = g->wavelet.domain.forest;
     const int at = level(forest, levels.heights);
-    forest.share(
+    forest.atLevel(at).share(
         decoded.heights.emplace(decodeShownHeights(*g, stream.layers, stream.codewords[0], at)));
   }
   if (const auto& t = stream.texture) {
     const Forest& forest = t->wavelet.domain.forest;
     const int at = level(forest, levels.texture);
-    forest.share(decoded.texture.emplace(decodeShownTexture(*t, stream.codewords[1], at)));
+    forest.atLevel(at).share(
+        decoded.texture.emplace(decodeShownTexture(*t, stream.codewords[1], at)));
   }
   return decoded;
 }

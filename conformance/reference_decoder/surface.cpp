@@ -8,20 +8,25 @@ namespace tetrakis::reference {
 namespace {
 
 /// FORMAT 8.1, "Flat areas": held samples have the heights of their areas, at all mip levels.
-void putFlat(const Plane& whole, int level, Plane& image) {
-  for (int y = 0; y < whole.height; y += 1 << level) {
-    for (int x = 0; x < whole.width; x += 1 << level) {
+void putFlat(const Plane& whole, const Forest& forest, int level, Plane& image) {
+  auto value = image.values.begin();
+  for (int y = 0; y < whole.height; ++y) {
+    for (int x = 0; x < whole.width; ++x) {
+      if (!forest.shows(level, x, y)) continue;
       const uint32_t area = whole.areaOf(x, y);
-      if (area > 0) image.at(x >> level, y >> level) = whole.flat.heights.at(area - 1);
+      if (area > 0) *value = whole.flat.heights.at(area - 1);
+      ++value;
     }
   }
 }
 
 /// FORMAT 7.1: the samples at the places of a level.
-Plane placesOf(const Plane& whole, int level) {
-  Plane image{((whole.width - 1) >> level) + 1, ((whole.height - 1) >> level) + 1, {}, {}};
-  for (int y = 0; y < whole.height; y += 1 << level) {
-    for (int x = 0; x < whole.width; x += 1 << level) {
+Plane placesOf(const Plane& whole, const Forest& forest, int level) {
+  Plane image{((whole.width - 1) >> level) + 1, 0, {}, {}};
+  for (int y = 0; y < whole.height; ++y) {
+    image.height += forest.shows(level, 0, y);
+    for (int x = 0; x < whole.width; ++x) {
+      if (!forest.shows(level, x, y)) continue;
       const size_t i = static_cast<size_t>(y) * whole.width + x;
       image.values.push_back(whole.values[i]);
       if (!whole.valid.empty()) image.valid.push_back(whole.valid[i]);
@@ -39,7 +44,7 @@ Surface decodeSurface(const GeometryHeader& header, const std::vector<uint8_t>& 
   surface.plane = std::move(known);
   if (header.drawn) {
     surface.plane.values = decodeDrawnHeights(header, coefficients[0], surface.plane.valid);
-    surface.plane = placesOf(surface.plane, level);
+    surface.plane = placesOf(surface.plane, header.wavelet.domain.forest, level);
     surface.f = 4;
     return surface;
   }
@@ -67,7 +72,7 @@ Surface decodeSurface(const GeometryHeader& header, const std::vector<uint8_t>& 
   surface.plane.valid = valid;
   const Plane whole = surface.plane;
   if (level > 0) surface.plane = levelOf(header.wavelet, level, surface.plane);
-  putFlat(whole, level, surface.plane);
+  putFlat(whole, forest, level, surface.plane);
   return surface;
 }
 

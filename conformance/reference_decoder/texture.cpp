@@ -110,11 +110,12 @@ std::array<int32_t, 4> finish(const TextureHeader& header, std::array<int32_t, 4
 std::vector<uint8_t> decodeStored(const TextureHeader& header, std::span<const uint8_t> bytes,
                                   int level) {
   const size_t count = static_cast<size_t>(header.width) * header.height * header.channels;
-  const int width = header.sample == kU8 ? 1 : 2, step = 1 << level;
+  const int width = header.sample == kU8 ? 1 : 2;
   std::vector<uint8_t> out;
   for (size_t i = 0; i < count; ++i) {
-    const size_t texel = i / header.channels;
-    if (texel % header.width % step != 0 || texel / header.width % step != 0) continue;
+    const auto texel = static_cast<int>(i / header.channels);
+    if (!header.wavelet.domain.forest.shows(level, texel % header.width, texel / header.width))
+      continue;
     int value = (header.white + 1) / 2;
     if (i < bytes.size() && width == 1) value = bytes[i];
     if (i < bytes.size() && width == 2)
@@ -270,6 +271,7 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
   std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), codewords.end());
   if (header.planes == kDrawnPlanes && !header.stored)
     return decodeDrawn(header, coefficients[0], level);
+  const Forest& forest = header.wavelet.domain.forest;
   level = std::min(level, subbandsOf(header.width, header.height).front().level);
   if (header.stored) return decodeStored(header, coefficients[0], level);
   if (header.frames.count > 0) return decodeTextureFrames(header, coefficients, level);
@@ -278,11 +280,14 @@ std::vector<uint8_t> decodeTexture(const TextureHeader& header, const Codewords&
   const int f = fractionOf(header.wavelet, header.planes, bytesOf(coefficients), level);
   std::vector<Plane> planes = planesOf(header, tracks, opening.lifted, f, level);
   std::vector<uint8_t> samples;
-  for (int y = 0; y < planes[0].height; ++y) {
-    for (int x = 0; x < planes[0].width; ++x) {
+  size_t i = 0;
+  for (int y = 0; y < header.height; ++y) {
+    for (int x = 0; x < header.width; ++x) {
+      if (!forest.shows(level, x, y)) continue;
       std::array<int32_t, 4> values = {};
-      for (size_t c = 0; c < planes.size(); ++c) values[c] = planes[c].at(x, y);
-      append(header, texelAt(header, opening, x << level, y << level, values, f), samples);
+      for (size_t c = 0; c < planes.size(); ++c) values[c] = planes[c].values[i];
+      append(header, texelAt(header, opening, x, y, values, f), samples);
+      ++i;
     }
   }
   return samples;

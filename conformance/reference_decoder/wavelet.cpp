@@ -245,7 +245,8 @@ void synthesise(const WaveletHeader& header, int target, Plane& plane) {
 }
 
 Plane levelOf(const WaveletHeader& header, int level, const Plane& plane) {
-  const std::vector<Subband> subbands = subbandsOf(plane.width, plane.height);
+  const Forest& forest = header.domain.forest;
+  const std::vector<Subband> subbands = subbandsOf(plane.width, plane.height / forest.patches());
   int64_t weight = int64_t{1} << 30;
   for (int l = 1; l <= level; ++l) {
     const auto hh = std::find_if(subbands.begin(), subbands.end(), [l](const Subband& subband) {
@@ -259,9 +260,11 @@ Plane levelOf(const WaveletHeader& header, int level, const Plane& plane) {
   }
   int d = 0;
   for (int l = 1; l <= level; ++l) d += doublesLow(header, l);
-  Plane image{multiples(plane.width, 1 << level), multiples(plane.height, 1 << level), {}};
-  for (int y = 0; y < plane.height; y += 1 << level) {
-    for (int x = 0; x < plane.width; x += 1 << level) {
+  Plane image{multiples(plane.width, 1 << level), 0, {}};
+  for (int y = 0; y < plane.height; ++y) {
+    image.height += forest.shows(level, 0, y);
+    for (int x = 0; x < plane.width; ++x) {
+      if (!forest.shows(level, x, y)) continue;
       const int64_t v = plane.values.at(plane.index(x, y));
       image.values.push_back(wrap((v * weight + (int64_t{1} << (29 + d))) >> (30 + d)));
       if (!plane.valid.empty()) image.valid.push_back(plane.isValid(x, y));

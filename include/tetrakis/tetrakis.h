@@ -225,7 +225,7 @@ typedef struct tks_image {
   uint32_t white_level;          /* 0: that of tks_find_white_level */
   const uint8_t* positions;      /* of tks_fit_positions; NULL: none but those of the heights */
   size_t positions_size;
-  tks_domain domain; /* 0: a plane, whatever the heights are */
+  tks_domain domain; /* 0: a plane, whatever the heights are; beside an object a forest */
   tks_forest forest; /* with TKS_DOMAIN_FOREST, as of heights; beside heights on a forest
                                     of as many patches, whose sides are glued alike */
 } tks_image;
@@ -664,9 +664,12 @@ typedef struct tks_info {
   size_t texture_positions_size;
   tks_domain domain; /* of the heights */
   tks_domain texture_domain;
-  tks_forest forest;                /* with TKS_DOMAIN_FOREST; owned by the decoder */
+  tks_forest forest;                /* with TKS_DOMAIN_FOREST, of the level that is set; owned by
+                                       the decoder */
   tks_forest texture_forest;        /* likewise */
-  uint32_t grid_width, grid_height; /* as in tks_heights */
+  uint32_t grid_width, grid_height; /* as in tks_heights. Above level 0 it is a coarser grid on
+                                       the same ground, without a last column that is the first
+                                       one again; geotransform is that of the grid */
   tks_base_mesh base_mesh;          /* likewise; owned by the decoder */
   uint32_t object_triangles;        /* of an object whose triangles are coded as they are: all of
                                        them, which tks_decode_object gives; 0: others */
@@ -678,12 +681,12 @@ tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
 
 /* Sets the mip levels that calls decode from now on. Level k of W x H samples is the image of
  * ceil(W / 2^k) x ceil(H / 2^k) whose sample (x, y) lies on sample (x 2^k, y 2^k), low-pass
- * filtered; level 0 is the image itself. tks_get_info then tells the level's sizes and spacing. A
- * level takes no inverse transform of the finer ones, and reads the stream only up to the last byte
- * that concerns it. Voids follow the mask at the level's samples. No maximum error is guaranteed
- * above level 0. Calls that make meshes need level 0 of the heights to be set, and choose the level
- * that their triangles can show themselves. TKS_USAGE beyond the coarsest levels (those
- * of a missing part: 0); the levels are then as before. */
+ * filtered, of a forest that of each patch; level 0 is the image itself. tks_get_info then tells
+ * the level's sizes and spacing. A level takes no inverse transform of the finer ones, and reads
+ * the stream only up to the last byte that concerns it. Voids follow the mask at the level's
+ * samples. No maximum error is guaranteed above level 0. Calls that make meshes need level 0 of the
+ * heights to be set, and choose the level that their triangles can show themselves. TKS_USAGE
+ * beyond the coarsest levels (those of a missing part: 0); the levels are then as before. */
 tks_status tks_set_levels(tks_decoder* decoder, uint32_t heights, uint32_t texture);
 
 /* Sets the frame that calls decode from now on, of a stream of several (tks_info.frames); at first
@@ -717,7 +720,8 @@ typedef struct tks_window {
 
 /* These write what tks_decode_heights, _surface and _texture would write in the window, and nothing
  * else: window->width * window->height samples, row by row. The window must lie inside and hold a
- * sample, else TKS_USAGE. Of a stream in regions they decode only those that reach the window; with
+ * sample, else TKS_USAGE. One on a cylinder may reach across its seam: it begins inside, and is no
+ * wider than the raster. Of a stream in regions they decode only those that reach the window; with
  * corrections (of a largest error, or of samples that no step restores) those that reach the
  * regions that it meets. */
 tks_status tks_decode_heights_window(tks_decoder* decoder, const tks_window* window, void* out,
@@ -760,11 +764,12 @@ tks_status tks_cube_from_grid(const tks_geographic_grid* grid, const float* heig
                               char* message, size_t message_size);
 
 /* Writes the heights of a cube at the samples of a grid, interpolated (bicubic), in any window of
- * the grid, row by row; NULL: all of it. cube: as above, whose depth is from 1 to
- * TKS_MOST_CUBE_DEPTH; it may be one that tks_decode_surface has decoded, and hold any floats. Of a
- * stream with tks_info.grid_width the grid has these columns and rows and tks_info.geotransform, in
- * degrees. It takes memory for a column of the cube and a row of the window. TKS_USAGE: a grid, a
- * depth or a window that breaks the rules. */
+ * the grid, row by row; NULL: all of it. A window begins in the grid, is no wider than it, and may
+ * go on behind the last column. cube: as above, whose depth is from 1 to TKS_MOST_CUBE_DEPTH; it
+ * may be one that tks_decode_surface has decoded, and hold any floats. Of a stream with
+ * tks_info.grid_width the grid has these columns and rows and tks_info.geotransform, in degrees. It
+ * takes memory for a column of the cube and a row of the window. TKS_USAGE: a grid, a depth or a
+ * window that breaks the rules. */
 tks_status tks_grid_from_cube(const float* cube, uint32_t depth, const tks_geographic_grid* grid,
                               const tks_window* window, uint32_t threads, float* out, char* message,
                               size_t message_size);

@@ -92,6 +92,17 @@ TEST_F(Globe, WindowsAreThoseOfTheGrid) {
     EXPECT_EQ(back_[i], whole[(window.y + i / 4) * kWidth + window.x + i % 4]);
 }
 
+TEST_F(Globe, WindowsGoOnBehindTheLastColumn) {
+  ASSERT_EQ(toCube(), TKS_OK);
+  ASSERT_EQ(toGrid(), TKS_OK);
+  const std::vector<float> whole = back_;
+  const tks_window window{60, 30, kWidth, 2};
+  ASSERT_EQ(toGrid(&window), TKS_OK);
+  for (uint32_t i = 0; i < 2 * kWidth; ++i)
+    EXPECT_NEAR(back_[i],
+                whole[(window.y + i / kWidth) * kWidth + (window.x + i % kWidth) % kWidth], 1e-3);
+}
+
 /// What a cube is encoded from, and what its stream gives back.
 TEST_F(Globe, GoesThroughAStream) {
   ASSERT_EQ(toCube(), TKS_OK);
@@ -174,7 +185,7 @@ TEST_F(Globe, RefusesHeightsThatAreNone) {
 TEST_F(Globe, RefusesOtherWindows) {
   for (const tks_window& window :
        {tks_window{0, 0, 0, 1}, tks_window{0, 0, 1, 0}, tks_window{64, 0, 1, 1},
-        tks_window{0, 32, 1, 1}, tks_window{63, 0, 2, 1}, tks_window{1, 1, UINT32_MAX, 1}})
+        tks_window{0, 32, 1, 1}, tks_window{63, 0, 65, 1}, tks_window{1, 1, UINT32_MAX, 1}})
     expectRefused(toGrid(&window), "window");
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/forest.hpp"
+#include "conformance/reference_decoder.hpp"
 #include "tests/support/forest_raster.hpp"
 #include "tests/support/forest_shapes.hpp"
 
@@ -103,6 +104,105 @@ TEST(ForestStream, KeepsConstantsAsTheyAre) {
     Stream stream(bytes);
     EXPECT_EQ(decoded(stream), surface.samples<int16_t>()) << shape.name;
   }
+}
+
+/// What a level holds, and what it says of itself.
+struct ShownLevel {
+  Bytes samples;
+  tks_info info = {};
+};
+
+ShownLevel levelOf(Stream& stream, uint32_t level, bool texture) {
+  ShownLevel shown;
+  shown.info.size = sizeof shown.info;
+  EXPECT_EQ(tks_set_levels(stream.get(), texture ? 0 : level, texture ? level : 0), TKS_OK);
+  EXPECT_EQ(tks_get_info(stream.get(), &shown.info), TKS_OK);
+  const tks_info& info = shown.info;
+  shown.samples.resize(texture ? size_t{info.texture_width} * info.texture_height *
+                                     info.texture_channels
+                               : size_t{2} * info.width * info.height);
+  void* const out = shown.samples.data();
+  EXPECT_EQ(texture ? tks_decode_texture(stream.get(), out, shown.samples.size())
+                    : tks_decode_heights(stream.get(), out, shown.samples.size()),
+            TKS_OK);
+  return shown;
+}
+
+/// All levels of prefixes are those of the reference decoder.
+void expectLevels(Prefix bytes, bool texture) {
+  for (const size_t cut : {bytes.size(), bytes.size() * 2 / 3, bytes.size() / 3}) {
+    Stream stream(bytes.first(cut));
+    if (stream.status() != TKS_OK) continue;
+    const tks_info& whole = stream.info();
+    const uint32_t depth = texture ? whole.texture_forest.depth : whole.forest.depth;
+    ASSERT_EQ(texture ? whole.texture_coarsest_level : whole.coarsest_level, depth - 1);
+    for (uint32_t level = 0; level < depth; ++level) {
+      const ShownLevel shown = levelOf(stream, level, texture);
+      const tks_forest& forest = texture ? shown.info.texture_forest : shown.info.forest;
+      const uint32_t side = (1u << (depth - level)) + 1;
+      ASSERT_EQ(forest.depth, depth - level);
+      ASSERT_EQ(texture ? shown.info.texture_width : shown.info.width, side);
+      ASSERT_EQ(texture ? shown.info.texture_height : shown.info.height, side * forest.patches);
+      const int k = static_cast<int>(level);
+      const reference::Decoded expected =
+          reference::decode(bytes.first(cut), reference::kMaxSamples, {k, k});
+      ASSERT_EQ(texture ? expected.texture : expected.heights, shown.samples)
+          << cut << " bytes, level " << level;
+    }
+  }
+}
+
+TEST(ForestStream, HasTheMipLevelsOfTheReferenceDecoder) {
+  for (const ForestShape& shape : shapes()) {
+    SCOPED_TRACE(shape.name);
+    for (const samples::Pattern pattern :
+         {samples::Pattern::kRidges, samples::Pattern::kSteps, samples::Pattern::kExtreme}) {
+      const Forest forest(pattern == samples::Pattern::kRidges ? 4 : 3, shape.sides);
+      const ForestRaster surface{forest, {pattern, 0, 0, 1, TKS_I16, 3}};
+      for (const tks_encode_options& options : {lossless(), budget(1500), within(5)})
+        expectLevels(surface.encoded(options), false);
+      const ForestRaster picture{forest, {pattern, 0, 0, 3, TKS_U8, 8}};
+      for (const tks_encode_options& options : {lossless(), budget(2500)})
+        expectLevels(picture.encodedTexels(options), true);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
+/// Levels of smooth ground hold what lies at their places, whatever the filters multiply means by.
+TEST(ForestStream, HasLevelsNearTheSamplesAtTheirPlaces) {
+  for (const ForestShape& shape : shapes()) {
+    const ForestRaster surface{Forest(6, shape.sides),
+                               {samples::Pattern::kHills, 0, 0, 1, TKS_I16, 3}};
+    const std::vector<int16_t> source = surface.samples<int16_t>();
+    const auto [least, most] = std::minmax_element(source.begin(), source.end());
+    for (const tks_encode_options& options : {lossless(), budget(4000)}) {
+      Stream stream(surface.encoded(options));
+      for (uint32_t level = 1; level <= 2; ++level) {
+        const Bytes bytes = levelOf(stream, level, false).samples;
+        const View places{static_cast<int>(level), {}, 0, surface.forest.side()};
+        const std::vector<int16_t> expected =
+            slice(std::span<const int16_t>(source), surface.forest.raster(), places);
+        std::vector<int16_t> samples(bytes.size() / 2);
+        std::memcpy(samples.data(), bytes.data(), bytes.size());
+        ASSERT_EQ(samples.size(), expected.size());
+        double sum = 0;
+        for (size_t i = 0; i < samples.size(); ++i) sum += std::abs(samples[i] - expected[i]);
+        EXPECT_LT(sum / static_cast<double>(samples.size()), 0.1 * (*most - *least))
+            << shape.name << ", level " << level;
+      }
+    }
+  }
+}
+
+TEST(ForestStream, MakesNoMeshOfALevel) {
+  Stream stream(surfaceOn(shapes().front(), 4).encoded(lossless()));
+  ASSERT_EQ(tks_set_levels(stream.get(), 1, 0), TKS_OK);
+  tks_mesh mesh{};
+  EXPECT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_BUDGET, 100, &mesh), TKS_USAGE);
+  ASSERT_EQ(tks_set_levels(stream.get(), 0, 0), TKS_OK);
+  EXPECT_EQ(tks_decode_mesh(stream.get(), TKS_MESH_BUDGET, 100, &mesh), TKS_OK);
+  tks_free_mesh(&mesh);
 }
 
 std::vector<uint8_t> texelsOf(Stream& stream) {
@@ -256,6 +356,37 @@ struct Edges {
 int64_t characteristic(const tks_mesh& mesh, const Edges& edges) {
   return int64_t{mesh.vertex_count} - static_cast<int64_t>(edges.count.size()) +
          mesh.triangle_count;
+}
+
+/// As an image of longitudes and latitudes over a globe on a cube.
+TEST(ForestStream, MayHaveATextureThatLiesElsewhere) {
+  const ForestRaster surface = surfaceOn(cubeShape(), 4);
+  const tks_heights heights = surface.heights();
+  const samples::Raster picture = samples::make({samples::Pattern::kRidges, 60, 30, 3, TKS_U8, 8});
+  for (const tks_domain domain : {TKS_DOMAIN_PLANE, TKS_DOMAIN_CYLINDER}) {
+    tks_image image = picture.image();
+    image.domain = domain;
+    Stream exact(encodeGiven(&heights, &image, lossless()));
+    EXPECT_EQ(exact.info().domain, TKS_DOMAIN_FOREST);
+    EXPECT_EQ(exact.info().texture_domain, domain);
+    EXPECT_EQ(decoded(exact), surface.samples<int16_t>());
+    EXPECT_EQ(exact.texture(), picture.data);
+    const Bytes bytes = encodeGiven(&heights, &image, budget(3000));
+    EXPECT_LE(bytes.size(), 3000u);
+    for (const size_t cut : {bytes.size(), bytes.size() / 2}) {
+      const reference::Decoded expected = reference::decode(Prefix(bytes).first(cut));
+      Stream stream(Prefix(bytes).first(cut));
+      EXPECT_EQ(levelOf(stream, 0, false).samples, expected.heights);
+      EXPECT_EQ(levelOf(stream, 0, true).samples, expected.texture);
+    }
+  }
+  std::string message;
+  const ForestRaster patches = pictureOn(cubeShape(), 4, 3);
+  const tks_image on_patches = patches.image();
+  tks_heights flat = heights;
+  flat.domain = TKS_DOMAIN_PLANE;
+  flat.forest = {};
+  EXPECT_EQ(statusOf(&flat, &on_patches, lossless(), message), TKS_USAGE);
 }
 
 TEST(ForestStream, MakesClosedMeshesOfAnyNumberOfTriangles) {

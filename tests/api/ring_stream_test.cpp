@@ -81,17 +81,32 @@ TEST(RingStream, LeavesAJumpAtTheSeamThatIsNoLargerThanElsewhere) {
   EXPECT_LT(error_at_seam(goingRound(raster)), 0.8 * error_at_seam(raster.heights()));
 }
 
-/// In the middle, at either side, across nearly all columns, and of one sample.
-constexpr tks_window kWindows[] = {{0, 0, 5, 97},  {120, 3, 11, 7}, {60, 60, 40, 30},
-                                   {75, 40, 1, 1}, {1, 0, 129, 2},  {0, 0, 131, 97}};
+/// In the middle, at either side, across nearly all columns, and of one sample; and across the
+/// seam: of two columns, a turn, and from the last column on.
+std::vector<tks_window> windowsOf(uint32_t columns) {
+  return {{0, 0, 5, 97},
+          {120, 3, 11, 7},
+          {60, 60, 40, 30},
+          {75, 40, 1, 1},
+          {1, 0, 129, 2},
+          {0, 0, 131, 97},
+          {columns - 1, 0, 2, 97},
+          {70, 30, columns, 9},
+          {columns - 1, 90, columns, 7},
+          {columns - 9, 0, 40, 5},
+          {columns - 30, 60, 60, 37}};
+}
 
-/// The rows of a window of `all`, of so many columns, are those of the plane.
+/// The rows of a window of `all`, of so many columns, are those of the plane, round and round.
 void expectCut(const tks_window& window, uint32_t columns, size_t bytes,
                const std::vector<std::byte>& all, const std::vector<std::byte>& out) {
   for (size_t y = 0; y < window.height; ++y) {
-    const std::byte* const row = all.data() + bytes * ((window.y + y) * columns + window.x);
-    const std::byte* const cut = out.data() + bytes * y * window.width;
-    ASSERT_TRUE(std::equal(row, row + bytes * window.width, cut)) << window.x << ", " << window.y;
+    for (size_t x = 0; x < window.width; ++x) {
+      const size_t column = (window.x + x) % columns;
+      const std::byte* const place = all.data() + bytes * ((window.y + y) * columns + column);
+      const std::byte* const cut = out.data() + bytes * (y * window.width + x);
+      ASSERT_TRUE(std::equal(place, place + bytes, cut)) << window.x << ", " << window.y;
+    }
   }
 }
 
@@ -100,7 +115,7 @@ void expectWindows(const tks_heights& heights, const tks_encode_options& options
   Stream stream(bytes);
   const std::vector<std::byte> all = stream.heights();
   const size_t size = tks_sample_bytes(heights.sample);
-  for (const tks_window& window : kWindows) {
+  for (const tks_window& window : windowsOf(heights.width)) {
     std::vector<std::byte> out(size * window.width * window.height);
     ASSERT_EQ(tks_decode_heights_window(stream.get(), &window, out.data(), out.size()), TKS_OK);
     expectCut(window, heights.width, size, all, out);
@@ -146,12 +161,52 @@ TEST(RingStream, GivesWindowsTheTexelsOfThePlane) {
     Stream stream(bytes);
     EXPECT_EQ(stream.info().texture_domain, TKS_DOMAIN_CYLINDER);
     const std::vector<std::byte> all = stream.texture();
-    for (const tks_window& window : kWindows) {
+    for (const tks_window& window : windowsOf(131)) {
       std::vector<std::byte> out(size_t{3} * window.width * window.height);
       ASSERT_EQ(tks_decode_texture_window(stream.get(), &window, out.data(), out.size()), TKS_OK);
       expectCut(window, 131, 3, all, out);
     }
   }
+}
+
+TEST(RingStream, RefusesWindowsThatBeginOutsideOrGoRoundTwice) {
+  const Raster raster = globe(40, 21);
+  const Bytes round = encodeHeights(goingRound(raster), budget(900)),
+              plane = encodeHeights(raster.heights(), budget(900));
+  const auto status = [](const Bytes& bytes, const tks_window& window) {
+    Stream stream(bytes);
+    std::vector<std::byte> out(2 * size_t{window.width} * window.height);
+    return tks_decode_heights_window(stream.get(), &window, out.data(), out.size());
+  };
+  EXPECT_EQ(status(round, {39, 0, 2, 1}), TKS_OK);
+  EXPECT_EQ(status(plane, {39, 0, 2, 1}), TKS_USAGE);
+  for (const tks_window& window : {tks_window{40, 0, 1, 1}, tks_window{0, 0, 41, 1},
+                                   tks_window{39, 20, 2, 2}, tks_window{39, 21, 2, 1}})
+    EXPECT_EQ(status(round, window), TKS_USAGE) << window.x << ", " << window.y;
+}
+
+/// Read by ranges, such a window is that of the whole stream.
+TEST(RingStream, KnowsTheRangesOfWindowsAcrossTheSeam) {
+  tks_encode_options options = inRegions(lossless(), 32);
+  options.index = TKS_INDEX_WINDOWS;
+  const Raster raster = globe(230, 97);
+  const Bytes bytes = encodeHeights(goingRound(raster), options);
+  const tks_window window{220, 40, 20, 20};
+  const auto header = static_cast<ptrdiff_t>(Stream(bytes).info().header_bytes);
+  Stream part(Bytes(bytes.begin(), bytes.begin() + header));
+  tks_ranges ranges{};
+  ASSERT_EQ(tks_needed_ranges(part.get(), TKS_PART_HEIGHTS, &window, &ranges), TKS_OK);
+  uint64_t sum = 0;
+  for (size_t i = 0; i < ranges.count; ++i) {
+    const tks_range& range = ranges.ranges[i];
+    sum += range.size;
+    ASSERT_EQ(tks_put(part.get(), range.offset, bytes.data() + range.offset, range.size), TKS_OK);
+  }
+  tks_free_ranges(&ranges);
+  EXPECT_LT(sum, bytes.size() - 1000);
+  std::vector<std::byte> out(2 * size_t{20} * 20);
+  ASSERT_EQ(tks_decode_heights_window(part.get(), &window, out.data(), out.size()), TKS_OK);
+  expectCut(window, 230, 2, raster.data, out);
 }
 
 TEST(RingStream, RestoresTexturesOfAllKinds) {

@@ -132,6 +132,34 @@ TEST_F(CliDomain, TexturesLieAsTheHeightsDoUnlessTheySayOtherwise) {
   EXPECT_EQ(domainOf("texture"), "plane");
 }
 
+/// Whose first texel lies half a turn away.
+TEST_F(CliDomain, WindowsGoOnAcross180Degrees) {
+  tools::ImageFile image;
+  image.width = 72;
+  image.height = 6;
+  image.channels = 1;
+  image.data.resize(72 * 6);
+  for (size_t i = 0; i < image.data.size(); ++i) image.data[i] = static_cast<std::byte>(i * i);
+  image.place.geotransform = tools::GeoTransform{0, 5, 0, 60, 0, -5};
+  ASSERT_TRUE(tools::writeImage(path("round.tif"), image).ok());
+  ASSERT_EQ(encode(ground(36, -180, 10, "EPSG:4326"), " --texture round.tif").code, 0);
+  ASSERT_EQ(cli("decode s.tks --window 34 1 5 2 --height d.tif --texture e.tif").code, 0);
+  const tools::HeightFile part = *tools::readHeights(path("d.tif"));
+  EXPECT_EQ(*part.geotransform, (tools::GeoTransform{160, 10, 0, 50, 0, -10}));
+  for (size_t i = 0; i < 5 * 2; ++i) {
+    int16_t sample = 0;
+    std::memcpy(&sample, part.data.data() + i * sizeof sample, sizeof sample);
+    EXPECT_EQ(sample, ((1 + i / 5) * 36 + (34 + i % 5) % 36) % 17);
+  }
+  const tools::ImageFile texels = *tools::readImage(path("e.tif"));
+  ASSERT_EQ(texels.width, 10u);
+  EXPECT_EQ(*texels.place.geotransform, (tools::GeoTransform{160, 5, 0, 50, 0, -5}));
+  for (size_t i = 0; i < 10 * 4; ++i)
+    EXPECT_EQ(texels.data[i], image.data[(2 + i / 10) * 72 + 32 + i % 10]);
+  EXPECT_EQ(cli("decode s.tks -f --height d.tif --window 34 1 37 1").code, 1);
+  EXPECT_EQ(cli("decode s.tks -f --height d.tif --window 36 1 1 1").code, 1);
+}
+
 class CliCube : public CliDomain {
  protected:
   CliCube() {
@@ -188,9 +216,32 @@ TEST_F(CliCube, GivesWindowsOfTheGrid) {
   EXPECT_EQ(*part.geotransform, (tools::GeoTransform{120, 5, 0, -60, 0, -5}));
   for (size_t i = 0; i < 12 * 6; ++i)
     EXPECT_EQ(sampleOf(part, i), sampleOf(whole, (30 + i / 12) * 72 + 60 + i % 12));
-  EXPECT_EQ(cli("decode s.tks -f --height d.tif --window 60 30 13 6").code, 1);
+  const tools::HeightFile across = decoded(" --window 60 30 20 6");
+  EXPECT_EQ(*across.geotransform, *part.geotransform);
+  for (size_t i = 0; i < 20 * 6; ++i)
+    EXPECT_EQ(sampleOf(across, i), sampleOf(whole, (30 + i / 20) * 72 + (60 + i % 20) % 72));
+  EXPECT_EQ(cli("decode s.tks -f --height d.tif --window 60 30 73 6").code, 1);
   for (const char* other : {"--mesh m.glb", "--normal-map n.png", "--height d.r16 --size unity"})
     EXPECT_EQ(cli(std::string("decode s.tks -f ") + other).code, 1) << other;
+}
+
+TEST_F(CliCube, LevelsAreCoarserGridsOfTheSameGround) {
+  ASSERT_EQ(encodeCube(" --psnr 70").code, 0);
+  const tools::HeightFile half = decoded(" --level 1");
+  ASSERT_EQ(half.width, 36u);
+  ASSERT_EQ(half.height, 18u);
+  EXPECT_EQ(*half.geotransform, (tools::GeoTransform{-180, 10, 0, 90, 0, -10}));
+  for (int i = 0; i < 36 * 18; ++i) {
+    const double south = (i / 36 + 0.5) * 2 * 0.0872664626;
+    const double east = (i % 36 + 0.25) * 2 * 0.0872664626;
+    EXPECT_NEAR(sampleOf(half, static_cast<size_t>(i)),
+                1000 * std::sin(south) * std::cos(east) + 2000, 25);
+  }
+  const tools::HeightFile eighth = decoded(" --level 3");
+  EXPECT_EQ(eighth.width, 9u);
+  EXPECT_EQ(eighth.height, 5u);
+  EXPECT_NEAR((*eighth.geotransform)[5], -36, 1e-9);
+  EXPECT_EQ(cli("decode s.tks -f --height d.tif --level 9").code, 1);
 }
 
 class CliGlobe : public CliCube {
@@ -256,6 +307,67 @@ TEST_F(CliGlobe, RefusesWhatIsNone) {
   EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --exaggeration 3").code, 1);
   EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --globe --view low").code, 1);
   EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --globe --exaggeration 0").code, 1);
+}
+
+/// A texture of longitudes and latitudes lies under its own place of a cube, whole or in part, also
+/// where it goes on across 180 degrees and where its rows shrink to the poles.
+TEST_F(CliCube, TexturesLieOverIt) {
+  tools::ImageFile image;
+  image.width = 64;
+  image.height = 32;
+  image.channels = 1;
+  image.data.resize(64 * 32);
+  for (const double west : {-180., 20.}) {
+    image.place.geotransform = tools::GeoTransform{west, 360. / 64, 0, 90, 0, -180. / 32};
+    ASSERT_TRUE(tools::writeImage(path("t.tif"), image).ok());
+    ASSERT_EQ(encodeCube(" --bytes 6000 --texture t.tif").code, 0);
+    EXPECT_EQ(domainOf("texture"), "cylinder");
+    ASSERT_EQ(cli("decode s.tks -f --mesh m.obj --globe --triangles 900").code, 0);
+    std::vector<std::array<double, 3>> points;
+    std::vector<std::array<double, 2>> places;
+    size_t corners = 0;
+    std::ifstream file(path("m.obj"));
+    for (std::string line; std::getline(file, line);) {
+      std::istringstream words(line);
+      std::string kind;
+      words >> kind;
+      if (kind == "v") {
+        auto& p = points.emplace_back();
+        words >> p[0] >> p[1] >> p[2];
+      } else if (kind == "vt") {
+        auto& p = places.emplace_back();
+        words >> p[0] >> p[1];
+      } else if (kind == "f") {
+        std::array<size_t, 3> v;
+        for (size_t& corner : v) {
+          std::string text;
+          words >> text;
+          corner = std::stoul(text) - 1;
+        }
+        double least = HUGE_VAL, most = -HUGE_VAL;
+        for (const size_t corner : v) {
+          ++corners;
+          const auto [x, y, z] = points[corner];
+          const double across = std::hypot(x, z), u = places[corner][0];
+          least = std::min(least, u);
+          most = std::max(most, u);
+          EXPECT_NEAR(places[corner][1], 0.5 + std::atan2(y, across) / std::numbers::pi, 0.003);
+          if (across < 1e3) continue;  // a pole
+          const double east = std::atan2(-z, x) / (2 * std::numbers::pi) - west / 360;
+          EXPECT_NEAR(std::remainder(u - east, 1), 0, 1e-4);
+        }
+        EXPECT_LT(most - least, 0.5);
+      }
+    }
+    EXPECT_GT(corners, 1500u);
+  }
+  // One that covers the whole grid, without a place of its own.
+  image.place = {};
+  ASSERT_TRUE(tools::writeImage(path("whole.png"), image).ok());
+  ASSERT_EQ(encodeCube(" --bytes 6000 --texture whole.png").code, 0);
+  ASSERT_EQ(cli("decode s.tks -f --texture e.tif").code, 0);
+  EXPECT_EQ(*tools::readImage(path("e.tif"))->place.geotransform,
+            (tools::GeoTransform{-180, 360. / 64, 0, 90, 0, -180. / 32}));
 }
 
 TEST_F(CliCube, RefusesWhatDoesNotGoWithIt) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/view.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/stream_fixture.hpp"
 
@@ -66,13 +67,15 @@ inline MeasuredCall measure(const Bytes& bytes, const DecodeCall& call, uint32_t
   return measured;
 }
 
-inline size_t sideAt(uint32_t whole, uint32_t level) {
-  return ((whole - 1) >> level) + 1;
+/// Samples of a level of a raster, or of as many patches, one below the other.
+inline size_t samplesAt(Extent whole, uint32_t patches, uint32_t level) {
+  const uint32_t rows = patches > 0 ? whole.height / patches : 0;
+  return View{static_cast<int>(level), {}, 0, rows}.extentIn(whole).samples();
 }
 
 inline DecodeCall heightsOf(const tks_info& info, uint32_t level) {
-  const size_t bytes =
-      sideAt(info.width, level) * sideAt(info.height, level) * tks_sample_bytes(info.sample);
+  const size_t bytes = samplesAt({info.width, info.height}, info.forest.patches, level) *
+                       tks_sample_bytes(info.sample);
   auto out = std::make_shared<std::vector<std::byte>>(bytes);
   return {"heights of level " + std::to_string(level),
           TKS_PART_HEIGHTS,
@@ -101,8 +104,9 @@ inline DecodeCall surfaceOf(const tks_info& info, const tks_window& window) {
 }
 
 inline DecodeCall textureOf(const tks_info& info, uint32_t level) {
-  const size_t bytes = sideAt(info.texture_width, level) * sideAt(info.texture_height, level) *
-                       info.texture_channels * tks_sample_bytes(info.texture_sample);
+  const size_t bytes =
+      samplesAt({info.texture_width, info.texture_height}, info.texture_forest.patches, level) *
+      info.texture_channels * tks_sample_bytes(info.texture_sample);
   auto out = std::make_shared<std::vector<std::byte>>(bytes);
   return {"texture of level " + std::to_string(level),
           TKS_PART_TEXTURE,

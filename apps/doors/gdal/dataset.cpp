@@ -175,8 +175,9 @@ bool Dataset::takePlace(const tks_info& info, bool heights) {
 }
 
 void Dataset::addOverviews() {
-  if (source_->cubeDepth() > 0) return;
-  for (uint32_t level = 1; level <= source_->coarsestLevel() + 1 && level < 31; ++level) {
+  // An overview is made of the level below, but on a cube it is that level.
+  const uint32_t last = source_->coarsestLevel() + (source_->cubeDepth() > 0 ? 0 : 1);
+  for (uint32_t level = 1; level <= last && level < 31; ++level) {
     if (std::max(source_->width(level - 1), source_->height(level - 1)) <= kOverviewEnds) return;
     overviews_.emplace_back(new Dataset(*this, level));
   }

@@ -71,8 +71,8 @@ bool Dataset::makeOverview(const tks_window& part, std::byte* out) {
 
 bool Dataset::read(const tks_window& window, std::vector<std::byte>& out) {
   try {
-    const bool of_window = readsWindows() || source_->cubeDepth() > 0;
-    if (level_ == 0 && of_window) return source_->window(window, out);
+    if (source_->cubeDepth() > 0) return source_->gridWindow(level_, window, out);
+    if (level_ == 0 && readsWindows()) return source_->window(window, out);
     const size_t pixel = source_->pixelBytes(), row = window.width * pixel;
     if (level_ == 0) {
       const std::byte* const pixels = source_->level(0);

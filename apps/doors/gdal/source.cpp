@@ -105,7 +105,7 @@ void Source::rest() {
   opened_ = 0;
   has_whole_ = false;
   kept_.clear();
-  cube_.clear();
+  cubes_.clear();
   bytes_.forget();
 }
 

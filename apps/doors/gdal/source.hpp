@@ -90,7 +90,7 @@ class Source {
   /// Side of the regions by which windows are decoded; 0: they take as long as all.
   uint32_t regionSide() const;
   /// Of heights on a cube, which are shown as the geographic grid that they were made of, in
-  /// floats; 0: they are none. There is only level 0 of them, and windows alone.
+  /// floats; 0: they are none. gridWindow() gives all pixels of them.
   uint32_t cubeDepth() const { return part_ == TKS_PART_HEIGHTS ? cube_depth_ : 0; }
   /// Says how many degrees the unit of the grid's CRS has, before any window is read. False after a
   /// reported error: this is no such grid.
@@ -104,6 +104,8 @@ class Source {
   const std::byte* level(uint32_t level);
   /// A part of level 0.
   bool window(const tks_window& window, std::vector<std::byte>& out);
+  /// A part of the grid of a cube, or of the coarser grid of a level.
+  bool gridWindow(uint32_t level, const tks_window& window, std::vector<std::byte>& out);
 
  private:
   using DecoderPointer = std::unique_ptr<tks_decoder, decltype(&tks_close)>;
@@ -139,9 +141,17 @@ class Source {
   bool decode(const tks_window* window, uint64_t pixels, std::vector<std::byte>& out);
   tks_status decodeFrame(uint32_t frame, const tks_window* window, std::span<std::byte> out);
   bool decodeLevel(uint32_t level, std::vector<std::byte>& out);
-  bool decodeCube();
-  /// A part of the grid of a cube.
-  bool gridWindow(const tks_window& window, std::vector<std::byte>& out);
+
+  /// A level of the heights on a cube.
+  struct Cube {
+    std::vector<float> surface;
+    uint32_t depth;
+    tks_geographic_grid grid;
+  };
+  /// Null after an error was reported.
+  const Cube* cube(uint32_t level);
+  /// The grid of a level, in degrees.
+  tks_geographic_grid gridOf(const tks_info& info) const;
 
   std::string name_;
   OpenSettings settings_;
@@ -160,8 +170,9 @@ class Source {
   tks_info info_{};
   std::map<uint32_t, std::vector<std::byte>> kept_;  ///< what was decoded of whole levels
   uint32_t cube_depth_ = 0;
-  tks_geographic_grid grid_{};  ///< that the cube was made of, in degrees
-  std::vector<float> cube_;     ///< its heights, once some were asked for
+  double degrees_ = 0;              ///< in the unit of the grid that the cube was made of
+  uint32_t round_ = 0;              ///< columns of the grid, without one that repeats the first
+  std::map<uint32_t, Cube> cubes_;  ///< by level, once heights were asked for
 };
 
 }  // namespace tetrakis::gdal

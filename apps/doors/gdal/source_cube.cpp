@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heights on a cube as samples of the grid that they were made of. The cube is decoded as a whole
-// and kept; windows of the grid are interpolated on it.
+// Heights on a cube as samples of the grid that they were made of, or of a coarser one on the same
+// ground. A level of the cube is decoded as a whole and kept; windows of its grid are interpolated
+// on it.
 #include <algorithm>
 #include <array>
 #include <utility>
 
 #include "apps/doors/gdal/source.hpp"
+#include "base/coordinates.hpp"
 
 namespace tetrakis::gdal {
 
@@ -15,47 +17,63 @@ bool Source::placeGrid(double degrees) {
                   "The heights lie on a cube, and the coordinates of its grid are no angles.");
     return false;
   }
-  grid_ = {sizeof grid_, info_.grid_width, info_.grid_height, {}};
-  std::transform(info_.geotransform, info_.geotransform + 6, grid_.geotransform,
-                 [&](double coordinate) { return coordinate * degrees; });
+  degrees_ = degrees;
+  const tks_geographic_grid grid = gridOf(info_);
+  const bool repeats =
+      columnsRound({grid.width, grid.height, grid.geotransform}, 1) == ColumnsRound::kRepeating;
+  round_ = grid.width - repeats;
   // One sample of the least cube tells what there is to say of the grid.
   const std::array<float, 6 * 3 * 3> flat{};
   const tks_window first{0, 0, 1, 1};
   float sample = 0;
   std::array<char, 512> sentence{};
-  const tks_status status = tks_grid_from_cube(flat.data(), 1, &grid_, &first, 1, &sample,
+  const tks_status status = tks_grid_from_cube(flat.data(), 1, &grid, &first, 1, &sample,
                                                sentence.data(), sentence.size());
   if (status != TKS_OK) reportFailure(status, name_, sentence.data());
   return status == TKS_OK;
 }
 
-bool Source::decodeCube() {
-  if (!cube_.empty()) return true;
-  if (!load(0, nullptr)) return false;
+tks_geographic_grid Source::gridOf(const tks_info& info) const {
+  tks_geographic_grid grid = {sizeof grid, info.grid_width, info.grid_height, {}};
+  std::transform(info.geotransform, info.geotransform + 6, grid.geotransform,
+                 [&](double coordinate) { return coordinate * degrees_; });
+  return grid;
+}
+
+const Source::Cube* Source::cube(uint32_t level) {
+  Cube& kept = cubes_[level];
+  if (!kept.surface.empty()) return &kept;
+  if (!load(level, nullptr)) return nullptr;
   tks_decoder* const decoder = decoder_.get();
-  const uint64_t samples = uint64_t{info_.width} * info_.height;
-  tks_status status = tks_set_levels(decoder, 0, 0);
+  tks_info info{};
+  info.size = sizeof info;
+  tks_status status = tks_set_levels(decoder, level, 0);
+  if (status == TKS_OK) status = tks_get_info(decoder, &info);
+  const uint64_t samples = uint64_t{info.width} * info.height;
   if (status == TKS_OK) {
     const uint64_t beside = samples * sizeof(float);
     status = tks_check_memory(decoder, TKS_PART_HEIGHTS, nullptr, 0, beside, nullptr);
   }
-  if (status != TKS_OK) return failed(status);
-  std::vector<float> cube(samples);
-  status = tks_decode_surface(decoder, cube.data(), cube.size());
-  if (status != TKS_OK) return failed(status);
-  cube_ = std::move(cube);
-  return true;
+  std::vector<float> surface(status == TKS_OK ? samples : 0);
+  if (status == TKS_OK) status = tks_decode_surface(decoder, surface.data(), surface.size());
+  if (status != TKS_OK) {
+    failed(status);
+    return nullptr;
+  }
+  kept = {std::move(surface), info.forest.depth, gridOf(info)};
+  return &kept;
 }
 
-bool Source::gridWindow(const tks_window& window, std::vector<std::byte>& out) {
-  if (!decodeCube()) return false;
+bool Source::gridWindow(uint32_t level, const tks_window& window, std::vector<std::byte>& out) {
+  const Cube* const cube = this->cube(level);
+  if (cube == nullptr) return false;
   const size_t samples = size_t{window.width} * window.height;
   out.resize(samples * sizeof(float));
   auto* const heights = reinterpret_cast<float*>(out.data());
   std::array<char, 512> sentence{};
   const tks_status status =
-      tks_grid_from_cube(cube_.data(), cube_depth_, &grid_, &window, settings_.threads, heights,
-                         sentence.data(), sentence.size());
+      tks_grid_from_cube(cube->surface.data(), cube->depth, &cube->grid, &window, settings_.threads,
+                         heights, sentence.data(), sentence.size());
   if (status != TKS_OK) {
     reportFailure(status, name_, sentence.data());
     return false;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the header says of the component that was chosen.
+#include <algorithm>
+
 #include "apps/doors/gdal/source.hpp"
 
 namespace tetrakis::gdal {
@@ -12,12 +14,12 @@ uint32_t sideOfLevel(uint32_t side, uint32_t level) {
 }  // namespace
 
 uint32_t Source::width(uint32_t level) const {
-  if (cubeDepth() > 0) return info_.grid_width;
+  if (cubeDepth() > 0) return level == 0 ? info_.grid_width : sideOfLevel(round_, level);
   return sideOfLevel(part_ == TKS_PART_HEIGHTS ? info_.width : info_.texture_width, level);
 }
 
 uint32_t Source::height(uint32_t level) const {
-  if (cubeDepth() > 0) return info_.grid_height;
+  if (cubeDepth() > 0) return std::max(sideOfLevel(info_.grid_height, level), 2U);
   return sideOfLevel(part_ == TKS_PART_HEIGHTS ? info_.height : info_.texture_height, level);
 }
 

@@ -70,7 +70,6 @@ const std::byte* Source::level(uint32_t level) {
 bool Source::window(const tks_window& window, std::vector<std::byte>& out) {
   CPLDebug("TKS", "%s: decoding %u x %u from %u, %u", name_.c_str(), window.width, window.height,
            window.x, window.y);
-  if (cubeDepth() > 0) return gridWindow(window, out);
   if (!load(0, &window)) return false;
   const tks_status status = tks_set_levels(decoder_.get(), 0, 0);
   if (status != TKS_OK) return failed(status);

@@ -59,9 +59,9 @@ void tellNotes(const Notes& notes, const EncodeArguments& arguments, bool quiet)
 }
 
 tks_domain domainOf(const EncodeArguments& arguments, const Georeference& place, uint32_t width) {
-  const bool goes_round = arguments.domain == "auto"
-                              ? columnsRound(place, width) == ColumnsRound::kOnce
-                              : arguments.domain == "cylinder";
+  const bool by_place = arguments.domain == "auto" || arguments.domain == "cube";
+  const bool goes_round =
+      by_place ? columnsRound(place, width) == ColumnsRound::kOnce : arguments.domain == "cylinder";
   return goes_round ? TKS_DOMAIN_CYLINDER : TKS_DOMAIN_PLANE;
 }
 
@@ -128,13 +128,26 @@ void addPlaces(const EncodeArguments& arguments, Reference& inputs, bool quiet) 
   if (!remark.empty()) tellNote(quoted(name) + ": " + remark, quiet);
 }
 
-/// Takes heights to a cube, if one is asked for.
+/// Of an image that covers all of a grid, edge to edge.
+GeoTransform stretchedOver(const HeightFile& grid, const ImageFile& image) {
+  const GeoTransform& t = *grid.geotransform;
+  const double across = static_cast<double>(grid.width) / image.width,
+               down = static_cast<double>(grid.height) / image.height;
+  return {t[0], t[1] * across, t[2] * down, t[3], t[4] * across, t[5] * down};
+}
+
+/// Takes heights to a cube, if one is asked for. A texture stays as it is, on longitudes and
+/// latitudes: those of the grid, where it has none of its own.
 Status resample(const EncodeArguments& arguments, Reference& inputs, bool quiet) {
   if (arguments.domain != "cube") return Status();
   CubeErrors errors;
   Result<HeightFile> cube = onCube(*inputs.heights, arguments.depth, arguments.threads, errors);
   if (!cube.ok()) return cube.status();
   tellNote(cubeNote(*cube, errors), quiet);
+  if (inputs.image && !inputs.image->place.geotransform) {
+    inputs.image->place.geotransform = stretchedOver(*inputs.heights, *inputs.image);
+    inputs.image->place.crs = inputs.heights->crs;
+  }
   inputs.heights = std::move(*cube);
   return Status();
 }

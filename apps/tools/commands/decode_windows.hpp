@@ -15,7 +15,8 @@ std::optional<tks_window> heightWindow(const DecodeArguments& arguments);
 /// The texels over the areas of these samples; nothing: all of them.
 std::optional<tks_window> textureWindow(const DecodeArguments& arguments, const tks_info& info);
 
-/// TKS_USAGE if the window is empty or reaches out of the raster.
+/// TKS_USAGE if the window is empty or reaches out of the raster. Columns that go round the Earth
+/// go on behind the last one.
 Status checkWindow(const DecodeArguments& arguments, const tks_info& info);
 
 }  // namespace tetrakis::tools

@@ -176,7 +176,6 @@ Status checkCube(const EncodeArguments& arguments) {
     return Status(TKS_USAGE, "--depth is about a cube: give --domain cube");
   }
   const std::pair<const char*, bool> others[] = {
-      {"--texture", !arguments.texture.empty()},
       {"--lossless", arguments.lossless},
       {"--max-error", !arguments.max_error.empty()},
       {"--report", !arguments.report.empty()},

@@ -7,8 +7,10 @@
 #include <span>
 #include <vector>
 
+#include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/place/ground_spacing.hpp"
 #include "apps/tools/files/place/texture_place.hpp"
+#include "apps/tools/report/globe_texture.hpp"
 #include "apps/tools/report/surface_normals.hpp"
 
 namespace tetrakis::tools {
@@ -91,7 +93,11 @@ Result<MeshFile> globeMesh(Decoder& decoder, const GlobeRequest& request) {
       file.positions.push_back(static_cast<float>(part));
   file.triangles.assign(mesh->triangles().begin(), mesh->triangles().end());
   file.normals = uprightNormals(*mesh);
-  if (info.has_texture) file.texcoords = textureCoordinates(info, *mesh);
+  if (!info.has_texture) return file;
+  if (isGridOnCube(info) && info.texture_domain != TKS_DOMAIN_FOREST)
+    layOnCube(info, body, *mesh, file);
+  else
+    file.texcoords = textureCoordinates(info, *mesh);
   return file;
 }
 

@@ -72,7 +72,9 @@ uint32_t normalLevel(const tks_info& whole) {
     const uint64_t last = (uint64_t{1} << k) - 1;
     return ((whole.width + last) >> k) * ((whole.height + last) >> k);
   };
-  while (level < whole.coarsest_level && samples(level) > kMaxNormalSamples) ++level;
+  // Samples are found by their places on the raster.
+  const uint32_t coarsest = whole.domain == TKS_DOMAIN_FOREST ? 0 : whole.coarsest_level;
+  while (level < coarsest && samples(level) > kMaxNormalSamples) ++level;
   return level;
 }
 

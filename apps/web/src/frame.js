@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a frame is made of: a mesh with normals, a surface, a texture, each at the level that suits.
 import {bodyOf} from './body.js';
+import {isForest} from './domains.js';
 import {groundScale} from './ground.js';
 import {joinedNormals} from './joined_normals.js';
 import {gridNormals, meshNormals} from './normals.js';
@@ -14,18 +15,24 @@ function levelFor(width, height, most, coarsest) {
   return level;
 }
 
+/** Levels of forests are not shown: meshes count on the raster of level 0. */
+const coarsestOf = (info) => (isForest(info.domain) ? 0 : info.coarsestLevel);
+
 /** Enough for shading, in the time of a first picture. */
 const NORMAL_SAMPLES = 1024;
 
 /** The levels of texture and surface: those asked for, or else no finer ones than bytes feed. */
 function levelsOf(opened, info, {textureLevel, surfaceLevel, texels, samples}) {
-  const {textureWidth, textureHeight, textureCoarsestLevel} = info;
-  const fed = (part, level) => Math.max(level, opened.fedLevel(PARTS[part]));
+  const {textureWidth, textureHeight} = info;
+  const fed = (part, level, coarsest) =>
+    Math.min(Math.max(level, opened.fedLevel(PARTS[part])), coarsest);
+  const ofTexture = isForest(info.textureDomain) ? 0 : info.textureCoarsestLevel;
+  const ofHeights = coarsestOf(info);
   return {
     textureLevel: textureLevel ?? (info.hasTexture
-      ? fed('texture', levelFor(textureWidth, textureHeight, texels, textureCoarsestLevel)) : 0),
+      ? fed('texture', levelFor(textureWidth, textureHeight, texels, ofTexture), ofTexture) : 0),
     surfaceLevel: surfaceLevel ?? (info.hasHeights
-      ? fed('heights', levelFor(info.width, info.height, samples, info.coarsestLevel)) : 0),
+      ? fed('heights', levelFor(info.width, info.height, samples, ofHeights), ofHeights) : 0),
   };
 }
 
@@ -84,7 +91,7 @@ export function* partsOf(opened, info, request) {
     }
   }
   if (request.normals && parts.mesh) {
-    const level = levelFor(info.width, info.height, NORMAL_SAMPLES, info.coarsestLevel);
+    const level = levelFor(info.width, info.height, NORMAL_SAMPLES, coarsestOf(info));
     const surface = parts.surface?.level === level ? parts.surface : surfaceAt(level);
     parts.mesh.normals = meshNormals(parts.mesh, info.width, surface, groundScale(info));
     yield;

@@ -2,6 +2,9 @@
 // GeoTIFFs as the viewer reads them.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import {bodyOf} from '../src/body.js';
+import {encode} from '../src/encode.js';
+import {open} from '../src/index.js';
 import {readFiles} from '../viewer/read_files.js';
 import {tiffOf} from './terrain.js';
 
@@ -65,6 +68,25 @@ test('the spacing of heights is that on the ground', async () => {
   // Web Mercator, at 60 degrees north.
   const [x, y] = await spacingAt(3857, 8399737.89 + 20);
   assert.ok(Math.abs(x - 20) < 1e-3 && Math.abs(y - 10) < 1e-3, `${x}, ${y}`);
+});
+
+test('a CRS without a code keeps its keys, and so the body that it is of', async () => {
+  const name = 'Moon "2000"|', axes = [1737400, 1737400.5];
+  const keys = [1, 1, 0, 5, 1024, 0, 1, 2, 1025, 0, 1, 1, 2048, 0, 1, 32767,
+    2049, 34737, name.length, 0, 2057, 34736, 1, 0, 2058, 34736, 1, 1];
+  keys[3] = keys.length / 4 - 1;
+  const file = tiffOf({data: [0, 1, 2, 3, 4, 5], width: 3, height: 2}, [
+    [33550, 12, 3, [120, 90, 0]], [33922, 12, 6, [0, 0, 0, -180, 90, 0]],
+    [34735, 3, keys.length, keys], [34736, 12, 2, axes], text(34737, name)]);
+  const {heights} = await readFiles([new File([file], 'moon.tif')]);
+  assert.equal(heights.geoKeys,
+    '1024=2 2048=32767 2049="Moon ""2000""" 2057=1737400.0 2058=1737400.5');
+  assert.deepEqual(bodyOf({geoKeys: heights.geoKeys}),
+    {semiMajor: 1737400, semiMinor: 1737400.5});
+  const stream = await encode({heights, bytes: 600});
+  const terrain = await open(stream);
+  assert.equal(terrain.info.geoKeys, heights.geoKeys);
+  terrain.dispose();
 });
 
 test('pixels that have the nodata value in all bands are cut out', async () => {

@@ -7,6 +7,7 @@ import {isForest} from '../src/domains.js';
 import {drapeOf} from '../src/drape.js';
 import {textureOf} from '../src/three.js';
 import {PATCHES, groupByPatches, texturesOfPatches} from './cube.js';
+import {draped, liesOnDegrees} from './globe_drape.js';
 
 /** Of vectors whose z points to the north pole. */
 function upright(vectors) {
@@ -33,14 +34,19 @@ function placesOf(info, pixels) {
 
 function geometryOf({info, globe}) {
   const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(upright(globe.positions), 3));
-  geometry.setAttribute('normal', new BufferAttribute(upright(globe.normals), 3));
-  geometry.setAttribute('uv', new BufferAttribute(placesOf(info, globe.pixels), 2));
-  geometry.setAttribute('tall', new BufferAttribute(globe.heights, 1));
-  geometry.setIndex(new BufferAttribute(globe.triangles, 1));
-  if (info.domain === 'cube') groupByPatches(geometry, info, globe.pixels);
+  const {positions, normals, heights, triangles, places} = liesOnDegrees(info)
+    ? draped(globe, info) : {...globe, places: placesOf(info, globe.pixels)};
+  geometry.setAttribute('position', new BufferAttribute(upright(positions), 3));
+  geometry.setAttribute('normal', new BufferAttribute(upright(normals), 3));
+  geometry.setAttribute('uv', new BufferAttribute(places, 2));
+  geometry.setAttribute('tall', new BufferAttribute(heights, 1));
+  geometry.setIndex(new BufferAttribute(triangles, 1));
+  if (isInPatches(info)) groupByPatches(geometry, info, globe.pixels);
   return geometry;
 }
+
+/** Whether each patch of a cube has a picture of its own. */
+const isInPatches = (info) => info.domain === 'cube' && !liesOnDegrees(info);
 
 export class Globe extends Mesh {
   isGlobe = true;
@@ -50,9 +56,9 @@ export class Globe extends Mesh {
 
   /** `terrain`: of open(). It is disposed with this object, as its material is. */
   constructor(terrain, material) {
-    const {domain, hasTexture, textureOpaque} = terrain.info;
+    const {hasTexture, textureOpaque} = terrain.info;
     if (hasTexture && !textureOpaque) material.alphaTest = 0.5;
-    super(new BufferGeometry(), domain !== 'cube' ? material
+    super(new BufferGeometry(), !isInPatches(terrain.info) ? material
       : Array.from({length: PATCHES}, () => material.clone()));
     this.terrain = terrain;
   }

@@ -47,13 +47,36 @@ function spacingOf(t, keys, height) {
 
 const crsOf = (code) => (code && code !== USER_DEFINED ? `EPSG:${code}` : undefined);
 
+const RASTER_TYPE = 1025, DOUBLES = 34736, TEXTS = 34737;
+/** With a point or an exponent, which tells them from codes. */
+const numberText = (value) => (/[.e]/.test(value) ? `${value}` : `${value}.0`);
+
+/** The keys as a stream holds them (docs/FORMAT.md, section 2, Places). */
+function keysText(tags) {
+  const directory = tagOf(tags, 'GeoKeyDirectory') ?? [], keys = [];
+  const doubles = tagOf(tags, 'GeoDoubleParams') ?? [], texts = tagOf(tags, 'GeoAsciiParams') ?? '';
+  for (let i = 4; i + 3 < directory.length; i += 4) {
+    const [key, where, count, value] = directory.slice(i, i + 4), end = value + count;
+    if (key === RASTER_TYPE) continue;
+    if (where === 0) keys.push([key, value]);
+    if (where === DOUBLES)
+      keys.push([key, Array.from(doubles.slice(value, end), numberText).join()]);
+    if (where === TEXTS) {
+      const text = texts.slice(value, end).replace(/[|\0]+$/, '');
+      keys.push([key, `"${text.replaceAll('"', '""')}"`]);
+    }
+  }
+  return keys.sort(([a], [b]) => a - b).map((pair) => pair.join('=')).join(' ');
+}
+
 function placeOf(image) {
   const keys = image.getGeoKeys() ?? {};
   const isPoint = keys.GTRasterTypeGeoKey === 2;
+  const crs = crsOf(keys.ProjectedCSTypeGeoKey) ?? crsOf(keys.GeographicTypeGeoKey);
   return {
-    keys,
+    keys, crs,
     geotransform: geotransformOf(image.fileDirectory, isPoint),
-    crs: crsOf(keys.ProjectedCSTypeGeoKey) ?? crsOf(keys.GeographicTypeGeoKey),
+    geoKeys: crs ? undefined : keysText(image.fileDirectory) || undefined,
     registration: isPoint ? 'point' : keys.GTRasterTypeGeoKey === 1 ? 'area' : 'unknown',
   };
 }

@@ -107,27 +107,14 @@ class JoinedMesh {
   LatticeMesh mesh_;
 };
 
-/// The mesh of the vertices of a set that each patch has.
-class PatchMeshes {
- public:
-  PatchMeshes(const ForestLattice& lattice, std::span<const ForestVertex> vertices)
-      : lattice_(lattice), in_(lattice.vertexCount()) {
-    for (const ForestVertex v : vertices) in_[v] = 1;
-  }
-
-  LatticeMesh of(uint32_t patch) const {
-    std::vector<VertexId> local;
-    for (VertexId v = 0; v < lattice_.patch().vertexCount(); ++v)
-      if (in_[lattice_.vertex(patch, v)] != 0) local.push_back(v);
-    return meshOf(lattice_.patch(), local);
-  }
-
- private:
-  const ForestLattice& lattice_;
-  std::vector<uint8_t> in_;
-};
-
 }  // namespace
+
+std::vector<VertexId> PatchVertices::of(uint32_t patch) const {
+  std::vector<VertexId> local;
+  for (VertexId v = 0; v < lattice_.patch().vertexCount(); ++v)
+    if (in_[lattice_.vertex(patch, v)] != 0) local.push_back(v);
+  return local;
+}
 
 LatticeMesh meshOf(const ForestLattice& lattice, std::span<const ForestVertex> vertices) {
   const Forest& forest = lattice.forest();
@@ -138,18 +125,18 @@ LatticeMesh meshOf(const ForestLattice& lattice, std::span<const ForestVertex> v
       joined.addVertex(ownerOf(forest, patch, x, y));
   for (const ForestVertex v : vertices) joined.addVertex(lattice.sample(v));
   joined.shareVertices();
-  const PatchMeshes meshes(lattice, vertices);
+  const PatchVertices of_patches(lattice, vertices);
   for (uint32_t patch = 0; patch < forest.patches(); ++patch)
-    joined.addTriangles(patch, meshes.of(patch));
+    joined.addTriangles(patch, meshOf(lattice.patch(), of_patches.of(patch)));
   return joined.take();
 }
 
 LatticeMesh patchesOf(const ForestLattice& lattice, std::span<const ForestVertex> vertices) {
   const Forest& forest = lattice.forest();
-  const PatchMeshes meshes(lattice, vertices);
+  const PatchVertices of_patches(lattice, vertices);
   LatticeMesh all;
   for (uint32_t patch = 0; patch < forest.patches(); ++patch) {
-    const LatticeMesh mesh = meshes.of(patch);
+    const LatticeMesh mesh = meshOf(lattice.patch(), of_patches.of(patch));
     const auto first = static_cast<uint32_t>(all.vertices.size());
     for (const uint32_t sample : mesh.vertices)
       all.vertices.push_back(patch * forest.side() * forest.side() + sample);

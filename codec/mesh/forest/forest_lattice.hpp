@@ -61,6 +61,21 @@ class ForestLattice {
 std::vector<ForestVertex> closureOfMarks(const ForestLattice& lattice,
                                          std::span<const uint8_t> marks);
 
+/// A set of vertices, patch by patch.
+class PatchVertices {
+ public:
+  PatchVertices(const ForestLattice& lattice, std::span<const ForestVertex> vertices)
+      : lattice_(lattice), in_(lattice.vertexCount()) {
+    for (const ForestVertex v : vertices) in_[v] = 1;
+  }
+  /// Those of a patch, in the numbers of its lattice.
+  std::vector<VertexId> of(uint32_t patch) const;
+
+ private:
+  const ForestLattice& lattice_;
+  std::vector<uint8_t> in_;
+};
+
 /// The mesh of a closed set of vertices, by their numbers: corners of patches first, then these.
 /// Its vertices are samples of the raster; no edge is open but at borders.
 LatticeMesh meshOf(const ForestLattice& lattice, std::span<const ForestVertex> vertices);

@@ -17,7 +17,7 @@ PlaneSynthesis::PlaneSynthesis(const WaveletSpec& spec, const Pyramid& pyramid, 
 /// The mask of what the finest level puts together; of each row or column that is lifted, its
 /// halves and their masks, on every thread.
 uint64_t PlaneSynthesis::workBytes(uint32_t threads, bool masked) const {
-  if (spec_.forest != nullptr) return ForestLifting::bytesOf(*spec_.forest);
+  if (spec_.forest != nullptr) return ForestLifting::bytesOf(*spec_.forest, level_);
   return (masked ? coefficients() : 0) +
          kLiftingBytes * pyramid_->plane().width * std::max(threads, 1u);
 }

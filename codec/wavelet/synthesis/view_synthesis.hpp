@@ -120,12 +120,11 @@ class PlaneSynthesis {
 
   bool mayNeed(const Region& region) const { return region.isBase() || region.last_level > level_; }
   bool needs(const BandPart& part) const {
-    return part.subband < pyramid_->subbandsOf(level_).size();
+    return pyramid_->isIn(pyramid_->subbands()[part.subband], level_);
   }
   void put(const Band& band, int fraction_bits, const BandPart& part);
   uint32_t rows(const Subband& subband) const {
-    const bool lies_in_low = subband.orientation == Orientation::kLL || subband.level > level_;
-    return lies_in_low ? subband.height : 0;
+    return pyramid_->isIn(subband, level_) ? subband.height : 0;
   }
   std::span<int32_t> row(const Subband& subband, uint32_t row);
   std::vector<int32_t> run(uint32_t threads);
@@ -147,7 +146,7 @@ class PlaneSynthesis {
 template <class T>
 size_t thin(const Pyramid& pyramid, int level, std::span<T> low) {
   const LowBand& band = pyramid.low(level);
-  const Extent wanted = View{level, {}}.extentIn(pyramid.plane());
+  const Extent wanted = View{level, {}, 0, pyramid.low(0).patch_rows}.extentIn(pyramid.plane());
   assert(low.size() == band.extent.samples() && wanted.samples() <= low.size());
   if (wanted == band.extent) return low.size();
   for (uint32_t y = 0; y < wanted.height; ++y) {

@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <random>
+#include <utility>
+#include <vector>
 
 namespace tetrakis::test {
 namespace {
@@ -108,6 +111,36 @@ TEST(CubeSphere, LongitudesAndLatitudesComeBack) {
       EXPECT_LT(distance(pointOf(place.patch, offMiddle(place.x), offMiddle(place.y)), point),
                 1e-14);
     }
+  }
+}
+
+/// The areas of all samples, of which those on sides lie half in a patch, are that of the sphere;
+/// and near a place the area is that of a small square there.
+TEST(CubeSphere, AreasOfSamplesCoverTheSphere) {
+  constexpr uint32_t kSide = 65;
+  const std::vector<float> areas = patchAreas(kSide);
+  ASSERT_EQ(areas.size(), size_t{kSide} * kSide);
+  const double step = std::numbers::pi / 2 / (kSide - 1);
+  double sum = 0;
+  for (uint32_t y = 0; y < kSide; ++y) {
+    for (uint32_t x = 0; x < kSide; ++x) {
+      const auto part = [](uint32_t at) { return at == 0 || at + 1 == kSide ? 0.5 : 1.0; };
+      sum += part(x) * part(y) * areas[y * kSide + x] * step * step;
+    }
+  }
+  EXPECT_NEAR(6 * sum, 4 * std::numbers::pi, 2e-3);
+  EXPECT_EQ(areas[kSide / 2 * kSide + kSide / 2], 1);
+  const auto at = [](double x, double y) { return pointOf(2, offMiddle(x), offMiddle(y)); };
+  constexpr double kSmall = 1e-4;
+  for (const auto& [x, y] : {std::pair(0u, 0u), {7u, 40u}, {64u, 30u}, {33u, 5u}}) {
+    const double u = x / 64.0, v = y / 64.0;
+    const double east = distance(at(u - kSmall, v), at(u + kSmall, v)),
+                 south = distance(at(u, v - kSmall), at(u, v + kSmall)),
+                 across = distance(at(u - kSmall, v - kSmall), at(u + kSmall, v + kSmall));
+    const double cosine = (across * across - east * east - south * south) / (2 * east * south);
+    const double area =
+        east * south * std::sqrt(1 - cosine * cosine) / std::pow(std::numbers::pi * kSmall, 2);
+    EXPECT_NEAR(areas[y * kSide + x], area, 1e-3) << x << ", " << y;
   }
 }
 

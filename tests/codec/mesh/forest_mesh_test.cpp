@@ -76,12 +76,15 @@ size_t openEdges(const LatticeMesh& mesh) {
   return open;
 }
 
-/// The squared error of a mesh, every sample of the surface once.
-double squaredError(const ForestLattice& lattice, const std::vector<int32_t>& heights,
-                    const std::vector<uint8_t>& set) {
+/// The squared error of a mesh with these heights at its vertices, every sample of the surface
+/// once. weights: of the samples of a patch.
+template <class Height>
+double squaredError(const ForestLattice& lattice, const std::vector<int32_t>& samples,
+                    const std::vector<Height>& heights, const std::vector<uint8_t>& set,
+                    const std::vector<float>& weights = {}) {
   const Forest& forest = lattice.forest();
   const uint32_t side = forest.side(), n = side - 1;
-  std::vector<uint8_t> seen(heights.size());
+  std::vector<uint8_t> seen(samples.size());
   double squares = 0;
   for (uint32_t patch = 0; patch < forest.patches(); ++patch) {
     std::vector<VertexId> local;
@@ -96,18 +99,18 @@ double squaredError(const ForestLattice& lattice, const std::vector<int32_t>& he
         corner[k] = mesh.vertices[mesh.triangles[t + k]];
         at[k] = {corner[k] % side, corner[k] / side};
       }
-      const TriangleSamples samples(at);
-      samples.forEach([&](uint32_t x, uint32_t y, const TriangleSamples::Edges& e) {
+      const TriangleSamples inside(at);
+      inside.forEach([&](uint32_t x, uint32_t y, const TriangleSamples::Edges& e) {
         const Forest::Place owner = forest.owner(n, {patch, x, y});
         const size_t place = (owner.patch * size_t{side} + static_cast<size_t>(owner.y)) * side +
                              static_cast<size_t>(owner.x);
         if (seen[place]++ != 0) return;
         double plane = 0;
         for (size_t k = 0; k < 3; ++k)
-          plane += static_cast<double>(e[k]) * heights[first + corner[k]];
+          plane += static_cast<double>(e[k]) * static_cast<double>(heights[first + corner[k]]);
         const double error =
-            plane / static_cast<double>(samples.doubledArea()) - heights[first + y * side + x];
-        squares += error * error;
+            plane / static_cast<double>(inside.doubledArea()) - samples[first + y * side + x];
+        squares += error * error * (weights.empty() ? 1.0f : weights[y * side + x]);
       });
     }
   }
@@ -165,11 +168,71 @@ TEST(ForestMesh, ErrorsAreTheSumsOfTheGainsThatAreLeftOut) {
       forEachClosedSet(lattice.graph(), 300, [&](const std::vector<uint8_t>& set) {
         double left_out = 0;
         for (size_t v = 0; v < set.size(); ++v) left_out += set[v] == 0 ? gains[v] : 0;
-        ASSERT_NEAR(left_out, squaredError(lattice, heights, set), 1e-6 * left_out + 1e-3)
+        ASSERT_NEAR(left_out, squaredError(lattice, heights, heights, set), 1e-6 * left_out + 1e-3)
             << shape.name << ", depth " << depth;
       });
     }
   }
+}
+
+/// Symmetric weights, so that samples that patches share have one.
+std::vector<float> roundWeights(uint32_t side) {
+  std::vector<float> weights;
+  for (uint32_t y = 0; y < side; ++y)
+    for (uint32_t x = 0; x < side; ++x)
+      weights.push_back(1 /
+                        (1 + 0.01f * static_cast<float>(x * (side - 1 - x) + y * (side - 1 - y))));
+  return weights;
+}
+
+/// No other heights of a vertex, within the range of all samples, leave a smaller error.
+TEST(ForestMesh, FittedHeightsLeaveTheLeastError) {
+  std::vector<ForestShape> all = kShapes;
+  all.push_back(cubeShape());
+  all.push_back(coneShape());
+  for (const ForestShape& shape : all) {
+    const Forest forest(3, shape.sides);
+    const ForestLattice lattice(forest);
+    const std::vector<int32_t> heights = roughHeights(forest);
+    const auto [least, most] = std::minmax_element(heights.begin(), heights.end());
+    for (const std::vector<float>& weights : {std::vector<float>(), roundWeights(forest.side())}) {
+      const std::vector<ForestVertex> vertices =
+          forestBudgetVertices(lattice, heights, 20 * forest.patches(), weights);
+      std::vector<uint8_t> set(lattice.vertexCount());
+      for (const ForestVertex v : vertices) set[v] = 1;
+      const std::vector<double> fitted = fittedHeights(lattice, heights, {}, vertices, weights);
+      const auto error = [&](const std::vector<double>& of) {
+        return squaredError(lattice, heights, of, set, weights);
+      };
+      const double smallest = error(fitted);
+      EXPECT_LT(smallest, 0.95 * squaredError(lattice, heights, heights, set, weights))
+          << shape.name;
+      for (size_t i = 0; i < vertices.size(); i += 3) {
+        for (const double by : {-3.0, 3.0}) {
+          std::vector<double> moved = fitted;
+          double& height = moved[lattice.sample(vertices[i])];
+          height += by;
+          if (height < *least || height > *most) continue;
+          shareOwned(forest, std::span(moved), forest.side() - 1);
+          EXPECT_GE(error(moved), smallest) << shape.name;
+        }
+      }
+    }
+  }
+}
+
+/// Where a sample counts more, the mesh comes nearer to it.
+TEST(ForestMesh, GainsCountWhatSamplesWeigh) {
+  const Forest forest(3, cubeShape().sides);
+  const ForestLattice lattice(forest);
+  const std::vector<int32_t> heights = roughHeights(forest);
+  const std::vector<float> weights = roundWeights(forest.side());
+  const std::vector<double> gains = forestGains(lattice, heights, weights);
+  const std::vector<uint8_t> none(lattice.vertexCount());
+  double all = 0;
+  for (const double gain : gains) all += gain;
+  const double error = squaredError(lattice, heights, heights, none, weights);
+  EXPECT_NEAR(all, error, 1e-5 * error);
 }
 
 TEST(ForestMesh, NoClosedSetIsBelowTheHullOfTheBestMeshes) {

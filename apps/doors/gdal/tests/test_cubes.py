@@ -63,7 +63,6 @@ def test_it_says_that_it_is_a_cube(cube):
     assert (said["DOMAIN"], said["DEPTH"]) == ("CUBE", "7")
     assert dataset.GetMetadataItem("COMPRESSION_REVERSIBILITY", "IMAGE_STRUCTURE") == "LOSSY"
     assert not {"TARGET", "MAX_ERROR", "BLOCKSIZE"} & set(said)
-    assert dataset.GetRasterBand(1).GetOverviewCount() == 0
     assert "DOMAIN=CUBE\n" in run("gdalinfo", "-mdd", "TKS", cube)
 
 
@@ -74,6 +73,37 @@ def test_windows_are_cut_from_the_grid(cube):
         for dataset in (opened(cube), opened(cube, "NUM_THREADS=3")):
             part = dataset.ReadAsArray(*window)
             np.testing.assert_array_equal(part, whole[y : y + height, x : x + width])
+
+
+def test_overviews_are_coarser_grids(tmp_path):
+    rows, columns = 600, 1200
+    name = tmp_path / "a.tks"
+    place = (-180.0, 0.3, 0.0, 90.0, 0.0, -0.3)
+    source = globe(world(rows=rows, columns=columns), transform=place)
+    copy(source, name, "DOMAIN=CUBE", "PSNR=70", "INDEX=YES")
+    dataset = opened(name)
+    band = dataset.GetRasterBand(1)
+    sizes = [(600, 300), (300, 150), (150, 75)]
+    overviews = [band.GetOverview(i) for i in range(band.GetOverviewCount())]
+    assert [(each.XSize, each.YSize) for each in overviews] == sizes
+    for each, (width, height) in zip(overviews, sizes):
+        off = each.ReadAsArray().astype("f8") - world(rows=height, columns=width)
+        assert np.sqrt(np.mean(off**2)) < 20 * 300 / width
+        part = each.ReadAsArray(7, 5, 40, 30)
+        np.testing.assert_array_equal(part, each.ReadAsArray()[5:35, 7:47])
+    # GDAL takes the overview that suits a smaller picture.
+    small = dataset.ReadAsArray(buf_xsize=300, buf_ysize=150)
+    np.testing.assert_array_equal(small, overviews[1].ReadAsArray())
+
+
+def test_overviews_leave_out_a_repeated_column(tmp_path):
+    grid = np.concatenate([world(), world()[:, :1]], axis=1)
+    copy(globe(grid), tmp_path / "a.tks", "DOMAIN=CUBE", "PSNR=60")
+    dataset = opened(tmp_path / "a.tks")
+    band = dataset.GetRasterBand(1)
+    assert (band.XSize, band.GetOverviewCount(), band.GetOverview(0).XSize) == (301, 1, 150)
+    off = band.GetOverview(0).ReadAsArray() - world(rows=75, columns=150)
+    assert np.sqrt(np.mean(off.astype("f8") ** 2)) < 20
 
 
 def test_prefixes_are_rougher_globes(cube, tmp_path):

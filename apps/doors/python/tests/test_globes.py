@@ -47,7 +47,7 @@ def test_a_cube_gives_its_grid(cube):
     info = cube.info
     assert (info.domain, info.cube_depth, info.shape) == ("cube", 6, (ROWS, COLUMNS))
     assert (info.geotransform, info.crs, info.unit) == (PLACE, "EPSG:4326", "m")
-    assert not info.lossless and info.max_error is None and info.coarsest_level == 0
+    assert not info.lossless and info.max_error is None and info.coarsest_level == 5
     assert info.spacing == pytest.approx((222267, 222267), rel=1e-3)
     heights = cube.heights()
     assert heights.shape == cube.shape == (ROWS, COLUMNS) and heights.dtype == np.float32
@@ -70,9 +70,39 @@ def test_windows_of_a_cube_are_cut_from_its_grid(cube):
     out = np.empty((ROWS, COLUMNS), "f4")
     assert cube.surface(out=out) is out
     np.testing.assert_array_equal(out, whole)
-    for refused in (dict(level=1), dict(window=(179, 0, 2, 1)), dict(out=out[1:])):
+    refused = (dict(level=6), dict(window=(179, 0, 181, 1)), dict(window=(180, 0, 1, 1)))
+    for each in (*refused, dict(out=out[1:])):
         with pytest.raises(tetrakis.TksUsageError):
-            cube.heights(**refused)
+            cube.heights(**each)
+
+
+@pytest.mark.parametrize("domain", ["cylinder", "cube"])
+@pytest.mark.parametrize("level", [0, 1])
+def test_windows_go_on_across_180_degrees(domain, level):
+    with tetrakis.open(on_cube(domain=domain)) as opened:
+        whole = opened.heights(level)
+        rows, columns = whole.shape
+        for window in ((columns - 3, 2, 9, 4), (columns - 1, 0, columns, rows), (5, 1, columns, 2)):
+            x, y, width, height = window
+            cut = np.roll(whole, -x, axis=1)[y : y + height, :width]
+            part = opened.heights(level, window=window)
+            # Angles beyond 180 degrees are rounded otherwise.
+            np.testing.assert_allclose(part, cut, atol=1e-2 if domain == "cube" else 0)
+            assert opened.validity(level, window=window).all()
+        for window in ((columns, 0, 1, 1), (0, 0, columns + 1, 1)):
+            with pytest.raises(tetrakis.TksUsageError):
+                opened.heights(level, window=window)
+
+
+def test_levels_of_a_cube_are_grids_of_the_same_ground(cube):
+    assert [cube.describe(level).shape for level in (1, 2, 5)] == [(45, 90), (23, 45), (3, 6)]
+    for level, most in ((1, 12), (2, 60)):
+        rows, columns = cube.describe(level).shape
+        place = cube.describe(level).geotransform
+        assert place == pytest.approx((-180, 360 / columns, 0, 90, 0, -180 / rows))
+        assert rmse(cube.heights(level), world(rows=rows, columns=columns)) < most
+        part = cube.heights(level, window=(3, 2, 7, 5))
+        np.testing.assert_array_equal(part, cube.heights(level)[2:7, 3:10])
 
 
 def test_samples_of_a_cube_keep_their_type():
@@ -83,6 +113,22 @@ def test_samples_of_a_cube_keep_their_type():
         assert opened.heights().dtype == np.uint16
         assert rmse(opened.heights() * 0.5 - 4500, world()) < 6
         assert rmse(opened.surface(), world()) < 6
+
+
+def test_a_texture_stays_on_longitudes_and_latitudes():
+    colours = photograph()
+    rows, columns = colours.shape[:2]
+    with tetrakis.open(on_cube(texture=colours, psnr=None, bytes=40000)) as opened:
+        assert (opened.info.domain, opened.info.texture_domain) == ("cube", "cylinder")
+        place = opened.info.texture_geotransform
+        assert place == pytest.approx((-180, 360 / columns, 0, 90, 0, -180 / rows))
+        assert opened.texture().shape == colours.shape
+        seam = opened.texture(window=(columns - 2, 0, 5, 3))
+        np.testing.assert_array_equal(seam, np.roll(opened.texture(), 2, axis=1)[:3, :5])
+    own = dict(texture_geotransform=(0, 1, 0, 50, 0, -1), texture_crs="EPSG:4326")
+    with tetrakis.open(on_cube(texture=colours, psnr=None, bytes=40000, **own)) as opened:
+        assert opened.info.texture_domain == "plane"
+        assert opened.info.texture_geotransform == own["texture_geotransform"]
 
 
 def test_prefixes_and_files_of_a_cube(tmp_path, cube):
@@ -142,7 +188,6 @@ def test_what_is_no_globe_is_refused(cube):
         dict(psnr=None, lossless=True),
         dict(psnr=None, max_error=1),
         dict(regions=64),
-        dict(texture=photograph()),
         dict(heights=holes),
         dict(heights=np.where(np.isnan(holes), -9999, holes).astype("i2"), nodata=-9999),
         dict(depth=15),

@@ -89,13 +89,15 @@ Status addTexture(Glb& glb, const ImageFile& image, std::span<const float> texco
   if (!encoded.ok()) return encoded.status();
   const size_t view = glb.addView(std::span<const std::byte>(encoded->bytes), 0);
   glb.document["images"] = listOf({{"bufferView", view}, {"mimeType", encoded->mime_type}});
-  const bool inside = std::all_of(texcoords.begin(), texcoords.end(),
-                                  [](float place) { return place >= 0 && place <= 1; });
-  const int wrap = inside ? kClampToEdge : kRepeat;
+  const auto wrapOf = [&](size_t first) {
+    for (size_t i = first; i < texcoords.size(); i += 2)
+      if (!(texcoords[i] >= 0 && texcoords[i] <= 1)) return kRepeat;
+    return kClampToEdge;
+  };
   glb.document["samplers"] = listOf({{"magFilter", kLinear},
                                      {"minFilter", kLinearMipmapLinear},
-                                     {"wrapS", wrap},
-                                     {"wrapT", wrap}});
+                                     {"wrapS", wrapOf(0)},
+                                     {"wrapT", wrapOf(1)}});
   json texture{{"sampler", 0}};
   if (const char* const extension = extensionOf(format)) {
     texture["extensions"] = {{extension, {{"source", 0}}}};

@@ -65,8 +65,9 @@ std::optional<PlaceAt> byGeoreference(const PlacedRaster& heights, const PlacedR
 
 PlacedRaster PlacedRaster::heightsOf(const tks_info& info) {
   PlacedRaster raster;
-  raster.width = info.width;
-  raster.height = info.height;
+  // Heights on a cube lie where their grid does.
+  raster.width = info.grid_width > 0 ? info.grid_width : info.width;
+  raster.height = info.grid_width > 0 ? info.grid_height : info.height;
   raster.transform = transformOf(info.has_geotransform, info.geotransform);
   raster.crs = info.crs;
   return raster;
@@ -78,11 +79,15 @@ PlacedRaster PlacedRaster::textureOf(const tks_info& info) {
   raster.height = info.texture_height;
   raster.transform = transformOf(info.texture_has_geotransform, info.texture_geotransform);
   raster.crs = *info.texture_crs != 0 ? info.texture_crs : info.crs;
+  raster.round = info.texture_domain == TKS_DOMAIN_CYLINDER;
   return raster;
 }
 
 TexturePlace::TexturePlace(const PlacedRaster& heights, const PlacedRaster& texture)
-    : width_(texture.width), height_(texture.height), texel_at_(covering(heights, texture)) {
+    : width_(texture.width),
+      height_(texture.height),
+      round_(texture.round),
+      texel_at_(covering(heights, texture)) {
   std::optional<PlaceAt> placed = byGeoreference(heights, texture);
   if (!placed) return;
   const PlaceAt covered = std::exchange(texel_at_, *std::move(placed));
@@ -123,11 +128,17 @@ std::optional<tks_window> TexturePlace::texelsOver(const tks_window& samples) co
     look(kParts, part);
   }
   const Place sides = {static_cast<double>(width_), static_cast<double>(height_)};
+  if (round_) {
+    const double turns = std::floor(std::round(low[0]) / sides[0]);
+    low[0] -= turns * sides[0];
+    high[0] -= turns * sides[0];
+  }
   std::array<uint32_t, 2> first, count;
   for (size_t i = 0; i < 2; ++i) {
     if (!(low[i] < sides[i] && high[i] > 0)) return std::nullopt;
     const double begin = std::clamp(std::round(low[i]), 0., sides[i] - 1);
-    const double end = std::clamp(std::round(high[i]), begin + 1, sides[i]);
+    const double last = round_ && i == 0 ? begin + sides[0] : sides[i];
+    const double end = std::clamp(std::round(high[i]), begin + 1, last);
     first[i] = static_cast<uint32_t>(begin);
     count[i] = static_cast<uint32_t>(end - begin);
   }

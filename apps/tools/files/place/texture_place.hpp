@@ -20,6 +20,7 @@ struct PlacedRaster {
   uint32_t width = 0, height = 0;
   std::optional<GeoTransform> transform;
   std::string crs;
+  bool round = false;  ///< the last column lies beside the first one
 
   static PlacedRaster heightsOf(const tks_info& info);
   /// crs: that of the heights, where the texture has none of its own.
@@ -50,11 +51,13 @@ class TexturePlace {
   std::array<double, 2> texelAt(double column, double row) const { return texel_at_(column, row); }
 
   /// The texels whose middles lie over the areas of these samples, or the nearest one where none
-  /// does: adjoining windows have adjoining texels. Nothing if the texture lies beside.
+  /// does: adjoining windows have adjoining texels. Nothing if the texture lies beside. Of one that
+  /// is round they begin inside, and may go on behind the last column with the first.
   std::optional<tks_window> texelsOver(const tks_window& samples) const;
 
  private:
   uint32_t width_, height_;  ///< of the texture
+  bool round_;
   std::function<std::array<double, 2>(double, double)> texel_at_;
   bool own_ = false, turned_ = false;
 };

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Optional, Sequence, Tuple
+from typing import Any, Dict, Optional, Sequence, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,18 +16,30 @@ from ._errors import Status, TksUsageError, error
 _QUARTER_MERIDIAN = 10_002_000
 
 
-def check_options(target: dict, texture: Any, regions: Optional[int], geotransform: Any) -> None:
+def check_options(target: dict, regions: Optional[int], geotransform: Any) -> None:
     """Refuses what does not go with other samples than those given."""
     if target["bytes"] is None and target["psnr"] is None:
         raise TksUsageError(
             'domain "cube" resamples heights, so that nothing is lossless or within a largest '
             "error: give bytes or psnr."
         )
-    if texture is not None or (regions or 0) > 1:
-        what = "regions do" if texture is None else "a texture does"
-        raise TksUsageError(f'domain "cube" resamples heights, so that {what} not go with it.')
+    if (regions or 0) > 1:
+        raise TksUsageError('domain "cube" resamples heights, so that regions do not go with it.')
     if geotransform is None:
         raise TksUsageError('domain "cube" takes a geotransform, in degrees.')
+
+
+def place_texture(place: Dict[str, Any], texture: Any, heights: Any, geotransform: Any) -> None:
+    """Says that a texture without a place of its own covers the grid from edge to edge."""
+    if place["geotransform"] is not None:
+        if place["domain"] == "cube":
+            place["domain"] = "plane"
+        return
+    down, across = (of / own for of, own in zip(np.shape(heights), np.shape(texture)))
+    x, a, b, y, c_, d = geotransform
+    place["geotransform"] = (x, a * across, b * down, y, c_ * across, d * down)
+    if place["domain"] == "cube":
+        place["domain"] = "cylinder"
 
 
 def on_cube(

@@ -62,13 +62,15 @@ class Decoder:
         return longitude.value, latitude.value
 
     def set_levels(self, heights: int, texture: int) -> None:
-        if heights > 0 and self.info().cube_depth is not None:
-            raise TksUsageError("Heights that come from a cube have level 0 only.")
         self.check(c.lib.tks_set_levels(self._handle, heights, texture))
         self._levels = {c.PART_HEIGHTS: heights, c.PART_TEXTURE: texture}
 
     def set_frame(self, frame: int) -> None:
         self.check(c.lib.tks_set_frame(self._handle, frame))
+
+    def _is_round(self, part: int) -> bool:
+        info = self.info()
+        return (info.texture_domain if part == c.PART_TEXTURE else info.domain) == "cylinder"
 
     def _allow(self, part: int, window: Optional[c.Window], beside: int) -> None:
         """Refused here, a stream that claims too much costs no array."""
@@ -85,7 +87,7 @@ class Decoder:
         type of all that the level holds. The C interface has windows of level 0 only."""
         (what, part), (shape, dtype) = call, target
         if window is not None and self._levels[part] > 0:
-            cut = _inside(window, shape)
+            cut = _inside(window, shape, self._is_round(part))
             array = values.output(out, (window.height, window.width, *shape[2:]), dtype)
             array[...] = self._decode(call, None, target, None)[cut]
             return array
@@ -126,7 +128,7 @@ class Decoder:
         """The cube is decoded as a whole, whatever the window."""
         shape = info.shape or (0, 0)
         if window is not None:
-            _inside(window, shape)
+            _inside(window, shape, True)
         side = 2 ** (info.cube_depth or 0) + 1
         whole = ((c.CUBE_PATCHES * side, side), np.dtype("f4"))
         surface = self._decode(("surface", c.PART_HEIGHTS), None, whole, None)
@@ -135,7 +137,8 @@ class Decoder:
     def validity(self, info: _info.Info, window: Optional[c.Window]) -> NDArray[Any]:
         """The C interface has no window of it: all of the level, cut."""
         shape = info.shape or (0, 0)
-        cut = ... if window is None else _inside(window, shape)
+        is_round = info.cube_depth is not None or self._is_round(c.PART_HEIGHTS)
+        cut = ... if window is None else _inside(window, shape, is_round)
         if info.cube_depth is not None:
             return np.ones(shape, bool)[cut]
         call = ("validity", c.PART_VALIDITY)
@@ -252,14 +255,17 @@ def _without(wanted: Tuple[int, int], held: List[Tuple[int, int]]) -> List[Tuple
     return gaps
 
 
-def _inside(window: c.Window, shape: Tuple[int, ...]) -> Tuple[slice, slice]:
-    """The window as slices."""
+def _inside(window: c.Window, shape: Tuple[int, ...], is_round: bool) -> Tuple[slice, Any]:
+    """Rows and columns of the window, whose columns may go on behind the last one of a round."""
     bottom, right = window.y + window.height, window.x + window.width
-    if not (0 < window.height and bottom <= shape[0] and 0 < window.width and right <= shape[1]):
+    inside = window.x < shape[1] and window.width <= shape[1] if is_round else right <= shape[1]
+    if not (0 < window.height and bottom <= shape[0] and 0 < window.width and inside):
         raise TksUsageError(
             f"The window must lie inside the {shape[1]} x {shape[0]} samples and hold one or more."
         )
-    return slice(window.y, bottom), slice(window.x, right)
+    if right <= shape[1]:
+        return slice(window.y, bottom), slice(window.x, right)
+    return slice(window.y, bottom), np.arange(window.x, right) % shape[1]
 
 
 def _put(array: NDArray[Any], out: Optional[NDArray[Any]]) -> NDArray[Any]:

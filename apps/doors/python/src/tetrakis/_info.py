@@ -145,7 +145,7 @@ def from_struct(raw: c.StreamInfo) -> Info:
 
 
 def _of_grid(info: Info, raw: c.StreamInfo, depth: int) -> Info:
-    """Of a grid on a cube: nothing is promised of the grid's samples, and levels are the cube's."""
+    """Of a grid on a cube: nothing is promised of the grid's samples."""
     spacing = info.spacing
     if spacing is not None:
         east = spacing[0] * 4 * 2**depth / raw.grid_width
@@ -156,7 +156,6 @@ def _of_grid(info: Info, raw: c.StreamInfo, depth: int) -> Info:
         cube_depth=depth,
         shape=(raw.grid_height, raw.grid_width),
         spacing=spacing,
-        coarsest_level=0,
         lossless=False,
         max_error=None,
     )
