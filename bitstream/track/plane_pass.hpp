@@ -81,10 +81,11 @@ class PlanePass {
 
  private:
   void beginPlane() {
-    band_.tier_states[tier_].plane = plane_;
-    if (band_.tiers != nullptr) return band_.clearVisited(tier_);
-    if (!band_.tier_states[tier_].nonzero) return;
-    band_.clearVisited();
+    TierState& tier = band_.tier_states[tier_];
+    if (band_.tiers == nullptr || tier.nonzero) tier.plane = plane_;
+    if (!tier.nonzero) return;
+    band_.clearVisited(tier_);
+    if (band_.tiers != nullptr) return;  // scaleAround() follows
     for (uint32_t row = 0; row < band_.shape.rows; ++row) {
       for (uint32_t x = 0; x < band_.shape.words(); ++x) {
         if (band_.significant[band_.shape.word(row, x)] == 0) continue;
@@ -100,26 +101,30 @@ class PlanePass {
     const bool bit = io_.bandBit(models_.band, plane_);
     if (io_.stopped()) return false;
     band_.tier_states[tier_].nonzero = bit;
-    if (bit) {
-      band_.makeCells();
-    } else {
-      band_.markVisited(tier_);
-    }
-    return bit;
+    band_.tier_states[tier_].plane = plane_;
+    if (!bit) return false;
+    band_.makeCells();
+    if (band_.tiers != nullptr) band_.clearVisited(tier_);
+    return true;
   }
 
   /// Other tiers are known down to other planes: what is in and around the blocks of this one is
   /// scaled for its plane.
   void scaleAround() {
-    const BandShape& shape = band_.shape;
-    for (uint32_t row = 0; row < shape.rows; ++row) {
-      const uint8_t* near = &band_.tiers->near[size_t{row / Band::kBlockRows} * shape.words()];
-      for (uint32_t x = 0; x < shape.words(); ++x) {
-        if (((near[x] >> tier_) & 1) == 0 || band_.significant[shape.word(row, x)] == 0) continue;
-        const size_t first = shape.cell(row, 32 * x);
-        for (size_t i = first; i < first + 32; ++i)
-          band_.scaled[i] = static_cast<uint8_t>(std::min(band_.magnitude[i] >> plane_, 0x7fu));
-      }
+    for (uint32_t y = 0; y < band_.blockRows(); ++y) {
+      const uint8_t* near = &band_.tiers->near[size_t{y} * band_.shape.words()];
+      for (uint32_t x = 0; x < band_.shape.words(); ++x)
+        if (((near[x] >> tier_) & 1) != 0) scaleBlock(y, x);
+    }
+  }
+
+  void scaleBlock(uint32_t y, uint32_t x) {
+    const uint32_t end = std::min((y + 1) * Band::kBlockRows, band_.shape.rows);
+    for (uint32_t row = y * Band::kBlockRows; row < end; ++row) {
+      if (band_.significant[band_.shape.word(row, x)] == 0) continue;
+      const size_t first = band_.shape.cell(row, 32 * x);
+      for (size_t i = first; i < first + 32; ++i)
+        band_.scaled[i] = static_cast<uint8_t>(std::min(band_.magnitude[i] >> plane_, 0x7fu));
     }
   }
 

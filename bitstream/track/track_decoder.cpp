@@ -132,8 +132,11 @@ const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
   while (passes_.needed()) {
     const Pass pass = passes_.front();
     const PassPlace from = stop_ ? stop_->place() : PassPlace{};
-    GrowingIo io{{{*decoder_}}, state_.bands[pass.band], pass.tier,
-                 state_.models[plan_[pass.band].models], stop_};
+    GrowingIo io{{{*decoder_}},
+                 state_.bands[pass.band],
+                 pass.tier,
+                 state_.models[plan_[pass.band].models],
+                 stop_};
     state_.run(plan_, pass, io, from);
     if (io.stopped()) {
       read_ = stop_->decoder().read(codeword);
