@@ -46,7 +46,8 @@ uint32_t forEachRun(const PlaneView<const uint8_t>& flat, const Visit& visit, co
       end = nextOf(0, row, x);
       while (first != above.cend() && first->end <= x) ++first;
       const bool touches = first != above.cend() && first->begin < end;
-      const Run run = runs.emplace_back(x, end, touches ? first->label : labels++);
+      const Run run{x, end, touches ? first->label : labels++};
+      runs.push_back(run);
       for (auto other = first; other != above.cend() && other->begin < end; ++other)
         touch(run.label, other->label);
       visit(y, run);
