@@ -34,21 +34,19 @@ struct PlentyIo : Decisions<RangeDecoder::Plenty> {
   static constexpr bool stopped() { return false; }
 };
 
+/// Of a pass over a tier, which goes on where the bytes end in it.
 struct DecodingIo : Decisions<RangeDecoder> {
   using Plenty = PlentyIo;
-  bool blockBit(AdaptiveBit& model, uint32_t, uint32_t, int) { return decoder.decode(model); }
-  bool bandBit(AdaptiveBit& model, int) { return decoder.decode(model); }
-  bool stopped() const { return decoder.exhausted(); }
-  bool hasPlenty(size_t decisions) const { return decoder.hasPlenty(decisions); }
-};
 
-/// Of a pass that goes on where the bytes end in it.
-struct GrowingIo : DecodingIo {
   const Band& band;
   size_t tier;
   const BandModels& models;
   std::optional<BeforeRow>& stop;
 
+  bool blockBit(AdaptiveBit& model, uint32_t, uint32_t, int) { return decoder.decode(model); }
+  bool bandBit(AdaptiveBit& model, int) { return decoder.decode(model); }
+  bool stopped() const { return decoder.exhausted(); }
+  bool hasPlenty(size_t decisions) const { return decoder.hasPlenty(decisions); }
   void mayStopAt(PassPlace place) { stop.emplace(decoder, band, tier, models, place); }
 };
 
@@ -63,20 +61,10 @@ uint64_t bytesOf(const Band& band) {
 
 }  // namespace
 
-TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
-                       std::span<const uint8_t> codeword) {
-  TrackState state(plan, planes);
-  DecodingIo io{{RangeDecoder(codeword)}};
-  PassQueue passes(plan, planes);
-  while (passes.needed()) {
-    const Pass pass = passes.front();
-    state.run(plan, pass, io);
-    if (io.stopped()) return state;
-    assert(pass.band < state.bands.size());
-    passes.pop(state.bands[pass.band]);
-  }
-  state.complete = true;
-  return state;
+TrackState decodeTrack(std::vector<BandPlan> plan, int planes, std::span<const uint8_t> codeword) {
+  GrowingTrack track(std::move(plan), planes);
+  track.decode(codeword);
+  return std::move(track).state();
 }
 
 BeforeRow::BeforeRow(const RangeDecoder& decoder, const Band& band, size_t tier,
@@ -120,7 +108,19 @@ void GrowingTrack::goOn(std::span<const uint8_t> codeword) {
   } else {
     decoder_->grow(codeword, read_);
   }
-  read_ = decoder_->read(codeword);
+}
+
+bool GrowingTrack::runNext() {
+  const Pass pass = passes_.front();
+  Band& band = state_.bands[pass.band];
+  const PassPlace from = stop_ ? stop_->place() : PassPlace{};
+  DecodingIo io{{*decoder_}, band, pass.tier, state_.models[plan_[pass.band].models], stop_};
+  state_.run(plan_, pass, io, from);
+  if (io.stopped()) return false;
+  stop_.reset();
+  decoder_ = io.decoder;
+  passes_.pop(band);
+  return true;
 }
 
 const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
@@ -129,25 +129,9 @@ const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
   if (known && (stop_ || !passes_.needed())) return state_;
   bytes_ = codeword.size();
   goOn(codeword);
-  while (passes_.needed()) {
-    const Pass pass = passes_.front();
-    const PassPlace from = stop_ ? stop_->place() : PassPlace{};
-    GrowingIo io{{{*decoder_}},
-                 state_.bands[pass.band],
-                 pass.tier,
-                 state_.models[plan_[pass.band].models],
-                 stop_};
-    state_.run(plan_, pass, io, from);
-    if (io.stopped()) {
-      read_ = stop_->decoder().read(codeword);
-      return state_;
-    }
-    stop_.reset();
-    decoder_ = io.decoder;
-    read_ = decoder_->read(codeword);
-    passes_.pop(state_.bands[pass.band]);
-  }
-  state_.complete = true;
+  while (passes_.needed() && runNext()) continue;
+  read_ = (stop_ ? stop_->decoder() : *decoder_).read(codeword);
+  state_.complete = !passes_.needed();
   return state_;
 }
 
@@ -162,14 +146,7 @@ void GrowingTrack::need(const std::vector<bool>& parts) {
 
 const TrackState& GrowingTrack::decodePasses(std::span<const uint8_t> codeword, uint64_t bytes) {
   if (!decoder_) decoder_.emplace(codeword);
-  DecodingIo io{{*decoder_}};
-  while (passes_.needed() && io.decoder.read(codeword) < bytes) {
-    const Pass pass = passes_.front();
-    state_.run(plan_, pass, io);
-    if (io.stopped()) break;
-    passes_.pop(state_.bands[pass.band]);
-  }
-  decoder_ = io.decoder;
+  while (!stop_ && passes_.needed() && decoder_->read(codeword) < bytes) runNext();
   state_.complete = !passes_.needed();
   return state_;
 }

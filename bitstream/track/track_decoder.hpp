@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bitstream/coder/range_decoder.hpp"
@@ -18,8 +19,7 @@ namespace tetrakis::inline track {
 /// its bytes decide nothing more. Bands that are not needed are decoded as far as they come before
 /// that: there is one codeword. Safe on any bytes: work is bounded by planes * coefficients, memory
 /// by the plan.
-TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
-                       std::span<const uint8_t> codeword);
+TrackState decodeTrack(std::vector<BandPlan> plan, int planes, std::span<const uint8_t> codeword);
 
 /// What the decisions from one place of a pass to the next change.
 class BeforeRow {
@@ -64,10 +64,14 @@ class GrowingTrack {
   /// with calls of decode().
   const TrackState& decodePasses(std::span<const uint8_t> codeword, uint64_t bytes);
 
+  /// What the call before knew.
+  TrackState state() && { return std::move(state_); }
   uint64_t bytes() const;
 
  private:
   void goOn(std::span<const uint8_t> codeword);
+  /// Runs the next pass to its end; false: the codeword ends in it.
+  bool runNext();
 
   std::vector<BandPlan> plan_;
   int planes_;
