@@ -4,7 +4,7 @@
 import {encodeApart} from './encode_apart.js';
 import {assets, objectAssets} from './encode_assets.js';
 import {checkNames, checkObjectNames} from './encode_names.js';
-import {located} from './encoder_positions.js';
+import {located} from './encoder_calls.js';
 
 export {TksError} from './error.js';
 
