@@ -25,8 +25,8 @@
 //                                                                           magnitude
 //   Plenty                              a faster Io, made of an Io& for a while
 //   bool hasPlenty(size_t decisions)    it may be used for so many decisions
-//   void mayStopAt(PassPlace)           only of an Io that goes on behind a stop: it takes a copy of
-//                                       what the decisions up to the next place change
+//   void mayStopAt(PassPlace)           only of an Io that goes on behind a stop: it copies what
+//                                       the decisions up to the next place change
 #pragma once
 
 #include <algorithm>

@@ -37,8 +37,8 @@ function fitPositions(module, {degrees, ...size}) {
   let next = 0;
   const positions = fit(module, size, () => [degrees[next++], degrees[next++]]);
   if (positions) return positions;
-  throw new TksError('unsupported', 'Longitudes and latitudes of `project` are unknown somewhere, ' +
-    'or do not fit into 200 bytes within a tenth of a sample. Leave it out.');
+  throw new TksError('unsupported', 'Longitudes and latitudes of `project` are unknown ' +
+    'somewhere, or do not fit into 200 bytes within a tenth of a sample. Leave it out.');
 }
 
 /** By name; each takes (module, input, progress). */
