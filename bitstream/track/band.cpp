@@ -80,10 +80,4 @@ void Band::clearVisited(size_t tier) {
   }
 }
 
-void Band::markVisited(size_t tier) {
-  if (tiers == nullptr) return;  // then nothing is significant beside them, and nobody looks
-  const uint32_t* members = tiers->members.data() + tier * shape.wordCells();
-  for (size_t i = 0; i < shape.wordCells(); ++i) visited[i] |= members[i];
-}
-
 }  // namespace tetrakis::inline track

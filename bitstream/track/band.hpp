@@ -76,7 +76,7 @@ struct TierState {
 
 /// Which coefficients of a band are in which tier. Those that do not exist are in none.
 struct BandTiers {
-  std::vector<uint32_t> members;  ///< of each tier a bit map (BandShape::word), one behind another
+  ZeroedArray<uint32_t> members;  ///< of each tier a bit map (BandShape::word), one behind another
   std::vector<uint8_t> blocks;    ///< tiers that a block has coefficients of: bit t for tier t
   std::vector<uint8_t> near;      ///< the same of a block and the eight around it
 
@@ -125,8 +125,6 @@ struct Band {
 
   /// Nothing is known of the next bit-plane of a tier yet.
   void clearVisited(size_t tier = 0);
-  /// All is known of a bit-plane of a tier: nothing is significant there.
-  void markVisited(size_t tier);
 
   bool nonzero() const {
     bool any = false;
@@ -176,8 +174,9 @@ struct Band {
   ZeroedArray<uint8_t> scaled;      ///< magnitude >> plane, held below 2^7; of the last pass's tier
   ZeroedArray<int8_t> sign;         ///< -1, 0 while insignificant, 1
   // From the start.
-  ZeroedArray<uint32_t> significant;   ///< bit map: magnitude is not zero
-  ZeroedArray<uint32_t> visited;       ///< bit map: bit `plane` of its tier is known, or absent
+  ZeroedArray<uint32_t> significant;  ///< bit map: magnitude is not zero
+  /// Bit map: bit `plane` of its tier is known, or absent. All of a tier without a significant one.
+  ZeroedArray<uint32_t> visited;
   ZeroedArray<uint32_t> absent;        ///< bit map: does not exist; without elements: all do
   ZeroedArray<uint8_t> block_nonzero;  ///< tiers of which the block holds a significant one
 };

@@ -25,12 +25,15 @@
 //                                                                           magnitude
 //   Plenty                              a faster Io, made of an Io& for a while
 //   bool hasPlenty(size_t decisions)    it may be used for so many decisions
+//   void mayStopAt(PassPlace)           only of an Io that goes on behind a stop: it copies what
+//                                       the decisions up to the next place change
 #pragma once
 
 #include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "bitstream/track/band.hpp"
 #include "bitstream/track/band_models.hpp"
@@ -38,6 +41,12 @@
 namespace tetrakis::inline track {
 
 enum class PassKind : uint8_t { kLikely = 0, kRest = 1, kRefine = 2 };
+
+/// Where a pass begins, or goes on: 32 columns of a row.
+struct PassPlace {
+  uint32_t row = 0, word = 0;
+  bool begun = false;  ///< the pass has begun before
+};
 
 template <class Io>
 class PlanePass {
@@ -52,9 +61,10 @@ class PlanePass {
         neighbours_(band.shape, band.orientation) {}
 
   /// Codes one pass of bit-plane `plane` (0..30). Returns early once io.stopped().
-  void run(PassKind kind, int plane) {
+  void run(PassKind kind, int plane, PassPlace from) {
     plane_ = plane;
-    if (kind == PassKind::kLikely) beginPlane();
+    from_ = from;
+    if (kind == PassKind::kLikely && !from.begun) beginPlane();
     if (!band_.tier_states[tier_].nonzero) {
       if (kind != PassKind::kRest || !tierBecomesNonzero()) return;
     }
@@ -71,10 +81,11 @@ class PlanePass {
 
  private:
   void beginPlane() {
-    band_.tier_states[tier_].plane = plane_;
-    if (band_.tiers != nullptr) return band_.clearVisited(tier_);
-    if (!band_.tier_states[tier_].nonzero) return;
-    band_.clearVisited();
+    TierState& tier = band_.tier_states[tier_];
+    if (band_.tiers == nullptr || tier.nonzero) tier.plane = plane_;
+    if (!tier.nonzero) return;
+    band_.clearVisited(tier_);
+    if (band_.tiers != nullptr) return;  // scaleAround() follows
     for (uint32_t row = 0; row < band_.shape.rows; ++row) {
       for (uint32_t x = 0; x < band_.shape.words(); ++x) {
         if (band_.significant[band_.shape.word(row, x)] == 0) continue;
@@ -86,39 +97,53 @@ class PlanePass {
   }
 
   bool tierBecomesNonzero() {
+    mayStopAt(0, 0, 1);
     const bool bit = io_.bandBit(models_.band, plane_);
     if (io_.stopped()) return false;
     band_.tier_states[tier_].nonzero = bit;
-    if (bit) {
-      band_.makeCells();
-    } else {
-      band_.markVisited(tier_);
-    }
-    return bit;
+    band_.tier_states[tier_].plane = plane_;
+    if (!bit) return false;
+    band_.makeCells();
+    if (band_.tiers != nullptr) band_.clearVisited(tier_);
+    return true;
   }
 
   /// Other tiers are known down to other planes: what is in and around the blocks of this one is
   /// scaled for its plane.
   void scaleAround() {
-    const BandShape& shape = band_.shape;
-    for (uint32_t row = 0; row < shape.rows; ++row) {
-      const uint8_t* near = &band_.tiers->near[size_t{row / Band::kBlockRows} * shape.words()];
-      for (uint32_t x = 0; x < shape.words(); ++x) {
-        if (((near[x] >> tier_) & 1) == 0 || band_.significant[shape.word(row, x)] == 0) continue;
-        const size_t first = shape.cell(row, 32 * x);
-        for (size_t i = first; i < first + 32; ++i)
-          band_.scaled[i] = static_cast<uint8_t>(std::min(band_.magnitude[i] >> plane_, 0x7fu));
-      }
+    for (uint32_t y = 0; y < band_.blockRows(); ++y) {
+      const uint8_t* near = &band_.tiers->near[size_t{y} * band_.shape.words()];
+      for (uint32_t x = 0; x < band_.shape.words(); ++x)
+        if (((near[x] >> tier_) & 1) != 0) scaleBlock(y, x);
+    }
+  }
+
+  void scaleBlock(uint32_t y, uint32_t x) {
+    const uint32_t end = std::min((y + 1) * Band::kBlockRows, band_.shape.rows);
+    for (uint32_t row = y * Band::kBlockRows; row < end; ++row) {
+      if (band_.significant[band_.shape.word(row, x)] == 0) continue;
+      const size_t first = band_.shape.cell(row, 32 * x);
+      for (size_t i = first; i < first + 32; ++i)
+        band_.scaled[i] = static_cast<uint8_t>(std::min(band_.magnitude[i] >> plane_, 0x7fu));
     }
   }
 
   template <PassKind kKind>
   void blocks() {
-    for (uint32_t y = 0; y < band_.blockRows(); ++y) {
-      for (uint32_t x = 0; x < band_.shape.words(); ++x) {
+    uint32_t x = from_.word;
+    for (uint32_t y = from_.row / Band::kBlockRows; y < band_.blockRows(); ++y) {
+      for (; x < band_.shape.words(); ++x) {
         block<kKind>(y, x);
         if (io_.stopped()) return;
       }
+      x = 0;
+    }
+  }
+
+  /// The next so many decisions are of the row of 32 columns, or of what begins with it.
+  void mayStopAt(uint32_t row, uint32_t word, size_t decisions) {
+    if constexpr (requires { io_.mayStopAt(PassPlace{}); }) {
+      if (!io_.hasPlenty(decisions)) io_.mayStopAt({row, word, true});
     }
   }
 
@@ -127,10 +152,12 @@ class PlanePass {
     if (band_.tiers != nullptr && ((band_.tierBlocks(y, x) >> tier_) & 1) == 0) return;
     uint8_t& nonzero = band_.block(y, x);
     const auto mine = static_cast<uint8_t>(1u << tier_);
-    const uint32_t begin = y * Band::kBlockRows,
-                   end = std::min(begin + Band::kBlockRows, band_.shape.rows);
+    const uint32_t first = y * Band::kBlockRows,
+                   begin = std::max(first, std::exchange(from_.row, 0)),
+                   end = std::min(first + Band::kBlockRows, band_.shape.rows);
     if ((nonzero & mine) == 0) {
       if (kKind != PassKind::kRest || isVacant(begin, end, x)) return;
+      mayStopAt(begin, x, 1);
       const bool bit = band_.block_nonzero.size() == 1 ||
                        io_.blockBit(models_.block[blockContext(y, x)], y, x, plane_);
       if (io_.stopped()) return;
@@ -208,6 +235,7 @@ class PlanePass {
       typename Io::Plenty io(io_);
       significance<kKind>(r, free, io);
     } else {
+      mayStopAt(row, x, kRowDecisions);
       significance<kKind>(r, free, io_);
     }
     band_.visited[r.word] = r.visited;
@@ -300,6 +328,7 @@ class PlanePass {
       typename Io::Plenty io(io_);
       band_.visited[word] |= refinement(first, todo, sums, io);
     } else {
+      mayStopAt(row, x, kRowDecisions);
       band_.visited[word] |= refinement(first, todo, sums, io_);
     }
   }
@@ -340,6 +369,7 @@ class PlanePass {
   Io& io_;
   Neighbours neighbours_;
   int plane_ = 0;
+  PassPlace from_;
 };
 
 }  // namespace tetrakis::inline track

@@ -89,13 +89,13 @@ struct TrackState {
 
   /// Runs one pass of a band of the plan that the state was made from.
   template <class Io>
-  void run(const std::vector<BandPlan>& plan, const Pass& pass, Io& io) {
+  void run(const std::vector<BandPlan>& plan, const Pass& pass, Io& io, PassPlace from = {}) {
     const BandPlan& band = plan[pass.band];
     const auto at = [&](int i) { return i < 0 ? nullptr : &bands[static_cast<size_t>(i)]; };
     const HintBands hints{
         at(band.parent), at(band.companion), {at(band.siblings[0]), at(band.siblings[1])}};
     PlanePass<Io>(bands[pass.band], pass.tier, models[band.models], hints, io)
-        .run(pass.kind, pass.plane);
+        .run(pass.kind, pass.plane, from);
   }
 
   std::vector<Band> bands;

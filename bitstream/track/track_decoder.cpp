@@ -34,12 +34,20 @@ struct PlentyIo : Decisions<RangeDecoder::Plenty> {
   static constexpr bool stopped() { return false; }
 };
 
+/// Of a pass over a tier, which goes on where the bytes end in it.
 struct DecodingIo : Decisions<RangeDecoder> {
   using Plenty = PlentyIo;
+
+  const Band& band;
+  size_t tier;
+  const BandModels& models;
+  std::optional<BeforeRow>& stop;
+
   bool blockBit(AdaptiveBit& model, uint32_t, uint32_t, int) { return decoder.decode(model); }
   bool bandBit(AdaptiveBit& model, int) { return decoder.decode(model); }
   bool stopped() const { return decoder.exhausted(); }
   bool hasPlenty(size_t decisions) const { return decoder.hasPlenty(decisions); }
+  void mayStopAt(PassPlace place) { stop.emplace(decoder, band, tier, models, place); }
 };
 
 PlentyIo::PlentyIo(DecodingIo& io) : Decisions{RangeDecoder::Plenty(io.decoder)} {}
@@ -53,82 +61,77 @@ uint64_t bytesOf(const Band& band) {
 
 }  // namespace
 
-TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
-                       std::span<const uint8_t> codeword) {
-  TrackState state(plan, planes);
-  DecodingIo io{{RangeDecoder(codeword)}};
-  PassQueue passes(plan, planes);
-  while (passes.needed()) {
-    const Pass pass = passes.front();
-    state.run(plan, pass, io);
-    if (io.stopped()) return state;
-    assert(pass.band < state.bands.size());
-    passes.pop(state.bands[pass.band]);
-  }
-  state.complete = true;
-  return state;
+TrackState decodeTrack(std::vector<BandPlan> plan, int planes, std::span<const uint8_t> codeword) {
+  GrowingTrack track(std::move(plan), planes);
+  track.decode(codeword);
+  return std::move(track).state();
+}
+
+BeforeRow::BeforeRow(const RangeDecoder& decoder, const Band& band, size_t tier,
+                     const BandModels& models, PassPlace place)
+    : decoder_(decoder), models_(models), place_(place), tier_(band.tier_states[tier]) {
+  const size_t word = band.shape.word(place.row, place.word);
+  significant_ = band.significant[word];
+  visited_ = band.visited[word];
+  if (!band.hasCells()) return;
+  const size_t cell = band.shape.cell(place.row, kColumns * place.word);
+  std::copy_n(band.magnitude.data() + cell, kColumns, magnitude_.begin());
+  std::copy_n(band.scaled.data() + cell, kColumns, scaled_.begin());
+  std::copy_n(band.sign.data() + cell, kColumns, sign_.begin());
+}
+
+void BeforeRow::restore(Band& band, size_t tier, BandModels& models) const {
+  models = models_;
+  band.tier_states[tier] = tier_;
+  const size_t word = band.shape.word(place_.row, place_.word);
+  band.significant[word] = significant_;
+  band.visited[word] = visited_;
+  if (!band.hasCells()) return;
+  const size_t cell = band.shape.cell(place_.row, kColumns * place_.word);
+  std::copy(magnitude_.begin(), magnitude_.end(), band.magnitude.data() + cell);
+  std::copy(scaled_.begin(), scaled_.end(), band.scaled.data() + cell);
+  std::copy(sign_.begin(), sign_.end(), band.sign.data() + cell);
 }
 
 GrowingTrack::GrowingTrack(std::vector<BandPlan> plan, int planes)
     : plan_(std::move(plan)), planes_(planes), passes_(plan_, planes), state_(plan_, planes) {}
 
-/// Takes back what a shorter prefix told of the pass in which it ended.
+/// Takes back what a shorter prefix told of the row in which it ended.
 void GrowingTrack::goOn(std::span<const uint8_t> codeword) {
-  ended_ = false;
-  if (!decoder_ || decoder_->exhausted() || lost_) {
-    if (lost_) {
-      passes_ = PassQueue(plan_, planes_);
-      state_ = TrackState(plan_, planes_);
-      lost_ = false;
-    }
+  if (stop_) {
+    const Pass pass = passes_.front();
+    stop_->restore(state_.bands[pass.band], pass.tier, state_.models[plan_[pass.band].models]);
+    decoder_ = stop_->decoder();
+  }
+  if (!decoder_ || decoder_->exhausted()) {
     decoder_.emplace(codeword);
   } else {
     decoder_->grow(codeword, read_);
   }
-  read_ = decoder_->read(codeword);
-  if (!band_) return;
-  const uint32_t band = passes_.front().band;
-  state_.bands[band] = std::move(*band_);
-  state_.models[plan_[band].models] = *models_;
-  band_.reset();
 }
 
-void GrowingTrack::keep() {
-  const uint32_t band = passes_.front().band;
-  band_ = state_.bands[band];
-  models_ = state_.models[plan_[band].models];
-}
-
-/// A copy of the band before each pass would take as long as the passes. So only those are kept in
-/// which the codeword is likely to end; where it ends in another one, the next call starts anew.
-bool GrowingTrack::mayEnd() const {
-  constexpr size_t kLeast = 64, kTimes = 4;
-  return bytes_ - read_ <= kLeast + kTimes * longest_;
+bool GrowingTrack::runNext() {
+  const Pass pass = passes_.front();
+  Band& band = state_.bands[pass.band];
+  const PassPlace from = stop_ ? stop_->place() : PassPlace{};
+  DecodingIo io{{*decoder_}, band, pass.tier, state_.models[plan_[pass.band].models], stop_};
+  state_.run(plan_, pass, io, from);
+  if (io.stopped()) return false;
+  stop_.reset();
+  decoder_ = io.decoder;
+  passes_.pop(band);
+  return true;
 }
 
 const TrackState& GrowingTrack::decode(std::span<const uint8_t> codeword) {
   if (codeword.size() < bytes_) *this = GrowingTrack(std::move(plan_), planes_);
   const bool known = decoder_ && codeword.size() == bytes_;
-  if (known && (ended_ || !passes_.needed())) return state_;
+  if (known && (stop_ || !passes_.needed())) return state_;
   bytes_ = codeword.size();
   goOn(codeword);
-  while (passes_.needed()) {
-    if (mayEnd()) keep();
-    const Pass pass = passes_.front();
-    DecodingIo io{{*decoder_}};
-    state_.run(plan_, pass, io);
-    if (io.stopped()) {
-      lost_ = !band_;
-      ended_ = true;
-      return state_;
-    }
-    decoder_ = io.decoder;
-    const size_t before = std::exchange(read_, decoder_->read(codeword));
-    longest_ = std::max(longest_, read_ - before);
-    passes_.pop(state_.bands[pass.band]);
-    band_.reset();
-  }
-  state_.complete = true;
+  while (passes_.needed() && runNext()) continue;
+  read_ = (stop_ ? stop_->decoder() : *decoder_).read(codeword);
+  state_.complete = !passes_.needed();
   return state_;
 }
 
@@ -143,14 +146,7 @@ void GrowingTrack::need(const std::vector<bool>& parts) {
 
 const TrackState& GrowingTrack::decodePasses(std::span<const uint8_t> codeword, uint64_t bytes) {
   if (!decoder_) decoder_.emplace(codeword);
-  DecodingIo io{{*decoder_}};
-  while (passes_.needed() && io.decoder.read(codeword) < bytes) {
-    const Pass pass = passes_.front();
-    state_.run(plan_, pass, io);
-    if (io.stopped()) break;
-    passes_.pop(state_.bands[pass.band]);
-  }
-  decoder_ = io.decoder;
+  while (!stop_ && passes_.needed() && decoder_->read(codeword) < bytes) runNext();
   state_.complete = !passes_.needed();
   return state_;
 }
@@ -162,7 +158,7 @@ uint64_t GrowingTrack::bytes() const {
     if (band.tiers != nullptr) sum += band.tiers->bytes();
   }
   for (const Band& band : state_.bands) sum += bytesOf(band);
-  return sum + (band_ ? bytesOf(*band_) : 0);
+  return sum;
 }
 
 }  // namespace tetrakis::inline track

@@ -2,10 +2,12 @@
 // decodeTrack() decodes any prefix of a track's codeword to the known bits of the coefficients.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bitstream/coder/range_decoder.hpp"
@@ -17,8 +19,31 @@ namespace tetrakis::inline track {
 /// its bytes decide nothing more. Bands that are not needed are decoded as far as they come before
 /// that: there is one codeword. Safe on any bytes: work is bounded by planes * coefficients, memory
 /// by the plan.
-TrackState decodeTrack(const std::vector<BandPlan>& plan, int planes,
-                       std::span<const uint8_t> codeword);
+TrackState decodeTrack(std::vector<BandPlan> plan, int planes, std::span<const uint8_t> codeword);
+
+/// What the decisions from one place of a pass to the next change.
+class BeforeRow {
+ public:
+  BeforeRow(const RangeDecoder& decoder, const Band& band, size_t tier, const BandModels& models,
+            PassPlace place);
+
+  const RangeDecoder& decoder() const { return decoder_; }
+  PassPlace place() const { return place_; }
+  /// Takes back what they have changed.
+  void restore(Band& band, size_t tier, BandModels& models) const;
+
+ private:
+  static constexpr size_t kColumns = 32;
+
+  RangeDecoder decoder_;
+  BandModels models_;
+  PassPlace place_;
+  TierState tier_;
+  uint32_t significant_, visited_;
+  std::array<uint32_t, kColumns> magnitude_;
+  std::array<uint8_t, kColumns> scaled_;
+  std::array<int8_t, kColumns> sign_;
+};
 
 /// Decodes one prefix after the other, each longer than the one before: what that one decided is
 /// not decoded again.
@@ -39,27 +64,23 @@ class GrowingTrack {
   /// with calls of decode().
   const TrackState& decodePasses(std::span<const uint8_t> codeword, uint64_t bytes);
 
-  /// What the state takes, as it is and as it was at the beginning of a pass.
+  /// What the call before knew.
+  TrackState state() && { return std::move(state_); }
   uint64_t bytes() const;
 
  private:
   void goOn(std::span<const uint8_t> codeword);
-  void keep();
-  bool mayEnd() const;
+  /// Runs the next pass to its end; false: the codeword ends in it.
+  bool runNext();
 
   std::vector<BandPlan> plan_;
   int planes_;
   PassQueue passes_;
   TrackState state_;
-  size_t bytes_ = 0;    ///< of the codeword before
-  size_t longest_ = 0;  ///< bytes that a pass has taken at most
-  // As they were at the beginning of the pass that is next, if it has begun.
-  std::optional<RangeDecoder> decoder_;
-  size_t read_ = 0;  ///< by the decoder
-  std::optional<Band> band_;
-  std::optional<BandModels> models_;
-  bool lost_ = false;   ///< it has begun, and they were not kept
-  bool ended_ = false;  ///< the codeword ends in it
+  size_t bytes_ = 0;                     ///< of the codeword before
+  std::optional<RangeDecoder> decoder_;  ///< as it was at the beginning of the next pass
+  size_t read_ = 0;                      ///< by it, or by that of stop_
+  std::optional<BeforeRow> stop_;        ///< where the codeword before ends in that pass
 };
 
 }  // namespace tetrakis::inline track

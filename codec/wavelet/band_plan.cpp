@@ -49,10 +49,9 @@ struct Coefficients {
 template <class Mark>
 void forEachTier(const CoefficientPriorities& priorities, const Coefficients& line, uint32_t first,
                  uint32_t columns, const Mark& mark) {
-  if (columns == 0) return;
   const int level = line.subband.level;
   const auto last = static_cast<uint32_t>(std::bit_width(columns)) - 1;
-  const bool alike = priorities.alike(line.x(first), line.x(first + last), level);
+  const bool alike = priorities.alikeInRow(line.x(first), line.x(first + last), level);
   while (columns != 0) {
     const auto next = static_cast<uint32_t>(std::countr_zero(columns));
     const uint32_t marked = alike ? columns : columns & (0 - columns);
@@ -60,6 +59,41 @@ void forEachTier(const CoefficientPriorities& priorities, const Coefficients& li
     columns &= ~marked;
   }
 }
+
+/// The tiers of a row of coefficients, absent ones too: of each tier so many words.
+class TierRow {
+ public:
+  explicit TierRow(const BandShape& shape)
+      : shape_(shape), words_(kPriorities * size_t{shape.words()}) {}
+
+  void fill(const CoefficientPriorities& priorities, const Coefficients& line) {
+    std::fill(words_.begin(), words_.end(), 0);
+    present_ = {};
+    for (uint32_t k = 0; k < shape_.words(); ++k) {
+      forEachTier(priorities, line, 32 * k, shape_.valid(k), [&](uint8_t tier, uint32_t columns) {
+        words_[tier * size_t{shape_.words()} + k] |= columns;
+        present_[tier] = true;
+      });
+    }
+  }
+
+  /// absent: of the band, or empty.
+  void put(uint32_t row, std::span<const uint32_t> absent, BandTiers& tiers) const {
+    for (size_t tier = 0; tier < kPriorities; ++tier) {
+      if (!present_[tier]) continue;
+      const uint32_t* from = words_.data() + tier * shape_.words();
+      const size_t first = shape_.word(row, 0);
+      uint32_t* to = tiers.members.data() + tier * shape_.wordCells() + first;
+      for (uint32_t k = 0; k < shape_.words(); ++k)
+        to[k] = absent.empty() ? from[k] : from[k] & ~absent[first + k];
+    }
+  }
+
+ private:
+  const BandShape& shape_;
+  std::vector<uint32_t> words_;
+  std::array<bool, kPriorities> present_{};
+};
 
 }  // namespace
 
@@ -156,17 +190,13 @@ void PlaneLayout::markTiers(std::span<const BandPart> parts, std::span<BandPlan>
     const BandShape& shape = bands[i].shape;
     if (shape.empty()) continue;
     BandTiers tiers;
-    tiers.members.assign(kPriorities * shape.wordCells(), 0);
+    tiers.members = ZeroedArray<uint32_t>(kPriorities * shape.wordCells());
+    TierRow line(shape);
     for (uint32_t row = 0; row < part.rows; ++row) {
-      const Coefficients line{subband, part.column, subband.planeRow(part.row + row)};
-      for (uint32_t k = 0; k < shape.words(); ++k) {
-        const size_t word = shape.word(row, k);
-        const uint32_t absent = bands[i].absent.empty() ? 0 : bands[i].absent[word];
-        const auto mark = [&](uint8_t tier, uint32_t columns) {
-          tiers.members[tier * shape.wordCells() + word] |= columns;
-        };
-        forEachTier(*priorities_, line, 32 * k, shape.valid(k) & ~absent, mark);
-      }
+      const auto y = [&](uint32_t of_row) { return subband.planeRow(part.row + of_row); };
+      if (row == 0 || !priorities_->alikeRows(y(row - 1), y(row), subband.level))
+        line.fill(*priorities_, {subband, part.column, y(row)});
+      line.put(row, bands[i].absent, tiers);
     }
     tiers.markBlocks(shape);
     bands[i].tiers = std::make_shared<const BandTiers>(std::move(tiers));

@@ -48,12 +48,19 @@ class CoefficientPriorities {
   /// The priority of a coefficient of a level whose sample lies at (x, y).
   uint8_t at(uint32_t x, uint32_t y, int level) const;
   /// Whether those of a row between two of them, and these, are means over the same tiles.
-  bool alike(uint32_t x0, uint32_t x1, int level) const {
-    return firstTile(x0, level) == firstTile(x1, level) &&
-           endTile(x0, plane_.width, level) == endTile(x1, plane_.width, level);
+  bool alikeInRow(uint32_t x0, uint32_t x1, int level) const {
+    return sameTiles(x0, x1, plane_.width, level);
+  }
+  /// Whether those of two rows are means over the same tiles.
+  bool alikeRows(uint32_t y0, uint32_t y1, int level) const {
+    return sameTiles(y0, y1, plane_.height, level);
   }
 
  private:
+  bool sameTiles(uint32_t a, uint32_t b, uint32_t side, int level) const {
+    return firstTile(a, level) == firstTile(b, level) &&
+           endTile(a, side, level) == endTile(b, side, level);
+  }
   /// What a coefficient changes lies mostly within half of its level's spacing.
   uint32_t firstTile(uint32_t place, int level) const {
     return (place - std::min(place, reachOf(level))) >> tile_log2_;

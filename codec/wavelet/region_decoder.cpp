@@ -23,12 +23,10 @@ std::vector<BandPlan> marked(std::vector<BandPlan> plan, const std::vector<bool>
 
 }  // namespace
 
-uint64_t TrackNeeds::ofBands(const std::vector<BandPart>& parts, uint64_t& largest) const {
+uint64_t TrackNeeds::ofBands(const std::vector<BandPart>& parts) const {
   uint64_t sum = 0;
   for (const BandPart& part : parts) {
-    const uint64_t one = known ? Band::bytesOf(part.shape(), masked) : 0;
-    largest = std::max(largest, one);
-    sum += planes * one;
+    if (known) sum += planes * Band::bytesOf(part.shape(), masked);
     if (masked) sum += planes * part.shape().wordCells() * sizeof(uint32_t);  // of the plan
     if (ordered) sum += BandTiers::bytesOf(part.shape());  // likewise, of all planes
   }
@@ -38,11 +36,10 @@ uint64_t TrackNeeds::ofBands(const std::vector<BandPart>& parts, uint64_t& large
 /// Each patch has bands of its own, many of them small, and all are in one track.
 uint64_t TrackNeeds::ofForest() const {
   const Pyramid patch({forest->side(), forest->side()});
-  uint64_t largest = 0;
   const Region whole = largestRegions(plane.width, plane.width, 0).front();
-  const uint64_t bands = ofBands(partsOf(patch.subbands(), whole), largest);
+  const uint64_t bands = ofBands(partsOf(patch.subbands(), whole));
   const uint64_t each = bands + kBand * (planes + 1) * patch.subbands().size();
-  return kOnce + forest->patches() * each + (kept ? largest : 0);
+  return kOnce + forest->patches() * each;
 }
 
 uint64_t TrackNeeds::bytes() const {
@@ -50,11 +47,8 @@ uint64_t TrackNeeds::bytes() const {
   const Pyramid pyramid(plane);
   uint64_t most = 0;
   const uint64_t count = regionCount(plane.width, plane.height, side_log2);
-  for (const Region& region : largestRegions(plane.width, plane.height, side_log2)) {
-    uint64_t band = 0;
-    const uint64_t sum = kOnce + ofBands(partsOf(pyramid.subbands(), region), band);
-    most = std::max(most, kept ? sum + band : sum);
-  }
+  for (const Region& region : largestRegions(plane.width, plane.height, side_log2))
+    most = std::max(most, kOnce + ofBands(partsOf(pyramid.subbands(), region)));
   return kept ? most * count : most * std::clamp<uint64_t>(threads, 1, count);
 }
 

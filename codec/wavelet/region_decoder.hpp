@@ -31,14 +31,13 @@ struct TrackNeeds {
   uint32_t threads;
   bool kept;  ///< in a TrackMemory
 
-  /// The bytes that the largest track takes at most, on each thread; or that all take, each
-  /// with a copy of its largest band, if they are kept.
+  /// The bytes that the largest track takes at most, on each thread; or that all take, if they are
+  /// kept.
   uint64_t bytes() const;
 
  private:
   uint64_t ofForest() const;
-  /// Of the bands alone; largest grows to the bytes of the largest one.
-  uint64_t ofBands(const std::vector<BandPart>& parts, uint64_t& largest) const;
+  uint64_t ofBands(const std::vector<BandPart>& parts) const;  ///< of the bands alone
 };
 
 /// What a component says about the bands of its tracks.

@@ -17,11 +17,10 @@
  * byte of the stream, as processors of 2020 go; meshes take four times as much. A window asks for
  * the regions that reach it. Where one codeword holds the whole plane (coefficients without
  * regions, masks, flat areas, drawings) a window asks for all of it, and for corrections without
- * regions of all rows before it. Masks and the bridges in them then take 4 nanoseconds for each
- * sample of the plane, a second for 2^14 x 2^14. Of the others bytes hold few decisions, 91 100
- * each, which take two milliseconds, but at most 20 nanoseconds for each sample of the plane;
- * where coefficients have priorities, or areas are flat, they may take these of any bytes. Who
- * serves strangers sets tks_limits.max_samples.
+ * regions of all rows before it. Masks, the bridges in them, flat areas and priorities then take 4
+ * nanoseconds for each sample of the plane, a second for 2^14 x 2^14. Of all others bytes hold few
+ * decisions, 91 100 each, which take two milliseconds. Who serves strangers sets
+ * tks_limits.max_samples.
  *
  * Structs that begin with their `size` may grow at their end in later versions; programs that were
  * compiled before keep working. Set `size` to sizeof the struct: fields that a shorter struct lacks

@@ -140,7 +140,7 @@ SeenPoint seenAt(const PicturePoint& point, const GroundRays& ground, Extent tex
     return std::sqrt(texels_u * texels_u + texels_v * texels_v);
   };
   const double wide = std::max(texelsTo(point.right), texelsTo(point.down));
-  seen.level = wide > 0 ? std::max(0.0, portable::log2(wide)) : 0;
+  seen.level = wide > 1 ? portable::log2(wide) : 0;
   return seen;
 }
 

@@ -65,6 +65,25 @@ Material material(uint32_t seed, const BandShape& coarse, int scale_bits) {
   return m;
 }
 
+/// The same coefficients, each in one of four tiers.
+Material inTiers(Material m, uint32_t seed) {
+  Random random(seed);
+  for (BandPlan& band : m.plan) {
+    const BandShape& shape = band.shape;
+    BandTiers tiers;
+    tiers.members = ZeroedArray<uint32_t>(kPriorities * shape.wordCells());
+    for (uint32_t row = 0; row < shape.rows; ++row) {
+      for (uint32_t column = 0; column < shape.columns; ++column) {
+        const size_t word = shape.word(row, column / 32);
+        tiers.members[random() % 4 * shape.wordCells() + word] |= uint32_t{1} << column % 32;
+      }
+    }
+    tiers.markBlocks(shape);
+    band.tiers = std::make_shared<const BandTiers>(std::move(tiers));
+  }
+  return m;
+}
+
 /// What is known of a coefficient, with its sign: 0 in a band without cells.
 int64_t knownOf(const Band& band, size_t cell) {
   return band.hasCells() ? int64_t{band.sign[cell]} * band.magnitude[cell] : 0;
@@ -128,36 +147,47 @@ bool equal(const ZeroedArray<T>& a, const ZeroedArray<T>& b) {
   return std::equal(a.data(), a.data() + a.size(), b.data(), b.data() + b.size());
 }
 
-uint32_t signsOf(const Band& band) {
+/// Whether the significant coefficients are as many as the tiers say.
+bool areCounted(const Band& band) {
   const auto found = [](int8_t sign) { return sign != 0; };
-  return static_cast<uint32_t>(
-      std::count_if(band.sign.data(), band.sign.data() + band.sign.size(), found));
+  uint32_t counted = 0;
+  for (const TierState& tier : band.tier_states) counted += tier.significant_count;
+  return std::count_if(band.sign.data(), band.sign.data() + band.sign.size(), found) == counted;
+}
+
+bool sameTiers(const Band& a, const Band& b) {
+  bool same = areCounted(a) && areCounted(b);
+  for (size_t tier = 0; tier < kPriorities; ++tier) {
+    same &= a.tier_states[tier].plane == b.tier_states[tier].plane &&
+            a.tier_states[tier].significant_count == b.tier_states[tier].significant_count;
+  }
+  return same;
 }
 
 /// What is known of the coefficients and where, not what the next bit-plane starts from.
 bool sameKnowledge(const TrackState& a, const TrackState& b) {
   bool same = a.complete == b.complete && a.bands.size() == b.bands.size();
   for (size_t i = 0; same && i < a.bands.size(); ++i) {
-    same = a.bands[i].tier_states[0].plane == b.bands[i].tier_states[0].plane &&
-           equal(a.bands[i].sign, b.bands[i].sign) &&
+    same = sameTiers(a.bands[i], b.bands[i]) && equal(a.bands[i].sign, b.bands[i].sign) &&
            equal(a.bands[i].magnitude, b.bands[i].magnitude) &&
-           equal(a.bands[i].visited, b.bands[i].visited) &&
-           a.bands[i].tier_states[0].significant_count == signsOf(a.bands[i]) &&
-           b.bands[i].tier_states[0].significant_count == signsOf(b.bands[i]);
+           equal(a.bands[i].visited, b.bands[i].visited);
   }
   return same;
 }
 
 /// A growing track knows what the prefix alone tells, whatever was asked before.
 TEST(TrackCoding, GrowingTracksForgetNothingAndInventNothing) {
-  const Material m = material(3, {9, 40}, 5);
-  const EncodedTrack track = encodeTrack(m.plan, m.sources);
-  for (const size_t stride : {1u, 2u, 3u, 7u, 50u}) {
-    GrowingTrack growing(m.plan, track.planes);
-    for (size_t bytes = 0; bytes <= track.codeword.size(); bytes += stride) {
-      const auto prefix = std::span(track.codeword).first(bytes);
-      ASSERT_TRUE(sameKnowledge(growing.decode(prefix), decodeTrack(m.plan, track.planes, prefix)))
-          << bytes << " of " << track.codeword.size() << " bytes, steps of " << stride;
+  const Material one_tier = material(3, {9, 40}, 5);
+  for (const Material& m : {one_tier, inTiers(one_tier, 4)}) {
+    const EncodedTrack track = encodeTrack(m.plan, m.sources);
+    for (const size_t stride : {1u, 2u, 3u, 7u, 50u}) {
+      GrowingTrack growing(m.plan, track.planes);
+      for (size_t bytes = 0; bytes <= track.codeword.size(); bytes += stride) {
+        const auto prefix = std::span(track.codeword).first(bytes);
+        const TrackState& grown = growing.decode(prefix);
+        ASSERT_TRUE(sameKnowledge(grown, decodeTrack(m.plan, track.planes, prefix)))
+            << bytes << " of " << track.codeword.size() << " bytes, steps of " << stride;
+      }
     }
   }
 }

@@ -25,30 +25,21 @@ double seconds() {
 }
 
 constexpr double kWindowSeconds = 1;       // of one sample
-constexpr double kPerPlaneSample = 2e-8;   // of a plane that has to be gone through, ...
-constexpr double kPerDecidingByte = 2e-3;  // ... or of bytes that cannot decide so many samples
+constexpr double kPerPlaneSample = 4e-9;   // of a plane that is marked: masks, areas, tiers
+constexpr double kPerDecidingByte = 2e-3;  // of a codeword for the whole plane
 constexpr double kPerSample = 2e-6, kPerByte = 2e-6;  // of all others
 constexpr double kPerMeshSample = 8e-6;               // whatever the stream: sorting, quadrics
-
-/// Whether tiers or flat areas of a whole plane are marked, whatever decides them.
-bool marksSamples(std::span<const uint8_t> stream) {
-  const Result<ParsedHeader> parsed = readHeader(stream);
-  if (!parsed.ok()) return false;
-  const StreamHeader& header = parsed->header;
-  return header.layers.flat_bytes > 0 || (header.geometry && !header.geometry->priorities.none()) ||
-         (header.texture && !header.texture->priorities.none());
-}
 
 /// Runs calls and keeps the first that is too slow.
 class Watch {
  public:
   Watch(std::span<const uint8_t> stream, double slow)
-      : bytes_(static_cast<double>(stream.size())), marks_(marksSamples(stream)), slow_(slow) {}
+      : bytes_(static_cast<double>(stream.size())), slow_(slow) {}
 
   void window(const char* name, double plane, const std::function<void()>& call) {
-    const double whole = kPerPlaneSample * plane;
     check(name, call,
-          kWindowSeconds + (marks_ ? whole : std::min(whole, kPerDecidingByte * bytes_)));
+          kWindowSeconds + kPerPlaneSample * plane +
+              std::min(kPerSample * plane, kPerDecidingByte * bytes_));
   }
   /// samples: that the call is asked for.
   void all(const char* name, double samples, const std::function<void()>& call,
@@ -70,7 +61,6 @@ class Watch {
   }
 
   double bytes_;
-  bool marks_;
   double slow_;
   std::string found_;
 };

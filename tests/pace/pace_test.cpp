@@ -89,6 +89,9 @@ TEST(Pace, OfOneCodewordForAWholePlane) {
   expectInTime(direct, "stored heights");
   direct.geometry->drawn = true;
   expectInTime(direct, "drawn heights");
+  StreamHeader ordered = heightsOf(1 << 13);
+  ordered.geometry->priorities = {7, "\x5a\x93\x12\x77\x33\x19"};
+  expectInTime(ordered, "priorities");
   StreamHeader texture;
   TextureHeader& t = texture.texture.emplace();
   t.width = t.height = 1 << 14;
@@ -105,6 +108,19 @@ TEST(Pace, OfOneCodewordForAWholePlane) {
   expectInTime(texture, "a drawn texture");
   t.stored = true;
   expectInTime(texture, "a stored texture");
+}
+
+/// A mask by which all samples are flat, in a few bytes.
+TEST(Pace, OfFlatAreas) {
+  const double slow = slowness();
+  Bytes codeword(4000, 0xff);
+  codeword[3] = 0xfe;
+  StreamHeader flat = heightsOf(1 << 13);
+  flat.layers.flat_bytes = codeword.size() / 2;
+  for (const uint32_t areas : {1u, 3u}) {
+    flat.layers.flat_areas = areas;
+    EXPECT_EQ(slowCall(streamOf(flat, codeword), slow), "") << areas;
+  }
 }
 
 class SlowStreams : public testing::TestWithParam<uint64_t> {};

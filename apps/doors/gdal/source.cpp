@@ -61,12 +61,14 @@ std::unique_ptr<Source> Source::open(const std::string& name, const File& file,
     reportFailure(TKS_IO, name, "The length of the file cannot be found.");
     return nullptr;
   }
-  const uint64_t end = std::min(*length, settings.bytes.value_or(UINT64_MAX));
+  const bool alone = extent.begin == 0;  // not in a sequence, which is cut as a file
+  const uint64_t end = alone ? *length : std::min(*length, settings.bytes.value_or(UINT64_MAX));
   const uint64_t there = std::min(end - std::min(end, extent.begin), extent.size);
   std::unique_ptr<Source> source(new Source(name, settings, FileBytes(file, extent.begin)));
   source->chain_ = extent.chain;
   source->group_ = extent.group;
-  if (!source->readHeader(there) || !source->checkLength()) return nullptr;
+  if (!source->readHeader(there) || (alone && !source->cutBytes()) || !source->checkLength())
+    return nullptr;
   source->checksum_ = extent.checksum.empty() ? source->checksumOfHeader() : extent.checksum;
   if (isGridOnCube(source->info_)) source->cube_depth_ = source->info_.forest.depth;
   return source;
@@ -92,6 +94,18 @@ bool Source::readHeader(uint64_t there) {
   if (end_ == 0) message_ = "There are no bytes.";
   if (status != TKS_OK && status != TKS_IO) reportFailure(status, name_, message_);
   return status == TKS_OK;
+}
+
+bool Source::cutBytes() {
+  if (!settings_.bytes) return true;
+  const uint64_t beside = info_.index == TKS_INDEX_NONE ? 0 : info_.header_bytes;
+  end_ = beside + std::min(*settings_.bytes, end_ - beside);
+  if (end_ >= info_.header_bytes)
+    return reopen(std::min(end_, std::max(kHeaderGuess, info_.header_bytes)));
+  reportFailure(TKS_TRUNCATED, name_,
+                "BYTES ends inside the header, which takes " + std::to_string(info_.header_bytes) +
+                    " bytes.");
+  return false;
 }
 
 std::string Source::checksumOfHeader() const {

@@ -25,7 +25,7 @@ void reportFailure(tks_status status, const std::string& name, const std::string
 std::string hexadecimal(std::span<const uint8_t, 4> bytes);
 
 struct OpenSettings {
-  std::optional<uint64_t> bytes;  ///< as if the file were no longer than that
+  std::optional<uint64_t> bytes;  ///< as if the file were no longer, a header with an index aside
   bool strict = false;            ///< a stream that ends early or has damages is refused
   uint32_t threads = 1;
 };
@@ -118,6 +118,9 @@ class Source {
   /// Reads as much as the header takes, or there is, and returns how many bytes. Nothing after a
   /// reported error.
   std::optional<uint64_t> findHeader();
+  /// Leaves as many bytes as BYTES says. An index, whose length grows with the file's, and all of
+  /// the header with it, does not count: what it tells can be read before anything is shown.
+  bool cutBytes();
   bool checkLength();
   /// Reads up to this many bytes and opens them; TKS_IO after a reported error.
   tks_status openPrefix(uint64_t bytes);

@@ -8,6 +8,9 @@
 #include "apps/web/module/encode_inputs.hpp"
 #include "tetrakis/tetrakis.h"
 
+/// The page's: the longitude and latitude of a column and a row; not 0 where it knows none.
+extern "C" int web_degrees(double column, double row, double* degrees);
+
 namespace {
 
 using tetrakis::web::Numbers;
@@ -21,10 +24,17 @@ void placeOnCube(Raster& raster) {
   raster.forest = {depth, kCubePatches, tks_cube_sides()};
 }
 
-tks_heights heightsOf(Numbers& numbers, const char* const* texts, const void* data) {
+/// Of heights or an image, fitted before.
+template <class Raster>
+void takePositions(Raster& raster, Numbers& numbers, const void* positions) {
+  raster.positions = static_cast<const uint8_t*>(positions);
+  numbers.take(raster.positions_size);
+}
+
+tks_heights heightsOf(Numbers& numbers, const char* const* texts, const void* const* data) {
   tks_heights h{};
   h.size = sizeof h;
-  h.data = data;
+  h.data = data[0];
   numbers.take(h.width);
   numbers.take(h.height);
   numbers.take(h.sample);
@@ -40,6 +50,7 @@ tks_heights heightsOf(Numbers& numbers, const char* const* texts, const void* da
   numbers.take(h.registration);
   numbers.take(h.domain);
   placeOnCube(h);
+  takePositions(h, numbers, data[2]);
   h.unit = texts[0];
   h.vertical_datum = texts[1];
   h.crs = texts[2];
@@ -61,10 +72,10 @@ void findNodata(tks_heights& heights) {
   heights.nodata = found.value;
 }
 
-tks_image imageOf(Numbers& numbers, const char* const* texts, const void* data) {
+tks_image imageOf(Numbers& numbers, const char* const* texts, const void* const* data) {
   tks_image image{};
   image.size = sizeof image;
-  image.data = data;
+  image.data = data[1];
   numbers.take(image.width);
   numbers.take(image.height);
   numbers.take(image.channels);
@@ -74,11 +85,21 @@ tks_image imageOf(Numbers& numbers, const char* const* texts, const void* data) 
   numbers.take(image.registration);
   numbers.take(image.domain);
   placeOnCube(image);
+  takePositions(image, numbers, data[3]);
   numbers.take(image.opaque);
   numbers.take(image.white_level);
   image.crs = texts[5];
   image.geo_keys = texts[6];
   return image;
+}
+
+/// For tks_ground: from the page, which knows the CRS.
+int locate(void*, double column, double row, double* longitude, double* latitude) {
+  double degrees[2];
+  const int failed = web_degrees(column, row, degrees);
+  *longitude = degrees[0];
+  *latitude = degrees[1];
+  return failed;
 }
 
 }  // namespace
@@ -88,10 +109,10 @@ extern "C" {
 /// What the numbers of web_encode() are, by the names that JavaScript gives them.
 const char* web_encode_names() {
   return "width height sample scale offset step spacingX spacingY hasNodata nodata "
-         "hasGeotransform g0 g1 g2 g3 g4 g5 registration domain "
+         "hasGeotransform g0 g1 g2 g3 g4 g5 registration domain positions "
          "textureWidth textureHeight textureChannels textureSample "
          "textureHasGeotransform t0 t1 t2 t3 t4 t5 textureRegistration textureDomain "
-         "textureOpaque textureWhiteLevel "
+         "texturePositions textureOpaque textureWhiteLevel "
          "bytes psnr maxError lossless triangles regions index weights";
 }
 
@@ -100,12 +121,13 @@ const char* web_encode_texts() {
   return "unit verticalDatum crs description geoKeys textureCrs textureGeoKeys";
 }
 
-/// data: of the heights and of the image, NULL where there is none. texts: NULL where unknown.
+/// data: of the heights and of the image, NULL where there is none; then their positions, likewise.
+/// texts: NULL where unknown.
 tks_status web_encode(const double* numbers, const char* const* texts, const void* const* data,
                       tks_buffer* out, char* message, size_t message_size) {
   Numbers left(numbers);
-  tks_heights heights = heightsOf(left, texts, data[0]);
-  const tks_image image = imageOf(left, texts, data[1]);
+  tks_heights heights = heightsOf(left, texts, data);
+  const tks_image image = imageOf(left, texts, data);
   tks_encode_options o{};
   o.size = sizeof o;
   left.take(o.bytes);
@@ -120,6 +142,16 @@ tks_status web_encode(const double* numbers, const char* const* texts, const voi
   findNodata(heights);
   return tks_encode(data[0] != nullptr ? &heights : nullptr, data[1] != nullptr ? &image : nullptr,
                     &o, out, message, message_size);
+}
+
+/// tks_fit_positions, of a raster of that size.
+tks_status web_fit_positions(uint32_t width, uint32_t height, tks_buffer* out) {
+  tks_ground ground{};
+  ground.size = sizeof ground;
+  ground.width = width;
+  ground.height = height;
+  ground.locate = locate;
+  return tks_fit_positions(&ground, out);
 }
 
 }  // extern "C"

@@ -7,6 +7,9 @@ export type Samples =
   | Uint8Array | Int8Array | Uint16Array | Int16Array | Uint32Array | Int32Array | Float32Array;
 export type Registration = 'unknown' | 'area' | 'point';
 
+/** Longitude and latitude of coordinates of a CRS. */
+export type Project = (x: number, y: number, crs?: string) => [number, number];
+
 export interface HeightsInput {
   /** Row by row. A sample v is the height v * scale + offset in `unit`; NaN, `nodata` are voids. */
   data: Samples;
@@ -28,6 +31,9 @@ export interface HeightsInput {
   registration?: Registration;
   /** Default: "plane". Samples that patches of a cube share are equal. */
   domain?: Exclude<Domain, 'forest'>;
+  /** Called here some 2000 times; what it gives is fitted to a tenth of a sample, and the stream
+   * takes it along, in at most 200 bytes: who does not know the CRS places the stream by it. */
+  project?: Project;
   verticalDatum?: string;
   description?: string;
   geoKeys?: string;
@@ -49,6 +55,8 @@ export interface TextureInput {
   registration?: Registration;
   /** Default: "plane". */
   domain?: Exclude<Domain, 'forest'>;
+  /** As of heights; without it, those of heights in the same CRS count. */
+  project?: Project;
   geoKeys?: string;
 }
 

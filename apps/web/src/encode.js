@@ -4,18 +4,18 @@
 import {encodeApart} from './encode_apart.js';
 import {assets, objectAssets} from './encode_assets.js';
 import {checkNames, checkObjectNames} from './encode_names.js';
-import {encodeWith} from './encoder.js';
-import {encodeObjectWith} from './object_encoder.js';
+import {located} from './encoder_calls.js';
 
 export {TksError} from './error.js';
 
 export async function encode(input = {}, options = {}) {
   checkNames(input, options);
-  return encodeApart({assets, call: 'web_encode', encode: encodeWith}, input, options);
+  return encodeApart(assets, 'web_encode', options,
+    async (ask) => ask('web_encode', await located(input, ask)));
 }
 
 export async function encodeObject(mesh = {}, options = {}) {
   checkObjectNames(mesh, options);
-  const encoder = {assets: objectAssets, call: 'web_encode_object', encode: encodeObjectWith};
-  return encodeApart(encoder, mesh, options);
+  return encodeApart(objectAssets, 'web_encode_object', options,
+    (ask) => ask('web_encode_object', mesh));
 }

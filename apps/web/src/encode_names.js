@@ -4,7 +4,7 @@
 import {TksError} from './error.js';
 
 const RASTER = ['data', 'width', 'height', 'crs', 'geotransform', 'registration', 'geoKeys',
-  'domain'];
+  'domain', 'project'];
 const HEIGHTS = [...RASTER, 'nodata', 'unit', 'spacing', 'scale', 'offset', 'step',
   'verticalDatum', 'description'];
 const TEXTURE = [...RASTER, 'channels', 'opaque', 'whiteLevel'];

@@ -47,6 +47,7 @@ function heightsFields(heights) {
     registration: oneOf(REGISTRATIONS, heights.registration, 'registration'),
     domain: domainOf(heights),
     ...placed(heights.geotransform, 'hasGeotransform', 'g'),
+    positions: heights.positions?.length ?? 0,
   };
 }
 
@@ -55,6 +56,7 @@ const textureFields = (texture) => ({
   textureRegistration: oneOf(REGISTRATIONS, texture.registration, 'registration'),
   textureDomain: domainOf(texture),
   ...placed(texture.geotransform, 'textureHasGeotransform', 't'),
+  texturePositions: texture.positions?.length ?? 0,
 });
 
 /** Without a target streams are lossless. */
@@ -87,9 +89,10 @@ function textsOf({heights, texture}) {
     textureCrs: texture?.crs, textureGeoKeys: texture?.geoKeys};
 }
 
-/** tks_encode. */
+/** tks_encode. Heights and texture may have positions in the place of `project`. */
 export function encodeWith(module, input, progress) {
+  const {heights, texture} = input;
   const given = {numbers: fieldsOf(input), texts: textsOf(input),
-    arrays: [input.heights?.data, input.texture?.data]};
+    arrays: [heights?.data, texture?.data, heights?.positions, texture?.positions]};
   return withEncoder(module, progress, (instance) => streamOf(instance, 'web_encode', given));
 }

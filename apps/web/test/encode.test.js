@@ -10,6 +10,7 @@ import {test} from 'node:test';
 
 import {encode} from '../src/encode.js';
 import {TksError, open} from '../src/index.js';
+import {placeOf, projectionOf} from '../src/place.js';
 import {Decoder} from '../src/stream_decoder.js';
 import {terrainOf, tiffOf} from './terrain.js';
 
@@ -33,6 +34,44 @@ test('lossless comes back bit for bit, with its place', async () => {
   assert.deepEqual(info.geotransform, heights.geotransform);
   assert.deepEqual(
     [info.crs, info.unit, info.spacingX, info.nodata], ['EPSG:32611', 'm', 30, -32768]);
+});
+
+/** Places of a raster at its corners, its middle and beside it. */
+const places = (size) => [[0, 0], [size, 0], [0, size], [size, size], [size / 2, size / 2],
+  [size / 3, size * 0.9]];
+
+test('what `project` gives goes along, so that others place the stream', async () => {
+  const {heights, texture} = terrainOf(48);
+  const known = placeOf((await open(await encode({heights}))).info, 'heights');
+  const asked = new Set(), {inverse} = projectionOf(heights.crs);
+  const project = (x, y, crs) => (asked.add(crs), inverse(x, y));
+  const own = {...texture, crs: 'another', geotransform: heights.geotransform, project};
+  for (const worker of [true, false]) {
+    const stream = await encode(
+      {heights: {...heights, crs: 'my grid', project}, texture: own}, {worker});
+    const {info} = await open(stream);
+    assert.ok(info.positions.length <= 200 && info.texturePositions.length <= 200);
+    const place = placeOf(info, 'heights');
+    for (const [column, row] of places(48)) {
+      const [x, y] = place.pixels(...known.degrees(column, row));
+      assert.ok(Math.hypot(x - column, y - row) < 0.1, `${column}, ${row}: ${x}, ${y}`);
+    }
+  }
+  assert.deepEqual([...asked], ['my grid', 'another']);
+});
+
+test('what `project` does not know is no position', async () => {
+  const {heights} = terrainOf(16);
+  const {geotransform, ...nowhere} = heights;
+  const thrown = new RangeError('outside of the grid');
+  const fails = (given, error) => assert.rejects(encode({heights: given}), error);
+  await fails({...nowhere, project: () => [0, 0]}, {code: 'usage', message: /geotransform/});
+  await fails({...heights, project: () => undefined}, {code: 'unsupported', message: /project/});
+  await fails({...heights, project: (x) => [Math.abs(Math.sin(7919 * x)), 1]},
+    {code: 'unsupported'});
+  await fails({...heights, project: () => {
+    throw thrown;
+  }}, thrown);
 });
 
 test('undeclared nodata is found where that is asked for', async () => {

@@ -113,7 +113,9 @@ export async function scoped(): Promise<number> {
 }
 
 export function coded(image: ImageData): Promise<Uint8Array> {
-  const heights = {data: new Int16Array(4), width: 2, height: 2, unit: 'm', spacing: 30};
+  const project = (x: number, y: number): [number, number] => [x / 1e5, y / 1e5];
+  const heights = {data: new Int16Array(4), width: 2, height: 2, unit: 'm', spacing: 30,
+    crs: 'my grid', geotransform: [0, 1, 0, 0, 0, -1], project};
   return encode({heights, texture: image, bytes: 2e5, index: true}, {progress: console.log});
 }
 

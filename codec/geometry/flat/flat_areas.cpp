@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -16,30 +17,48 @@ namespace tetrakis::inline flat {
 
 namespace {
 
-/// Calls visit(sample, label, above) for marked samples, row by row. The label is that of the
-/// sample before, else that of the sample above, else the next new one; so labels rise with their
-/// first samples, and only one row of them is known at a time. above: the label of the sample
-/// above, or the sample's own where that is not marked. Returns how many labels there are.
-template <class Visit>
-uint32_t forEachLabel(const PlaneView<const uint8_t>& flat, const Visit& visit) {
-  constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
-  std::vector<uint32_t> row(flat.width, kNone);
-  uint32_t labels = 0, sample = 0;
+/// Marked samples of a row that follow one another.
+struct Run {
+  uint32_t begin, end;
+  uint32_t label;
+};
+
+/// The first of a row of marks that is `mark`, from x on; its width if there is none.
+uint32_t nextOf(uint8_t mark, std::span<const uint8_t> row, uint32_t x) {
+  const void* found = std::memchr(row.data() + x, mark, row.size() - x);
+  return static_cast<uint32_t>(found == nullptr ? row.size()
+                                                : static_cast<const uint8_t*>(found) - row.data());
+}
+
+/// Calls visit(y, run) for the runs of marked samples, row by row, and touch(label, above) for each
+/// run above that touches it. Its label is that of the first of these, else the next new one; so
+/// labels rise with their first samples, and only one row of runs is known at a time. Returns how
+/// many labels there are.
+template <class Visit, class Touch>
+uint32_t forEachRun(const PlaneView<const uint8_t>& flat, const Visit& visit, const Touch& touch) {
+  std::vector<Run> above, runs;
+  uint32_t labels = 0;
   for (uint32_t y = 0; y < flat.height; ++y) {
-    if (flat.patch_rows > 0 && y % flat.patch_rows == 0) std::fill(row.begin(), row.end(), kNone);
-    uint32_t before = kNone;
-    for (uint32_t& above : row) {
-      uint32_t label = kNone;
-      if (flat.data[sample] != 0) {
-        label = before != kNone ? before : above != kNone ? above : labels++;
-        visit(sample, label, above != kNone ? above : label);
-      }
-      before = above = label;
-      ++sample;
+    if (flat.patch_rows > 0 && y % flat.patch_rows == 0) above.clear();
+    const std::span row(flat.row(y), flat.width);
+    auto first = above.cbegin();  // that may touch the next run
+    for (uint32_t x = nextOf(1, row, 0), end = 0; x < flat.width; x = nextOf(1, row, end)) {
+      end = nextOf(0, row, x);
+      while (first != above.cend() && first->end <= x) ++first;
+      const bool touches = first != above.cend() && first->begin < end;
+      const Run run{x, end, touches ? first->label : labels++};
+      runs.push_back(run);
+      for (auto other = first; other != above.cend() && other->begin < end; ++other)
+        touch(run.label, other->label);
+      visit(y, run);
     }
+    above.swap(runs);
+    runs.clear();
   }
   return labels;
 }
+
+constexpr auto kNothing = [](auto...) {};
 
 }  // namespace
 
@@ -53,10 +72,12 @@ class SideLabels {
         n_(forest.side() - 1),
         labels_(forest.patches() * Forest::kSides * size_t{n_}, kNone) {}
 
-  /// sample: of the raster.
-  void note(uint32_t sample, uint32_t label) {
-    const uint32_t row = sample / (n_ + 1), x = sample % (n_ + 1), y = row % (n_ + 1);
-    if (x == 0 || x == n_ || y == 0 || y == n_) labels_[placeOf(row / (n_ + 1), x, y)] = label;
+  /// row: of the raster.
+  void note(uint32_t row, const Run& run) {
+    const uint32_t y = row % (n_ + 1);
+    for (uint32_t x = run.begin; x < run.end; ++x)
+      if (x == 0 || x == n_ || y == 0 || y == n_)
+        labels_[placeOf(row / (n_ + 1), x, y)] = run.label;
   }
   void join(JoinedLabels& joined) const {
     const auto label = [&](const Forest::Place& at) {
@@ -90,13 +111,15 @@ NumberedAreas numberAreas(const PlaneView<const uint8_t>& mask, const Forest* fo
   PlaneView<const uint8_t> flat = mask;
   if (forest != nullptr) flat.patch_rows = forest->side();
   assert(flat.extent().samples() <= GeometryLayers::kMostFlatSamples);
-  JoinedLabels joined(forEachLabel(flat, [](uint32_t, uint32_t, uint32_t) {}));
+  JoinedLabels joined(forEachRun(flat, kNothing, kNothing));
   std::optional<SideLabels> sides;
   if (forest != nullptr) sides.emplace(*forest);
-  forEachLabel(flat, [&](uint32_t sample, uint32_t label, uint32_t above) {
-    joined.join(label, above);
-    if (sides) sides->note(sample, label);
-  });
+  forEachRun(
+      flat,
+      [&](uint32_t y, const Run& run) {
+        if (sides) sides->note(y, run);
+      },
+      [&](uint32_t label, uint32_t above) { joined.join(label, above); });
   if (sides) sides->join(joined);
   NumberedAreas areas;
   std::vector<uint32_t> numbers = std::move(joined).earlier();
@@ -106,9 +129,11 @@ NumberedAreas numberAreas(const PlaneView<const uint8_t>& mask, const Forest* fo
     numbers[label] = first ? areas.count : numbers[numbers[label]];
   }
   areas.numbers.resize(flat.extent().samples());
-  forEachLabel(flat, [&](uint32_t sample, uint32_t label, uint32_t) {
-    areas.numbers[sample] = static_cast<uint16_t>(numbers[label]);
-  });
+  const auto number = [&](uint32_t y, const Run& run) {
+    std::fill_n(areas.numbers.begin() + static_cast<ptrdiff_t>(size_t{y} * flat.width + run.begin),
+                run.end - run.begin, static_cast<uint16_t>(numbers[run.label]));
+  };
+  forEachRun(flat, number, kNothing);
   return areas;
 }
 

@@ -54,8 +54,8 @@ class JoinedLabels {
   std::vector<uint32_t> earlier_;
 };
 
-/// The numbers of the areas of a mask of flat samples, and how many areas there are. There are no
-/// numbers if the areas are too many.
+/// The numbers of the areas of a mask of flat samples, 0 or 1, and how many areas there are. There
+/// are no numbers if the areas are too many.
 struct NumberedAreas {
   std::vector<uint16_t> numbers;
   uint32_t count = 0;

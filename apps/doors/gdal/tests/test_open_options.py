@@ -45,6 +45,30 @@ def test_bytes(stream, tmp_path):
         refused(lambda wrong=wrong: opened(stream, f"BYTES={wrong}"), "no number of bytes")
 
 
+@pytest.mark.parametrize("index", ["YES", "WINDOWS"])
+def test_bytes_beside_an_index(tmp_path, index):
+    """However long an index is, few bytes show something: those behind the header count."""
+    name = tmp_path / "a.tks"
+    copy(terrain(dtype="i2"), name, "BLOCKSIZE=16", f"INDEX={index}")
+    data = name.read_bytes()
+    with pytest.raises(RuntimeError) as short:
+        gdal.FileFromMemBuffer("/vsimem/short.tks", data[:20])
+        opened("/vsimem/short.tks")
+    header = int(re.search(r"at least (\d+) bytes", str(short.value)).group(1))
+    assert header > 4000
+    errors = []
+    for count in (100, 1000, 4000, len(data) // 2):
+        rough = opened(name, f"BYTES={count}")
+        heights = rough.ReadAsArray().astype(float)
+        errors.append(np.sqrt(np.mean((heights - terrain(dtype="i2")) ** 2)))
+        cut = tmp_path / "cut.tks"
+        cut.write_bytes(data[: header + count])
+        np.testing.assert_array_equal(opened(cut).ReadAsArray(), heights)
+    assert errors == sorted(errors, reverse=True) and errors[0] > errors[-1] > 0
+    whole = opened(name, f"BYTES={len(data)}").ReadAsArray()
+    np.testing.assert_array_equal(whole, terrain(dtype="i2"))
+
+
 def test_strict(stream, tmp_path):
     whole = stream.read_bytes()
     np.testing.assert_array_equal(opened(stream, "STRICT=YES").ReadAsArray(), terrain(dtype="i2"))
