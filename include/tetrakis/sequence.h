@@ -73,9 +73,9 @@ tks_status tks_sequence_encoder_open(const tks_sequence_options* options,
 void tks_sequence_encoder_close(tks_sequence_encoder* encoder);
 
 /* Lets an encoder that has taken no frame go on behind a sequence that was written before: its
- * bytes follow those of that one. TKS_USAGE, with a sentence in message: the sequence ends inside a group
- * (keep its first tks_sequence_info.whole_bytes), groups of it are missing or forgotten, its clock
- * is another one; the encoder has taken frames. */
+ * bytes follow those of that one. TKS_USAGE, with a sentence in message: the sequence ends inside a
+ * group (keep its first tks_sequence_info.whole_bytes), groups of it are missing or forgotten, its
+ * clock is another one; the encoder has taken frames. */
 typedef struct tks_sequence tks_sequence;
 tks_status tks_sequence_encoder_continue(tks_sequence_encoder* encoder,
                                          const tks_sequence* written, char* message,

@@ -83,7 +83,8 @@ tks_status tks_receiver_find(tks_receiver* receiver, uint64_t frame, uint64_t* f
 
 /* The decoder of the stream that holds a frame, with that frame set, as of tks_sequence_frame; it
  * is there until the next call of tks_receiver_frame for a frame of another group, _take, _forget
- * or _close. TKS_USAGE: the frame is not there; TKS_TRUNCATED: it goes on from what is not there. */
+ * or _close. TKS_USAGE: the frame is not there; TKS_TRUNCATED: it goes on from what is not
+ * there. */
 tks_status tks_receiver_frame(tks_receiver* receiver, uint64_t frame, tks_decoder** decoder);
 
 /* Gives up all groups that end before a frame and that its group does not go on from. The next
