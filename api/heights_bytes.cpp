@@ -20,10 +20,11 @@ struct CorrectionBytes {
 
   uint64_t of(uint64_t width) const { return models + column * width; }
 };
-constexpr CorrectionBytes kPlain = {160 << 10, 8};      // a sample of the row before
-constexpr CorrectionBytes kRelative = {160 << 10, 24};  // with what is known of its multiple
-constexpr CorrectionBytes kExact = {384 << 10, 56};     // errors and steps of four rows
-constexpr CorrectionBytes kFacets = {128 << 10, 56};    // errors, samples and ways of four rows
+constexpr uint64_t kNumbers = 560 << 10;                   // models of a NumberCoder
+constexpr CorrectionBytes kPlain = {kNumbers, 32};         // numbers of three rows
+constexpr CorrectionBytes kRelative = {2 * kNumbers, 80};  // of both, and what multiples are known
+constexpr CorrectionBytes kExact = {kNumbers, 56};         // errors and steps of four rows
+constexpr CorrectionBytes kFacets = {(128 << 10) + kNumbers, 56};  // errors, samples, ways likewise
 
 CorrectionBytes kindOfCorrections(const GeometryLayers& layers) {
   switch (layers.corrections) {

@@ -114,7 +114,8 @@ Result<ControlMessage> readControl(std::span<const uint8_t> bytes) {
   ControlMessage message;
   visit(reader, message);
   if (!reader.ok()) return corrupt(name, reader.status().message());
-  if (!std::ranges::equal(writeControl(message), bytes))
+  const std::vector<uint8_t> shortest = writeControl(message);
+  if (!std::equal(shortest.begin(), shortest.end(), bytes.begin(), bytes.end()))
     return corrupt(name, "its fields take more bytes than they need.");
   return message;
 }
