@@ -145,7 +145,7 @@ Result<ByteRanges> AnswerPlan::beyondRenderer(size_t place) {
 
 void AnswerPlan::add(size_t place, ByteRange range) {
   const KeptGroup& group = groups()[place];
-  range.end = std::min(range.end, group.parsed.bytes + group.stream.size());
+  range.end = std::min<uint64_t>(range.end, group.parsed.bytes + group.stream.size());
   if (range.begin >= range.end) return;
   for (const ByteRange& gap : sent_.missing(group.parsed.head.number, range)) {
     if (left_ <= kMostPieceHead) return;
