@@ -59,7 +59,10 @@ Result<CoarseGround> coarseGround(tks_decoder& decoder) {
   const Extent plane = header.geometry ? header.geometry->shown() : header.texture->shown();
   View view;
   while ((std::max(plane.width, plane.height) - 1) >> view.level >= kMostPoints) ++view.level;
-  if (header.geometry) view.level = std::min(view.level, coarsestLevelOf(header.geometry));
+  // Levels of a forest have rasters of their own, in which cameras of this one mean nothing.
+  const bool forest = header.geometry && header.geometry->wavelet.forest != nullptr;
+  if (header.geometry)
+    view.level = forest ? 0 : std::min(view.level, coarsestLevelOf(header.geometry));
   const Extent extent = view.extentIn(plane);
   CoarseGround ground{extent.width, extent.height, view.step(), {}};
   ground.heights.resize(extent.samples());
