@@ -2,6 +2,7 @@
 #include "api/outlook.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -69,7 +70,9 @@ Result<CoarseGround> coarseGround(tks_decoder& decoder) {
   if (!header.geometry || heightsAreUnsent(decoder)) return ground;
   if (Status status = checkMemory(decoder, {TKS_PART_HEIGHTS, view, 0}); !status.ok())
     return status;
-  writeSurface(decoder, decodeHeights(decoder, view), ground.heights.data());
+  const DecodedHeights decoded = decodeHeights(decoder, view);
+  assert(decoded.geometry.extent() == extent);
+  writeSurface(decoder, decoded, ground.heights.data());
   float low = HUGE_VALF;
   for (const float height : ground.heights) low = std::fmin(low, height);
   for (float& height : ground.heights)

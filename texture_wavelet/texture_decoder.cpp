@@ -230,10 +230,6 @@ Texels decodeLines(const TextureHeader& header, const Codewords& codewords, cons
   return texels;
 }
 
-}  // namespace
-
-namespace {
-
 /// The texels of a view of a whole plane.
 Texels viewOf(Texels texels, const View& view) {
   const Extent extent = view.extentIn(texels.extent());

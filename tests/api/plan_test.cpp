@@ -4,6 +4,8 @@
 
 #include "conformance/samples/header_seal.hpp"
 #include "ratecontrol/receiver/ground_sight.hpp"
+#include "tests/support/forest_raster.hpp"
+#include "tests/support/forest_shapes.hpp"
 #include "tests/support/indexed_terrain.hpp"
 
 namespace tetrakis::test {
@@ -83,6 +85,21 @@ TEST(Plan, CoversEveryByteOnceAndASecondLapIsEmpty) {
   for (const size_t known : {terrain.header, terrain.header + 1, terrain.header + size / 5, size})
     for (const uint64_t step : {uint64_t{313}, uint64_t{4000}, UINT64_MAX})
       ASSERT_NO_FATAL_FAILURE(expectCoverage(terrain, known, step)) << known << " " << step;
+}
+
+/// Cameras know the raster of a forest, whose patches lie one below the other. It has more rows
+/// than the ground that a plan looks at, and levels of another size.
+TEST(Plan, ForestsAreCoveredAsWell) {
+  for (const ForestShape& shape : forestShapes()) {
+    const ForestRaster surface{Forest(6, shape.sides), {Pattern::kRidges, 0, 0, 1, TKS_I16, 3}};
+    const Bytes bytes = surface.encoded(lossless());
+    const tks_screen_camera view = mapOf(10, 20, 50, 60);
+    Stream stream(Prefix(bytes).first(bytes.size() / 2));
+    const Ranges plan(stream, &view, UINT64_MAX, 300);
+    EXPECT_EQ(plan.bytes(), bytes.size() - bytes.size() / 2) << shape.name;
+    for (const tks_range& range : plan.all()) ASSERT_NO_FATAL_FAILURE(put(stream, bytes, range));
+    EXPECT_EQ(stream.heights(), surface.raster.data) << shape.name;
+  }
 }
 
 TEST(Plan, WhatIsSeenComesFirst) {

@@ -10,7 +10,6 @@
 #include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/place/ground_spacing.hpp"
 #include "apps/tools/files/place/texture_place.hpp"
-#include "apps/tools/report/globe_texture.hpp"
 #include "apps/tools/report/surface_normals.hpp"
 
 namespace tetrakis::tools {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // globeMesh() makes a mesh file of a globe: a closed surface round the centre of the body that the
-// heights lie on, with the north pole at the top.
+// heights lie on, with the north pole at the top, and layOnCube() gives it texture coordinates.
 #pragma once
 
 #include <cstdint>
@@ -22,5 +22,13 @@ struct GlobeRequest {
 /// same on both sides of a seam. Texture coordinates are there if the stream has a texture. The
 /// errors of tks_decode_globe.
 Result<MeshFile> globeMesh(Decoder& decoder, const GlobeRequest& request);
+
+// layOnCube() lays a texture of longitudes and latitudes over a globe on a cube. Its left border
+// meets its right one along a meridian, and its rows shrink to points at the poles: triangles there
+// get corners of their own, where the texture goes on beyond its border.
+
+/// file: the mesh, without texcoords. info: of heights on a cube that were made of a grid, and a
+/// texture that does not lie on its patches.
+void layOnCube(const tks_info& info, const tks_globe& body, const GlobeMesh& mesh, MeshFile& file);
 
 }  // namespace tetrakis::tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/tools/report/globe_texture.hpp"
+#include "apps/tools/report/globe_mesh.hpp"
 
 #include <algorithm>
 #include <array>

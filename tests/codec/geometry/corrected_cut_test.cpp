@@ -58,6 +58,21 @@ TEST_F(CorrectedCuts, RememberNothingThatIsNotSo) {
   }
 }
 
+/// What is foretold of the bytes behind a cut is near what they take. Coarse cuts take fewer bytes
+/// than foretold, since their corrections tell of each other by more than the entropy counts.
+TEST_F(CorrectedCuts, TotalsAreNearlyTrue) {
+  for (const int32_t largest : {1, 4, 20}) {
+    CorrectedCut cut = cuts(largest);
+    for (const double rmse : {0.3, 0.45, 0.7, 1.5}) {
+      const uint64_t bytes = cut.bytesFor(rmse * rmse * largest * largest);
+      const auto taken = static_cast<double>(bytes + bytesOf(cut.correct(bytes).codewords));
+      const auto total = static_cast<double>(cut.total(bytes));
+      EXPECT_GT(total, 0.95 * taken) << largest << ", " << rmse;
+      EXPECT_LT(total, (rmse < 0.5 ? 1.05 : 1.2) * taken) << largest << ", " << rmse;
+    }
+  }
+}
+
 /// The best cut has no better neighbour, unless a rival is out of reach.
 TEST_F(CorrectedCuts, BestIsBestAboutItself) {
   for (const int32_t largest : {1, 4, 20}) {
