@@ -105,7 +105,7 @@ const auto& streams() {
 /// So little that most tracks are forgotten again, less than a track takes, or enough for all.
 std::vector<tks_limits> limits() {
   std::vector<tks_limits> all;
-  for (const uint64_t most : {uint64_t{0}, uint64_t{8} << 20, uint64_t{3} << 20}) {
+  for (const uint64_t most : {uint64_t{0}, uint64_t{8} << 20, uint64_t{5} << 20}) {
     tks_limits one = {};
     one.size = sizeof one;
     one.max_memory = most;
