@@ -141,7 +141,7 @@ Status codeTileFor(const MosaicPlan& plan, tks_tile given, const tks_mosaic_sour
   const Result<MosaicFiles> storage = takeFiles(files);
   if (!storage.ok()) return storage.status();
   KnownSource known;
-  if (tile->group == 0) {
+  if (plan.grid().readsSource(*tile)) {
     if (Status status = takeSource(source, known); !status.ok()) return status;
     const GeometryHeader& header = plan.geometry();
     if (known.heights.width != header.width || known.heights.height != header.height ||
@@ -196,6 +196,16 @@ tks_status tks_mosaic_tiles(const uint8_t* plan, size_t plan_size, tks_tile* til
     const Result<MosaicPlan> known = takePlan(plan, plan_size);
     if (!known.ok()) return known.status();
     giveTiles(known->grid().tiles(), tiles, room, count);
+    return {};
+  });
+}
+
+tks_status tks_mosaic_coding_groups(const uint8_t* plan, size_t plan_size, uint32_t* groups) {
+  return answering([&]() -> Status {
+    if (groups == nullptr) return outputMissing();
+    const Result<MosaicPlan> known = takePlan(plan, plan_size);
+    if (!known.ok()) return known.status();
+    *groups = static_cast<uint32_t>(known->grid().codingGroups());
     return {};
   });
 }

@@ -149,11 +149,26 @@ int mostOf(uint32_t threads, size_t count, const std::function<int(size_t)>& num
   return *std::max_element(numbers.begin(), numbers.end());
 }
 
+/// The keys of the passes of a bit-plane.
+constexpr int kBitPlane = 16;
+
+/// One bit-plane after the other, as long as a byte of it takes off enough distortion. The first
+/// ones, above all coefficients, take bytes and take off nothing.
+void runWhileWorth(TrackCoder& coder, double least_slope) {
+  while (!coder.done()) {
+    const auto bytes = static_cast<double>(coder.bytes());
+    const double distortion = coder.distortion();
+    coder.run(coder.firstKey() - kBitPlane + 1, UINT64_MAX, TrackOptions::kNever);
+    const double removed = distortion - coder.distortion();
+    const double taken = static_cast<double>(coder.bytes()) - bytes;
+    if (removed > 0 && removed < least_slope * taken) return;
+  }
+}
+
 /// All coders together, one bit-plane after the other. It ends: `key` falls below the key of every
 /// pass, and a coder that is asked for all keys from there on is done.
 void runTogether(std::vector<std::optional<TrackCoder>>& coders, const TrackOptions& options) {
   assert(!coders.empty());
-  constexpr int kBitPlane = 16;
   int key = TrackCoder::kNoKey;
   for (const auto& coder : coders) key = std::max(key, coder->firstKey());
   const auto open = [&] {
@@ -213,10 +228,14 @@ std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
   return tracks;
 }
 
-EncodedTrack encodeTrack(const TrackSource& source, int planes) {
+EncodedTrack encodeTrack(const TrackSource& source, int planes, double least_slope) {
   assert(planesOf(source) <= planes);
   TrackCoder coder(source, planes);
-  coder.run(TrackCoder::kNoKey, UINT64_MAX, TrackOptions::kNever);
+  if (least_slope > 0) {
+    runWhileWorth(coder, least_slope);
+  } else {
+    coder.run(TrackCoder::kNoKey, UINT64_MAX, TrackOptions::kNever);
+  }
   return coder.finish();
 }
 

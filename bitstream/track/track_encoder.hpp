@@ -79,9 +79,10 @@ std::vector<EncodedTrack> encodeTracks(const std::vector<TrackSource>& sources,
 /// Bit-planes of the largest coefficient of a track.
 int planesOf(const TrackSource& track);
 
-/// One of the tracks of a component to the end. planes: those of the component's largest
-/// coefficient, or more.
-EncodedTrack encodeTrack(const TrackSource& source, int planes);
+/// One of the tracks of a component. planes: those of the component's largest coefficient, or more.
+/// least_slope: coding ends behind the first bit-plane of which a byte takes off less distortion;
+/// 0: with the last bit.
+EncodedTrack encodeTrack(const TrackSource& source, int planes, double least_slope = 0);
 
 /// The same of all of them, where each track is coded by itself: only those that are being coded
 /// take memory. source_of: is asked for every track twice, by several threads at a time.

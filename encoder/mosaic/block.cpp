@@ -23,27 +23,6 @@ std::string placeOf(const Window& window, size_t sample) {
          std::to_string(window.y + sample / window.width);
 }
 
-/// What the target of a plan promises of every sample.
-class Promise {
- public:
-  explicit Promise(const MosaicPlan& plan)
-      : most_(plan.target.bounded ? plan.geometry().max_error / std::abs(plan.header.metadata.scale)
-                                  : 0),
-        exact_(plan.header.lossless != 0),
-        bounded_(plan.target.bounded) {}
-
-  template <class T>
-  bool isKept(T sample, T restored) const {
-    if (exact_) return orderOf(sample) == orderOf(restored);
-    return !bounded_ ||
-           std::abs(static_cast<double>(sample) - static_cast<double>(restored)) <= most_;
-  }
-
- private:
-  double most_;
-  bool exact_, bounded_;
-};
-
 }  // namespace
 
 tks_heights heightsOf(const MosaicPlan& plan, const Window& window, const void* samples) {
@@ -76,7 +55,9 @@ Result<std::vector<int32_t>> stepsOf(const MosaicPlan& plan, const tks_heights& 
                                      "a new plan.");
       }
       const auto step = static_cast<int32_t>(std::lround(place));
-      if (!promise.isKept(samples[i], restore<T>(header.base, header.step, step))) {
+      const bool is_kept = plan.header.layers.restoresSamples() ||
+                           promise.isKept(samples[i], restore<T>(header.base, header.step, step));
+      if (!is_kept) {
         return Status(TKS_USAGE, placeOf(window, i) +
                                      " is no multiple of the step that the plan was made for, or "
                                      "a negative zero: a mosaic cannot keep it to the last bit; "
@@ -90,11 +71,11 @@ Result<std::vector<int32_t>> stepsOf(const MosaicPlan& plan, const tks_heights& 
 
 namespace {
 
-Result<Block> readSamples(const MosaicPlan& plan, const Window& window, const ReadSamples& read) {
-  const auto sample = static_cast<tks_sample>(plan.geometry().sample);
-  std::vector<std::byte> samples(window.extent().samples() * tks_sample_bytes(sample));
-  if (Status status = read(window, samples.data()); !status.ok()) return status;
-  const tks_heights heights = heightsOf(plan, window, samples.data());
+Result<Block> readSamples(const TaskInputs& inputs, const Window& window) {
+  const MosaicPlan& plan = inputs.plan;
+  const Result<std::vector<std::byte>> samples = readWindow(inputs, window);
+  if (!samples.ok()) return samples.status();
+  const tks_heights heights = heightsOf(plan, window, samples->data());
   Result<std::vector<uint8_t>> valid = findVoids(heights);
   if (!valid.ok()) return valid.status();
   if (!valid->empty() && !plan.hasVoids()) {
@@ -106,43 +87,40 @@ Result<Block> readSamples(const MosaicPlan& plan, const Window& window, const Re
   return Block{window, *std::move(steps), *std::move(valid)};
 }
 
-/// Copies what two rectangles of a plane share.
-template <class T>
-void copyShared(const Window& from, std::span<const T> source, const Window& to,
-                std::span<T> target) {
-  const uint32_t x = std::max(from.x, to.x), y = std::max(from.y, to.y);
-  const uint32_t x1 = std::min(from.x + from.width, to.x + to.width);
-  const uint32_t y1 = std::min(from.y + from.height, to.y + to.height);
-  for (uint32_t row = y; row < y1; ++row) {
-    const T* const line = source.data() + size_t{row - from.y} * from.width + (x - from.x);
-    std::copy_n(line, x1 - x, target.data() + size_t{row - to.y} * to.width + (x - to.x));
-  }
-}
-
 /// Puts the low band of a tile of the group before where it belongs in a block.
-Status addLow(const MosaicPlan& plan, const MosaicGrid& grid, const Tile& finer,
-              const MosaicFiles& files, Block& block) {
-  const Result<LowPart> low = readLow(files, hashOf(plan), finer);
+Status addLow(const TaskInputs& inputs, const Tile& finer, Block& block) {
+  const Result<LowPart> low = readLowOf(inputs, finer);
   if (!low.ok()) return low.status();
-  const Window from = grid.low(finer);
-  if (low->extent != from.extent())
-    return {TKS_IO, "The part " + lowName(finer) + " of the mosaic has another size."};
+  const Window from = inputs.grid.low(finer);
   copyShared<int32_t>(from, low->values, block.window, block.values);
-  if (low->valid.empty()) return Status();
+  if (low->marks.empty()) return Status();
   if (block.valid.empty()) block.valid.assign(block.values.size(), 1);
-  copyShared<uint8_t>(from, low->valid, block.window, block.valid);
+  copyShared<uint8_t>(from, low->marks, block.window, block.valid);
   return Status();
 }
 
 }  // namespace
 
-Result<Block> readBlock(const MosaicPlan& plan, const MosaicGrid& grid, const Tile& tile,
-                        const ReadSamples& read, const MosaicFiles& files) {
-  const Window window = grid.block(tile);
-  if (tile.group == 0) return readSamples(plan, window, read);
+Result<std::vector<std::byte>> readWindow(const TaskInputs& inputs, const Window& window) {
+  const auto sample = static_cast<tks_sample>(inputs.plan.geometry().sample);
+  std::vector<std::byte> samples(window.extent().samples() * tks_sample_bytes(sample));
+  if (Status status = inputs.read(window, samples.data()); !status.ok()) return status;
+  return samples;
+}
+
+Result<LowPart> readLowOf(const TaskInputs& inputs, const Tile& other) {
+  Result<LowPart> low = readLow(inputs.files, hashOf(inputs.plan), other);
+  if (low.ok() && low->extent != inputs.grid.low(other).extent())
+    return Status(TKS_IO, "The part " + lowName(other) + " of the mosaic has another size.");
+  return low;
+}
+
+Result<Block> readBlock(const TaskInputs& inputs, const Window& window) {
+  const int group = inputs.grid.planeGroup(inputs.tile);
+  if (group == 0) return readSamples(inputs, window);
   Block block{window, std::vector<int32_t>(window.extent().samples()), {}};
-  for (const Tile& finer : grid.needs(tile))
-    if (Status status = addLow(plan, grid, finer, files, block); !status.ok()) return status;
+  for (const Tile& finer : inputs.grid.leavers(group, window))
+    if (Status status = addLow(inputs, finer, block); !status.ok()) return status;
   return block;
 }
 

@@ -21,17 +21,20 @@ namespace {
 /// Where the codeword of a track lies, behind bytes that only the merge knows.
 struct TrackPlace {
   Tile tile;
-  uint64_t offset = 0, bytes = 0;
-  uint32_t crc = 0;
+  PartTable::Track stated;  ///< without points
 };
 
 /// What the merge holds of all parts.
 struct Parts {
-  std::vector<EncodedTrack> tracks;  ///< without codewords
+  std::vector<EncodedTrack> tracks;  ///< without codewords; those of corrections last
   std::vector<TrackPlace> places;    ///< of each track
   std::vector<uint8_t> validity;     ///< codeword, which opens track 0; empty: there are no voids
   uint64_t valid_samples = 0;
 };
+
+size_t correctionTracksOf(const MosaicPlan& plan) {
+  return static_cast<size_t>(correctionTracks(plan.geometry(), plan.header.layers));
+}
 
 /// Marks what a tile says of its samples.
 void addMask(const PartMask& valid, const Window& samples, BitPlane& mask) {
@@ -62,10 +65,26 @@ void openWith(std::vector<uint8_t> validity, Parts& parts) {
   points.insert(points.begin(), {0, points.front().distortion + 1 + all});
 }
 
+/// The error that coefficients leave is that of the corrections, which take it off.
+void passRestToCorrections(size_t coefficient_tracks, std::vector<EncodedTrack>& tracks) {
+  const std::span coefficients = std::span(tracks).first(coefficient_tracks);
+  const std::span corrections = std::span(tracks).subspan(coefficient_tracks);
+  double rest = 0, before = 0;
+  for (EncodedTrack& track : coefficients) {
+    const double left = track.points.back().distortion;
+    for (RatePoint& point : track.points) point.distortion -= left;
+    rest += left;
+  }
+  for (const EncodedTrack& track : corrections) before += track.points.front().distortion;
+  for (EncodedTrack& track : corrections)
+    for (RatePoint& point : track.points) point.distortion *= before > 0 ? rest / before : 0;
+}
+
 Result<Parts> readParts(const MosaicPlan& plan, const MosaicGrid& grid, const MosaicFiles& files) {
   Parts parts;
-  parts.tracks.resize(grid.regions().size());
-  parts.places.resize(grid.regions().size());
+  const size_t all = grid.regions().size() + correctionTracksOf(plan);
+  parts.tracks.resize(all);
+  parts.places.resize(all);
   const Extent plane = plan.geometry().extent();
   BitPlane mask(plan.hasVoids() ? plane : Extent{0, 0});
   const uint32_t hash = hashOf(plan);
@@ -78,10 +97,11 @@ Result<Parts> readParts(const MosaicPlan& plan, const MosaicGrid& grid, const Mo
     for (size_t i = 0; i < numbers.size(); ++i) {
       PartTable::Track& track = table->tracks[i];
       parts.tracks[numbers[i]] = {{}, std::move(track.points), plan.geometry().planes};
-      parts.places[numbers[i]] = {tile, track.offset, track.bytes, track.crc};
+      parts.places[numbers[i]] = {tile, {track.offset, track.bytes, track.crc, {}}};
     }
     if (plan.hasVoids() && tile.group == 0) addMask(table->valid, grid.samples(tile), mask);
   }
+  if (plan.corrects()) passRestToCorrections(grid.regions().size(), parts.tracks);
   parts.valid_samples = plan.hasVoids() ? countOf(mask) : plane.samples();
   if (plan.hasVoids()) openWith(encodeValidityBits(mask), parts);
   return parts;
@@ -89,7 +109,8 @@ Result<Parts> readParts(const MosaicPlan& plan, const MosaicGrid& grid, const Mo
 
 /// The packets of all tracks in their order, each with the error that it leaves.
 std::vector<Packet> orderedPackets(const MosaicPlan& plan, const Parts& parts, TrackOrder by) {
-  const CodedTracks coded{Component::kGeometry, parts.tracks, parts.validity.size()};
+  const CodedTracks coded{Component::kGeometry, parts.tracks, parts.validity.size(), 0,
+                          correctionTracksOf(plan)};
   OrderedTracks order = orderTracks(coded, by);
   const double samples = std::max(1.0, static_cast<double>(parts.valid_samples));
   const bool whole = plan.geometry().regions.side_log2 > 0;
@@ -117,8 +138,11 @@ StreamHeader headerFor(const MosaicPlan& plan, const Parts& parts,
   header.layers.validity_bytes = parts.validity.size();
   WaveletHeader& wavelet = header.geometry->wavelet;
   uint64_t coefficients = 0;
-  for (const TrackPlace& place : parts.places) coefficients += place.bytes;
+  const size_t of_coefficients = parts.places.size() - correctionTracksOf(plan);
+  for (const TrackPlace& place : std::span(parts.places).first(of_coefficients))
+    coefficients += place.stated.bytes;
   if (wavelet.fraction_bits == 0) wavelet.rounded_bytes = coefficients;
+  if (plan.corrects()) header.layers.coefficient_bytes = parts.places.front().stated.bytes;
   if (header.lossless != 0 || plan.target.bounded) header.payload_crc = 0;  // until it is known
   header.payload_bytes = bytesOfPackets(packets);
   if (options.index) header.index = indexOf(packets, trackCounts(header));
@@ -140,7 +164,8 @@ class PayloadWriter {
       return append(std::span(parts.validity).subspan(packet.begin, packet.length()));
     const TrackPlace& place = parts.places[track];
     const std::string name = partName(place.tile);
-    const auto bytes = files_.read(name, place.offset + packet.begin - opening, packet.length());
+    const auto bytes = files_.read(
+        name, place.stated.offset + packet.begin - opening, packet.length());
     if (!bytes.ok()) return bytes.status();
     if (bytes->size() != packet.length())
       return {TKS_IO, "The part " + name + " of the mosaic is too short."};
@@ -177,12 +202,8 @@ class PayloadWriter {
 /// Reads every codeword once: a damaged one must not become part of a stream.
 Status checkCodewords(const Parts& parts, const MosaicFiles& files) {
   for (const TrackPlace& place : parts.places) {
-    if (place.bytes == 0) continue;
-    const auto codeword = files.read(partName(place.tile), place.offset, place.bytes);
-    if (!codeword.ok() || codeword->size() != place.bytes || crc32(*codeword) != place.crc) {
-      return {TKS_IO, "The part " + partName(place.tile) +
-                          " of the mosaic is damaged: its tile has to be coded again."};
-    }
+    const auto codeword = readCodeword(files, place.tile, place.stated);
+    if (!codeword.ok()) return codeword.status();
   }
   return {};
 }

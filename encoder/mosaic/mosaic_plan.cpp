@@ -12,7 +12,7 @@ namespace tetrakis::inline mosaic {
 namespace {
 
 constexpr std::array<uint8_t, 4> kPlanMagic = {'T', 'K', 'M', 0x1a};
-constexpr uint8_t kPlanVersion = 1;
+constexpr uint8_t kPlanVersion = 2;
 
 }  // namespace
 
@@ -24,6 +24,7 @@ std::vector<uint8_t> writePlan(const MosaicPlan& plan) {
   out.number(plan.target.bytes);
   out.number(plan.target.mean_square);
   out.number<uint8_t>(plan.target.bounded);
+  out.number(plan.cut_slope);
   out.append(writeHeader(plan.header));
   return std::move(out).sealed();
 }
@@ -42,6 +43,7 @@ Result<MosaicPlan> readPlan(std::span<const uint8_t> bytes) {
   plan.target.bytes = in.number<uint64_t>();
   plan.target.mean_square = in.number<double>();
   plan.target.bounded = in.number<uint8_t>() != 0;
+  plan.cut_slope = in.number<double>();
   if (!in.ok()) return corrupt;
   Result<ParsedHeader> header = readHeader(in.rest());
   if (!header.ok() || !header->header.geometry) return corrupt;
@@ -50,6 +52,8 @@ Result<MosaicPlan> readPlan(std::span<const uint8_t> bytes) {
   const bool tiled = plan.tile_log2 >= std::max(region_log2, kLeastRegionLog2) &&
                      plan.tile_log2 <= kMostRegionLog2;
   if (!tiled || plan.header.texture || plan.geometry().direct()) return corrupt;
+  const bool followed = plan.cut_slope == 0 || plan.corrects();
+  if (!followed || !(plan.cut_slope >= 0) || (plan.corrects() && region_log2 == 0)) return corrupt;
   return plan;
 }
 

@@ -32,10 +32,17 @@ struct MosaicPlan {
   StreamHeader header;
   int tile_log2 = kUsualTileLog2;
   MosaicTarget target;
+  /// Coefficients are cut where a byte takes off less than so many squared steps. It is one for all
+  /// tasks, so that none has to know of the others. 0: there is no cut.
+  double cut_slope = 0;
 
   const GeometryHeader& geometry() const { return *header.geometry; }
   bool hasVoids() const { return header.layers.validity_bytes > 0; }
-  MosaicGrid grid() const { return {geometry().extent(), geometry().regions.side_log2, tile_log2}; }
+  /// Corrections follow the coefficients.
+  bool corrects() const { return header.layers.corrections != CorrectionKind::kNone; }
+  MosaicGrid grid() const {
+    return {geometry().extent(), geometry().regions.side_log2, tile_log2, corrects()};
+  }
 };
 
 /// What tasks read a plan from. Two plans with the same bytes make the same stream of one source.

@@ -131,13 +131,23 @@ Result<PartTable> readTable(const MosaicFiles& files, uint32_t plan, const Tile&
   return out;
 }
 
+Result<std::vector<uint8_t>> readCodeword(const MosaicFiles& files, const Tile& tile,
+                                          const PartTable::Track& track) {
+  if (track.bytes == 0) return std::vector<uint8_t>();
+  const std::string name = partName(tile);
+  Result<std::vector<uint8_t>> codeword = files.read(name, track.offset, track.bytes);
+  if (codeword.ok() && codeword->size() == track.bytes && crc32(*codeword) == track.crc)
+    return codeword;
+  return missing(name);
+}
+
 std::vector<uint8_t> writeLow(uint32_t plan, const Tile& tile, const LowPart& low) {
   assert(low.values.size() == low.extent.samples());
   ByteWriter out;
   writeOpening(out, kLowMagic, plan, tile);
   out.number(low.extent.width);
   out.number(low.extent.height);
-  writeMask(out, low.valid);
+  writeMask(out, low.marks);
   for (const int32_t value : low.values) out.number(value);
   return std::move(out).sealed();
 }
@@ -151,7 +161,7 @@ Result<LowPart> readLow(const MosaicFiles& files, uint32_t plan, const Tile& til
   LowPart low;
   low.extent.width = in.number<uint32_t>();
   low.extent.height = in.number<uint32_t>();
-  low.valid = readMask(in, low.extent.samples());
+  low.marks = readMask(in, low.extent.samples());
   low.values.resize(std::min(low.extent.samples(), in.rest().size() / sizeof(int32_t)));
   for (int32_t& value : low.values) value = in.number<int32_t>();
   if (!in.ok() || low.values.size() != low.extent.samples()) return missing(name);
@@ -161,12 +171,12 @@ Result<LowPart> readLow(const MosaicFiles& files, uint32_t plan, const Tile& til
 bool isDone(const MosaicFiles& files, uint32_t plan, const MosaicGrid& grid, const Tile& tile) {
   const Result<PartTable> table = readTable(files, plan, tile);
   if (!table.ok() || table->tracks.size() != grid.tracks(tile).size()) return false;
-  const PartTable::Track& last = table->tracks.back();
-  if (last.bytes > 0) {
+  if (!table->tracks.empty() && table->tracks.back().bytes > 0) {
+    const PartTable::Track& last = table->tracks.back();
     const auto end = files.read(partName(tile), last.offset + last.bytes - 1, 1);
     if (!end.ok() || end->empty()) return false;
   }
-  return grid.isBase(tile) || readLow(files, plan, tile).ok();
+  return !grid.leavesLow(tile) || readLow(files, plan, tile).ok();
 }
 
 }  // namespace tetrakis::inline mosaic

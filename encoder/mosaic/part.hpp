@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Part is what the task of a tile leaves for the merge: codewords with their accounts, and the
-// mask of its samples. A LowPart is what it leaves for the next group. Both are files of a mosaic,
+// mask of its samples. A LowPart is what it leaves for the tasks of the next group. Both are files of a mosaic,
 // sealed by the hash of the plan that they belong to and by checksums.
 #pragma once
 
@@ -81,11 +81,13 @@ struct Part {
   PartMask valid;                    ///< of the samples of a tile of group 0, in a plan with voids
 };
 
-/// The low band of a tile, in the next group's plane.
+/// A low band that a tile leaves for the tasks of the next group: of the samples themselves where it
+/// codes, or as decoders have it where it restores.
 struct LowPart {
   Extent extent;
   std::vector<int32_t> values;
-  PartMask valid;
+  /// Which samples exist; of a restored band, which of its vertices have a significant coefficient.
+  PartMask marks;
 };
 
 /// What a part says ahead of its codewords.
@@ -105,6 +107,10 @@ std::vector<uint8_t> writeLow(uint32_t plan, const Tile& tile, const LowPart& lo
 /// Reads the table of a part. TKS_IO: there is none, or it is damaged or of another plan; the tile
 /// is to be coded again.
 Result<PartTable> readTable(const MosaicFiles& files, uint32_t plan, const Tile& tile);
+
+/// Reads a codeword that the table of a tile states. TKS_IO: as above.
+Result<std::vector<uint8_t>> readCodeword(const MosaicFiles& files, const Tile& tile,
+                                          const PartTable::Track& track);
 
 /// Reads a low band. TKS_IO: as above.
 Result<LowPart> readLow(const MosaicFiles& files, uint32_t plan, const Tile& tile);

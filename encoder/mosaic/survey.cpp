@@ -2,30 +2,23 @@
 #include "encoder/mosaic/survey.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <numeric>
 #include <string>
 #include <type_traits>
 #include <vector>
 
-#include "base/portable_math.hpp"
 #include "base/samples.hpp"
 #include "codec/geometry/quantiser/height_steps.hpp"
-#include "codec/wavelet/choice/filter_choice.hpp"
-#include "codec/wavelet/choice/typical_plane.hpp"
 #include "encoder/mosaic/block.hpp"
+#include "encoder/mosaic/step_plan.hpp"
 #include "encoder/selection/write_stream.hpp"
 
 namespace tetrakis::inline mosaic {
 
 namespace {
 
-/// The part of the error of a PSNR that the accounts of tracks come down to: they estimate, and
-/// nobody decodes the plane. A larger part takes fewer bytes, and misses the PSNR of more heights.
-constexpr double kPartOfError = 0.94;
 /// More are in no stream that programs open.
 constexpr uint64_t kMostSamples = uint64_t{1} << 32;
 /// Sides of the windows that a survey reads. Larger ones take memory.
@@ -110,116 +103,6 @@ Result<Survey> surveyOf(const MosaicPlan& plan, const ReadSamples& read) {
   return survey;
 }
 
-/// A step on the grid of an exact step, or beside it, that keeps a largest error.
-Result<double> boundedStep(const Survey& survey, double exact, double error) {
-  if (exact > 0) return exact * (2 * std::floor(error / exact) + 1);
-  const double largest = std::max(std::abs(survey.low()), std::abs(survey.high()));
-  const double rounding = std::ldexp(1.0, std::ilogb(std::max(largest, 1e-30)) - 22);
-  const double step = 2 * (error - rounding);
-  if (step > 0 && survey.range() / step < kMostSteps) return step;
-  return Status(TKS_USAGE,
-                "That largest error is smaller than a mosaic of these floats can "
-                "promise: give a larger one.");
-}
-
-Result<double> stepFor(const Survey& survey, const MosaicOptions& options, double scale) {
-  if (options.step > 0) {
-    if (survey.range() / options.step < kMostSteps) return options.step;
-    return Status(TKS_USAGE,
-                  "That step divides the range of the heights into more than 2^26 "
-                  "parts; give a larger one.");
-  }
-  const double exact = survey.exactStep();
-  if (options.max_error > 0) return boundedStep(survey, exact, options.max_error / scale);
-  if (exact > 0 && (options.lossless || survey.range() / exact <= kLossySteps)) return exact;
-  if (options.lossless) {
-    return Status(TKS_USAGE,
-                  "The samples have no common step that divides their range into 2^26 "
-                  "parts or fewer: a mosaic cannot restore every bit of them; give a "
-                  "largest error.");
-  }
-  return portable::exp2(std::ceil(portable::log2(survey.range() / kLossySteps)));
-}
-
-/// Bit-planes that no coefficient passes: those of the samples, of three doublings, of the sums of
-/// a filter, and of means that two of the filters multiply by 1.7 or less at every level.
-uint8_t planesFor(const WaveletHeader& wavelet, int levels) {
-  constexpr int kDoublings = 3, kSums = 2;
-  const auto grows = [](uint8_t id) {
-    return static_cast<FilterId>(id) == FilterId::kQuiet ||
-           static_cast<FilterId>(id) == FilterId::kOrthogonal;
-  };
-  const bool growing = std::any_of(wavelet.filters.begin(), wavelet.filters.end(), grows);
-  const int planes = wavelet.bits + kDoublings + kSums + (growing ? levels : 0);
-  return static_cast<uint8_t>(std::min(planes, kMostPlanes));
-}
-
-/// The parts of the source by which filters are chosen, side by side: nine fields of three rows,
-/// each from the middle of a ninth of the source, as typicalParts() would take them.
-Result<WaveletHeader> waveletFor(const MosaicPlan& plan, int bits, Purpose purpose,
-                                 const ReadSamples& read) {
-  constexpr uint32_t kFields = 3;
-  const Extent plane = plan.geometry().extent();
-  const uint32_t width = std::min(kUsualSide, std::max(1u, plane.width / kFields)),
-                 height = std::min(kUsualSide, std::max(1u, plane.height / kFields));
-  const Extent whole{kFields * width, kFields * height};
-  std::vector<int32_t> values(whole.samples());
-  std::vector<uint8_t> marks(whole.samples(), 1);
-  std::vector<std::byte> samples(size_t{width} * height *
-                                 tks_sample_bytes(static_cast<tks_sample>(plan.geometry().sample)));
-  for (uint32_t field = 0; field < kFields * kFields; ++field) {
-    const uint32_t column = field % kFields, row = field / kFields;
-    const auto middle = [](uint32_t at, uint32_t side, uint32_t part) {
-      return static_cast<uint32_t>(uint64_t{side} * (2 * at + 1) / (2 * kFields)) - part / 2;
-    };
-    const Window window{middle(column, plane.width, width), middle(row, plane.height, height),
-                        width, height};
-    if (Status status = read(window, samples.data()); !status.ok()) return status;
-    const tks_heights heights = heightsOf(plan, window, samples.data());
-    const Result<std::vector<uint8_t>> valid = findVoids(heights);
-    if (!valid.ok()) return valid.status();
-    const Result<std::vector<int32_t>> steps = stepsOf(plan, heights, *valid, window);
-    if (!steps.ok()) return steps.status();
-    for (uint32_t y = 0; y < height; ++y) {
-      const size_t from = size_t{y} * width;
-      const size_t to = (size_t{row} * height + y) * whole.width + size_t{column} * width;
-      std::copy_n(steps->begin() + static_cast<ptrdiff_t>(from), width,
-                  values.begin() + static_cast<ptrdiff_t>(to));
-      for (uint32_t x = 0; x < width; ++x) marks[to + x] = Mask(*valid)[from + x];
-    }
-  }
-  const bool all = std::all_of(marks.begin(), marks.end(), [](uint8_t mark) { return mark != 0; });
-  const Mask valid = all ? Mask() : Mask(marks);
-  return chooseWavelet(PlaneView<const int32_t>(values, whole, valid), bits, purpose);
-}
-
-/// Base, step and filters, and what they promise.
-Status settle(const Survey& survey, const MosaicOptions& options, const ReadSamples& read,
-              MosaicPlan& plan) {
-  GeometryHeader& header = *plan.header.geometry;
-  const double scale = std::abs(plan.header.metadata.scale);
-  const Result<double> step = stepFor(survey, options, scale);
-  if (!step.ok()) return step.status();
-  header.step = *step;
-  header.base = survey.low() + *step * std::floor(survey.range() / 2 / *step);
-  if (survey.floats() && survey.range() > 0) header.base = *step * std::round(header.base / *step);
-  const int bits = std::bit_width(static_cast<uint32_t>(survey.range() / *step) + 1u);
-  const bool every_step = options.lossless || options.max_error > 0;
-  header.wavelet.bits = static_cast<uint8_t>(bits);  // stepsOf() looks at it
-  Result<WaveletHeader> wavelet =
-      waveletFor(plan, bits, every_step ? Purpose::kLossless : Purpose::kLossy, read);
-  if (!wavelet.ok()) return wavelet.status();
-  // Windows of large planes are what most readers want: they need the regions that filters reach.
-  header.wavelet = every_step ? withShortReach(*wavelet) : *wavelet;
-  header.planes = planesFor(header.wavelet, coarsestLevel(header.extent()));
-  if (options.bytes > 0) plan.target.bytes = options.bytes;
-  if (options.psnr > 0) {
-    const double rmse = survey.range() * portable::exp2(-options.psnr / 20 * portable::log2(10.));
-    plan.target.mean_square = kPartOfError * rmse * rmse / (*step * *step);
-  }
-  return {};
-}
-
 Status checkOptions(const MosaicOptions& options) {
   const int targets = (options.bytes > 0) + (options.psnr > 0) + (options.max_error > 0) +
                       (options.lossless ? 1 : 0);
@@ -259,8 +142,8 @@ Result<MosaicPlan> makePlan(const tks_heights& source, const MosaicOptions& opti
   const Result<Survey> survey = surveyOf(plan, read);
   if (!survey.ok()) return survey.status();
   plan.header.layers.validity_bytes = survey->voids() ? 1 : 0;
-  if (Status status = settle(*survey, options, read, plan); !status.ok()) return status;
-  header.exact = options.lossless;
+  if (Status status = chooseSteps(*survey, options, read, plan); !status.ok()) return status;
+  header.exact = options.lossless && !plan.header.layers.restoresSamples();
   return plan;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // makePlan() turns a source and a target into a plan. A survey reads the source once, window by
 // window, for what an encoder finds in a whole plane: range, voids, and the step that restores all
-// samples. Filters are chosen by the parts of the source that an encoder would try them on.
+// samples. Steps, filters and the cut are chosen by parts of the source (step_plan.hpp).
 #pragma once
 
 #include <array>

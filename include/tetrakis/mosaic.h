@@ -32,8 +32,8 @@ extern "C" {
  * else if they cannot be read (TKS_IO). */
 typedef int (*tks_read_window)(void* user, const tks_window* window, void* samples);
 
-/* The source of a mosaic: as of tks_encode, but its samples come by windows. `data` counts for
- * nothing. The domain is a plane of at most 2^32 samples. tks_heights.step: that of the samples; 0:
+/* The source of a mosaic: as of tks_encode, but its samples come by windows, each of them two or
+ * three times. `data` counts for nothing. The domain is a plane of at most 2^32 samples. tks_heights.step: that of the samples; 0:
  * it is found. */
 typedef struct tks_mosaic_source {
   size_t size; /* sizeof(tks_mosaic_source) */
@@ -59,13 +59,15 @@ typedef struct tks_mosaic_options {
 /* Makes the plan: some kilobytes that every task is given. It reads the source once, window by
  * window, for the range, the voids and the step of the samples; then nine small windows, by which
  * the filters are chosen. message: as of tks_encode. TKS_USAGE: the target cannot be promised;
- * floats without a common step cannot be restored to the last bit. */
+ * floats without a common step need two regions or more to be restored to the last bit. */
 tks_status tks_mosaic_plan(const tks_mosaic_source* source, const tks_mosaic_options* options,
                            tks_buffer* plan, char* message, size_t message_size);
 
 /* What one task codes: the tile in a column and row of a group of levels. Group 0 holds the finest
  * levels, and reads samples; each further group reads what the group before has left, and has a
- * 64th of its tiles or less. The last one has one tile, the base. */
+ * 64th of its tiles or less. The last one that codes coefficients has one tile, the base. Where
+ * corrections follow a cut of the coefficients as many groups follow, from the base to the samples:
+ * they restore what decoders will have, and the last one codes the corrections. */
 typedef struct tks_tile {
   uint32_t group, column, row;
 } tks_tile;
@@ -75,12 +77,16 @@ typedef struct tks_tile {
 tks_status tks_mosaic_tiles(const uint8_t* plan, size_t plan_size, tks_tile* tiles, size_t room,
                             size_t* count);
 
+/* Writes how many groups code coefficients. Tiles of further ones restore. */
+tks_status tks_mosaic_coding_groups(const uint8_t* plan, size_t plan_size, uint32_t* groups);
+
 /* Lists the tiles whose parts the task of a tile reads. TKS_USAGE: there is no such tile. */
 tks_status tks_mosaic_needs(const uint8_t* plan, size_t plan_size, tks_tile tile, tks_tile* tiles,
                             size_t room, size_t* count);
 
-/* Writes which samples the task of a tile reads: of the heights in group 0; in further ones of the
- * low band of 3 * group levels. */
+/* Writes which samples the task of a tile reads: of the heights in group 0 and in the last group
+ * that restores; in others of the low band of 3 * group levels, or 3 levels less for each group that
+ * restores. */
 tks_status tks_mosaic_block(const uint8_t* plan, size_t plan_size, tks_tile tile,
                             tks_window* block);
 
@@ -104,8 +110,10 @@ typedef struct tks_mosaic_files {
   void* user;
 } tks_mosaic_files;
 
-/* Codes a tile, proves that its codewords decode to what was coded, and leaves the parts
- * "gG-xX-yY.part" and, but of the base, "gG-xX-yY.low". source: NULL for groups above 0. threads:
+/* Codes or restores a tile, proves that its codewords decode to what was coded, or that corrected
+ * samples keep what was promised, and leaves "gG-xX-yY.low" for the next group, unless it is the
+ * base or the last group, and then "gG-xX-yY.part". source: may be NULL where no heights are read.
+ * threads:
  * nothing depends on them; 0 counts as 1. TKS_IO: samples or parts that it needs cannot be read, or
  * its own not be written. TKS_USAGE: a sample that the plan does not allow. TKS_MISMATCH: a fault
  * of the encoder. */

@@ -219,7 +219,7 @@ void inverseColourLevels(const ColourTransform& transform, const Pyramid& pyrami
                          std::span<ViewSynthesis> planes) {
   if (planes.size() < 3) return;
   for (const Subband& subband : pyramid.subbands()) {
-    const uint32_t count = planes.front().rows(subband);
+    const uint32_t count = planes.front().needed(subband).height;
     for (uint32_t row = 0; row < count; ++row) {
       const std::span<int32_t> first = planes[0].row(subband, row);
       const std::array<int32_t*, 3> rows = {first.data(), planes[1].row(subband, row).data(),

@@ -109,10 +109,13 @@ Result<std::vector<MosaicTask>> chosenTasks(const WorkFolder& folder, const Code
 namespace {
 
 /// What a task takes: its block as samples and as integers, with a mask and its copies, and what
-/// tracks and the blocks of a TIFF take beside it.
-Status checkTaskMemory(const WorkFolder& folder, const tks_tile& tile, tks_sample sample) {
+/// tracks and the blocks of a TIFF take beside it. Tasks that restore hold the samples as they
+/// decode, too.
+Status checkTaskMemory(const WorkFolder& folder, const MosaicTask& task, tks_sample sample) {
   constexpr uint64_t kBesides = 96 << 20, kAsIntegers = 4, kAsMasks = 3;
-  const uint64_t a_sample = tks_sample_bytes(sample) + kAsIntegers + kAsMasks;
+  const tks_tile& tile = task.tile;
+  const uint64_t a_sample =
+      tks_sample_bytes(sample) + kAsMasks + (task.restores ? 4 : 1) * kAsIntegers;
   tks_window block = {};
   tks_mosaic_block(folder.plan().data(), folder.plan().size(), tile, &block);
   return checkMemoryFor("coding the tile " + nameOf(tile),
@@ -136,7 +139,7 @@ Status codeMosaic(const CodeRequest& request, bool quiet) {
     Progress::report(&progress, static_cast<double>(i) / static_cast<double>(tasks->size()));
     const MosaicTask& task = (*tasks)[i];
     if (folder->isDone(task, source->get())) continue;
-    if (Status memory = checkTaskMemory(*folder, task.tile, given.heights.sample); !memory.ok())
+    if (Status memory = checkTaskMemory(*folder, task, given.heights.sample); !memory.ok())
       return memory;
     std::array<char, 512> message{};
     const tks_status status =

@@ -12,10 +12,6 @@ std::string tileText(const tks_tile& tile) {
          std::to_string(tile.row);
 }
 
-bool isBase(const WorkFolder& folder, const MosaicTask& task) {
-  return &task == &folder.tasks().back();
-}
-
 /// As make reads a name.
 std::string escaped(const std::string& name) {
   std::string out;
@@ -48,7 +44,7 @@ Json taskJson(const WorkFolder& folder) {
     for (const tks_tile& tile : task.needs) needs.push_back(nameOf(tile));
     const std::string name = nameOf(task.tile);
     outputs.push_back(folder.file(name + ".part").string());
-    if (!isBase(folder, task)) outputs.push_back(folder.file(name + ".low").string());
+    if (task.leaves_low) outputs.push_back(folder.file(name + ".low").string());
     list.push_back(
         {{"id", name},
          {"group", task.tile.group},
@@ -63,8 +59,12 @@ std::string taskMakefile(const WorkFolder& folder) {
   const auto part = [&](const tks_tile& tile) {
     return escaped(folder.file(nameOf(tile) + ".part").string());
   };
-  std::string text = "TETRAKIS ?= tetrakis\n\n.PHONY: all\nall: ";
-  text += part(folder.tasks().back().tile);
+  std::string text = "TETRAKIS ?= tetrakis\n\n.PHONY: all\nall:";
+  for (const MosaicTask& task : folder.tasks()) {
+    if (!task.is_last) continue;
+    text += ' ';
+    text += part(task.tile);
+  }
   text += '\n';
   const std::string plan = escaped(folder.file("plan").string());
   for (const MosaicTask& task : folder.tasks()) {

@@ -154,7 +154,13 @@ Result<WorkFolder> WorkFolder::open(const std::string& path) {
     folder.nodata_ = json["nodata"].get<double>();
   const Result<std::vector<tks_tile>> tiles = tilesOf(folder.plan_, path);
   if (!tiles.ok()) return tiles.status();
-  for (const tks_tile& tile : *tiles) folder.tasks_.push_back({tile, needsOf(folder.plan_, tile)});
+  uint32_t coding = 0;
+  tks_mosaic_coding_groups(folder.plan_.data(), folder.plan_.size(), &coding);
+  for (const tks_tile& tile : *tiles) {
+    const bool is_last = tile.group == tiles->back().group;
+    folder.tasks_.push_back({tile, needsOf(folder.plan_, tile), tile.group >= coding, is_last,
+                             !is_last && tile.group + 1 != coding});
+  }
   return folder;
 }
 
@@ -172,13 +178,16 @@ bool WorkFolder::isDone(const MosaicTask& task, const HeightSource* source) cons
     const auto written = fs::last_write_time(path, missing);
     return !missing && written > made;
   };
+  // Tasks that restore read codewords as well, which are in parts.
+  const std::string read = task.restores ? ".part" : ".low";
   for (const tks_tile& needed : task.needs)
-    if (is_newer(file(nameOf(needed) + ".low"))) return false;
-  if (source == nullptr || task.tile.group > 0) return true;
+    if (is_newer(file(nameOf(needed) + read))) return false;
+  const bool reads_source = task.restores ? task.is_last : task.tile.group == 0;
+  if (source == nullptr || !reads_source) return true;
   tks_window block{};
   tks_mosaic_block(plan_.data(), plan_.size(), task.tile, &block);
-  const std::vector<std::string> read = source->filesOf(block);
-  return std::none_of(read.begin(), read.end(), is_newer);
+  const std::vector<std::string> sources = source->filesOf(block);
+  return std::none_of(sources.begin(), sources.end(), is_newer);
 }
 
 tks_mosaic_files WorkFolder::files() const {

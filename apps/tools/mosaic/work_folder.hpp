@@ -23,6 +23,9 @@ std::string nameOf(const tks_tile& tile);
 struct MosaicTask {
   tks_tile tile;
   std::vector<tks_tile> needs;
+  bool restores;    ///< what decoders will have, from parts of others
+  bool is_last;     ///< no task needs it
+  bool leaves_low;  ///< a low band beside its part
 };
 
 class WorkFolder {

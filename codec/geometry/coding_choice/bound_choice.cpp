@@ -107,9 +107,14 @@ BestCut bestCut(std::deque<PartTrial>& trials, int32_t largest) {
 
 BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
                     int32_t largest) {
-  assert(steps.steps.size() == plane.samples());
   if (largest == 0) return {.correct = false};
   if (plane.samples() <= kSearchedSamples) return {};
+  return boundWaysByParts(steps, plane, wavelet, largest);
+}
+
+BoundWays boundWaysByParts(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
+                           int32_t largest) {
+  assert(steps.steps.size() == plane.samples());
   std::deque<PartTrial> trials;
   uint64_t rounded = 0, samples = 0;
   const Mask valid = steps.lifting(plane).valid;

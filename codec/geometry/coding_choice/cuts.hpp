@@ -170,4 +170,8 @@ struct BoundWays {
 BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
                     int32_t largest);
 
+/// The same by typical parts, whatever the size of the plane. largest: 1 or more.
+BoundWays boundWaysByParts(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
+                           int32_t largest);
+
 }  // namespace tetrakis::inline coding_choice

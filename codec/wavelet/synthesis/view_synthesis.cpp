@@ -124,8 +124,9 @@ void WindowSynthesis::put(const Band& band, int fraction_bits, const BandPart& p
   }
 }
 
-uint32_t WindowSynthesis::rows(const Subband& subband) const {
-  return targetOf(subband).rows.size();
+Window WindowSynthesis::needed(const Subband& subband) const {
+  const auto [columns, rows, first, pitch] = targetOf(subband);
+  return {columns.begin, rows.begin, columns.size(), rows.size()};
 }
 
 std::span<int32_t> WindowSynthesis::row(const Subband& subband, uint32_t row) {

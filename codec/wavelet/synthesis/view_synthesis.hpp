@@ -38,7 +38,7 @@ class WindowSynthesis {
   bool mayNeed(const Region& region) const;
   bool needs(const BandPart& part) const;
   void put(const Band& band, int fraction_bits, const BandPart& part);
-  uint32_t rows(const Subband& subband) const;
+  Window needed(const Subband& subband) const;
   std::span<int32_t> row(const Subband& subband, uint32_t row);
   /// Works on the calling thread alone.
   std::vector<int32_t> run(uint32_t threads);
@@ -123,8 +123,8 @@ class PlaneSynthesis {
     return pyramid_->isIn(pyramid_->subbands()[part.subband], level_);
   }
   void put(const Band& band, int fraction_bits, const BandPart& part);
-  uint32_t rows(const Subband& subband) const {
-    return pyramid_->isIn(subband, level_) ? subband.height : 0;
+  Window needed(const Subband& subband) const {
+    return {0, 0, subband.width, pyramid_->isIn(subband, level_) ? subband.height : 0};
   }
   std::span<int32_t> row(const Subband& subband, uint32_t row);
   std::vector<int32_t> run(uint32_t threads);
@@ -200,10 +200,10 @@ class ViewSynthesis {
     std::visit([&](auto& kernel) { kernel.put(band, fraction_bits, part); }, kernel_);
   }
 
-  /// The coefficients of a subband that are needed: the number of their rows, and each row in
+  /// The coefficients of a subband that are needed, as a rectangle of it, and a row of that in
   /// place.
-  uint32_t rows(const Subband& subband) const {
-    return std::visit([&](const auto& kernel) { return kernel.rows(subband); }, kernel_);
+  Window needed(const Subband& subband) const {
+    return std::visit([&](const auto& kernel) { return kernel.needed(subband); }, kernel_);
   }
   std::span<int32_t> row(const Subband& subband, uint32_t row) {
     return std::visit([&](auto& kernel) { return kernel.row(subband, row); }, kernel_);

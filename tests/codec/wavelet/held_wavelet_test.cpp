@@ -125,7 +125,7 @@ TEST(HeldWavelet, WindowsAreThoseOfThePlane) {
       // Blocks hold the coefficients that a window needs; the first of them stands for itself.
       if (window.width == size.width) {
         for (const Subband& band : pyramid.subbands()) {
-          for (uint32_t row = 0; row < synthesis.rows(band); ++row) {
+          for (uint32_t row = 0; row < synthesis.needed(band).height; ++row) {
             const std::span<int32_t> to = synthesis.row(band, row);
             std::copy_n(coefficients.data() + pyramid.indexOf(band, row), to.size(), to.data());
           }

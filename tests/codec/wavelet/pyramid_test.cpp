@@ -52,7 +52,7 @@ ViewSynthesis lowBandOf(const WaveletSpec& spec, const Pyramid& pyramid, int lev
   ViewSynthesis synthesis(spec, pyramid, {level, {}});
   synthesis.allocate();
   for (const Subband& subband : pyramid.subbands()) {
-    for (uint32_t row = 0; row < synthesis.rows(subband); ++row)
+    for (uint32_t row = 0; row < synthesis.needed(subband).height; ++row)
       std::copy_n(coefficients.data() + pyramid.indexOf(subband, row), subband.width,
                   synthesis.row(subband, row).begin());
   }

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encoder/mosaic/step_plan.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "base/portable_math.hpp"
+#include "base/samples.hpp"
+#include "codec/geometry/coding_choice/cuts.hpp"
+#include "codec/geometry/heights_encoder.hpp"
+#include "codec/geometry/quantiser/height_steps.hpp"
+#include "codec/geometry/quantiser/step_choice.hpp"
+#include "codec/wavelet/choice/filter_choice.hpp"
+#include "codec/wavelet/choice/typical_plane.hpp"
+#include "encoder/mosaic/block.hpp"
+#include "ratecontrol/curves/component_curve.hpp"
+
+namespace tetrakis::inline mosaic {
+
+namespace {
+
+/// The part of the error of a PSNR that the accounts of tracks come down to: they estimate, and
+/// nobody decodes the plane. A larger part takes fewer bytes, and misses the PSNR of more heights.
+constexpr double kPartOfError = 0.94;
+/// Samples along a side of the fields by which ways are compared. Larger ones compare better, and
+/// take time.
+constexpr uint32_t kTrialSide = 256;
+/// log2 of the distances of the largest floats in a step, where floats have no common step and
+/// corrections restore the rest: as toSteps() has it. More of them leave more bits to corrections,
+/// fewer make coefficients wider.
+constexpr int kFloatsPerStepLog2 = 4;
+/// A largest error is divided into so many steps at least where nothing else gives a step.
+constexpr double kStepsOfError = 64;
+constexpr double kMostLargest = 1 << 20;  // of steps; correction_step has room for twice as many
+constexpr double kSlack = 1e-9;           // a bound of whole steps is rounded by less
+
+/// Nine fields of three rows, side by side, each from the middle of a ninth of the source, as
+/// typicalParts() would take them.
+struct Fields {
+  Extent extent;
+  HeightSteps heights;
+
+  PlaneView<const int32_t> view() const { return heights.lifting(extent); }
+  double samples() const { return static_cast<double>(heights.validCount()); }
+};
+
+Status addField(const MosaicPlan& plan, const ReadSamples& read, const Window& window,
+                const Window& to, Fields& fields) {
+  std::vector<std::byte> samples(window.extent().samples() *
+                                 tks_sample_bytes(static_cast<tks_sample>(plan.geometry().sample)));
+  if (Status status = read(window, samples.data()); !status.ok()) return status;
+  const tks_heights heights = heightsOf(plan, window, samples.data());
+  const Result<std::vector<uint8_t>> valid = findVoids(heights);
+  if (!valid.ok()) return valid.status();
+  const Result<std::vector<int32_t>> steps = stepsOf(plan, heights, *valid, window);
+  if (!steps.ok()) return steps.status();
+  const Window all{0, 0, fields.extent.width, fields.extent.height};
+  copyShared<int32_t>(to, *steps, all, fields.heights.steps);
+  if (!valid->empty()) copyShared<uint8_t>(to, *valid, all, fields.heights.valid);
+  return {};
+}
+
+/// The fields in the steps of a plan whose wavelet has no fraction bits yet.
+Result<Fields> readFields(const MosaicPlan& plan, uint32_t side, const ReadSamples& read) {
+  constexpr uint32_t kFields = 3;
+  const Extent plane = plan.geometry().extent();
+  const uint32_t width = std::min(side, std::max(1u, plane.width / kFields)),
+                 height = std::min(side, std::max(1u, plane.height / kFields));
+  Fields fields{{kFields * width, kFields * height}, {}};
+  fields.heights.steps.resize(fields.extent.samples());
+  fields.heights.valid.assign(fields.extent.samples(), 1);
+  fields.heights.range_bits = plan.geometry().wavelet.bits;
+  for (uint32_t row = 0; row < kFields; ++row) {
+    for (uint32_t column = 0; column < kFields; ++column) {
+      const auto middle = [](uint32_t at, uint32_t along, uint32_t part) {
+        return static_cast<uint32_t>(uint64_t{along} * (2 * at + 1) / (2 * kFields)) - part / 2;
+      };
+      const Window window{middle(column, plane.width, width), middle(row, plane.height, height),
+                          width, height};
+      const Window to{column * width, row * height, width, height};
+      if (Status status = addField(plan, read, window, to, fields); !status.ok()) return status;
+    }
+  }
+  std::vector<uint8_t>& valid = fields.heights.valid;
+  if (std::all_of(valid.begin(), valid.end(), [](uint8_t mark) { return mark != 0; }))
+    valid.clear();
+  return fields;
+}
+
+void setStep(const Survey& survey, double step, MosaicPlan& plan) {
+  GeometryHeader& header = *plan.header.geometry;
+  header.step = step;
+  header.base = survey.low() + step * std::floor(survey.range() / 2 / step);
+  if (survey.floats() && survey.range() > 0) header.base = step * std::round(header.base / step);
+  const int bits = std::bit_width(static_cast<uint32_t>(survey.range() / step) + 1u);
+  header.wavelet = {};
+  header.wavelet.bits = static_cast<uint8_t>(bits);  // stepsOf() looks at it
+}
+
+/// Bit-planes that no coefficient passes: those of the samples, of three doublings, of the sums of
+/// a filter, and of means that two of the filters multiply by 1.7 or less at every level.
+uint8_t planesFor(const WaveletHeader& wavelet, int levels) {
+  constexpr int kDoublings = 3, kSums = 2;
+  const auto grows = [](uint8_t id) {
+    return static_cast<FilterId>(id) == FilterId::kQuiet ||
+           static_cast<FilterId>(id) == FilterId::kOrthogonal;
+  };
+  const bool growing = std::any_of(wavelet.filters.begin(), wavelet.filters.end(), grows);
+  const int planes = wavelet.bits + kDoublings + kSums + (growing ? levels : 0);
+  return static_cast<uint8_t>(std::min(planes, kMostPlanes));
+}
+
+void setWavelet(const WaveletHeader& wavelet, MosaicPlan& plan) {
+  GeometryHeader& header = *plan.header.geometry;
+  header.wavelet = wavelet;
+  header.planes = planesFor(wavelet, coarsestLevel(header.extent()));
+}
+
+/// Filters for every step. Windows of large planes are what most readers want: they need the
+/// regions that filters reach.
+void setExactWavelet(const Fields& fields, MosaicPlan& plan) {
+  const WaveletHeader wavelet =
+      chooseWavelet(fields.view(), fields.heights.range_bits, Purpose::kLossless);
+  setWavelet(withShortReach(wavelet), plan);
+}
+
+/// What a byte takes off, in squared steps, where coefficients of the fields leave an error. Where
+/// the fields say nothing it is that of noise: an error D falls by D log 4 a bit.
+double slopeAt(const Fields& fields, const WaveletHeader& wavelet, double mean_square) {
+  const double squares = mean_square * fields.samples();
+  const EncodedTrack track =
+      std::move(encodeCoefficients(fields.view(), wavelet, {.enough = squares / 2}).front());
+  const std::vector<RatePoint> hull = lowerHull(track.points, 0);
+  double slope = 16 * std::numbers::ln2 * mean_square;
+  for (size_t i = 1; i < hull.size(); ++i) {
+    const RatePoint &a = hull[i - 1], &b = hull[i];
+    slope = (a.distortion - b.distortion) / static_cast<double>(b.bytes - a.bytes);
+    if (b.distortion <= squares) break;
+  }
+  return slope;
+}
+
+/// Plans a cut that leaves an error, with corrections behind it that leave a largest one.
+void setCut(const Fields& fields, double mean_square, int32_t largest, MosaicPlan& plan) {
+  const WaveletHeader wavelet = chooseWavelet(fields.view(), fields.heights.range_bits,
+                                              Purpose::kLossy, {.mean_square = mean_square});
+  setWavelet(withShortReach(wavelet), plan);
+  plan.cut_slope = slopeAt(fields, wavelet, mean_square);
+  plan.header.layers.corrections = CorrectionKind::kSteps;
+  plan.header.layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
+}
+
+bool hasRegions(const MosaicPlan& plan) {
+  return plan.geometry().regions.side_log2 > 0;
+}
+
+/// Plans that every step comes back: by all coefficients, or by corrections behind a cut where that
+/// takes fewer bytes.
+Status keepSteps(double step, const Survey& survey, const ReadSamples& read, MosaicPlan& plan) {
+  setStep(survey, step, plan);
+  const Result<Fields> fields = readFields(plan, hasRegions(plan) ? kTrialSide : kUsualSide, read);
+  if (!fields.ok()) return fields.status();
+  setExactWavelet(*fields, plan);
+  if (!hasRegions(plan)) return {};
+  const std::vector<EncodedTrack> whole =
+      encodeCoefficients(fields->view(), plan.geometry().wavelet, {});
+  const std::optional<ExactCut> cut =
+      chooseExactCut(fields->view(), fields->heights.range_bits, bytesOf(whole));
+  if (cut) setCut(*fields, cut->mean_square, 0, plan);
+  return {};
+}
+
+/// Plans that floats without a common step come back: all coefficients of coarse steps, and
+/// corrections of the samples. A cut at 1, 64 and 4096 squared steps takes 3 to 60 % more bytes.
+Status keepFloats(const Survey& survey, const ReadSamples& read, MosaicPlan& plan) {
+  const auto largest = static_cast<float>(std::max(std::abs(survey.low()), std::abs(survey.high())));
+  setStep(survey, std::ldexp(1.0, spacingExponent(largest) + kFloatsPerStepLog2), plan);
+  plan.header.layers.corrections = CorrectionKind::kSamples;
+  const Result<Fields> fields = readFields(plan, kUsualSide, read);
+  if (!fields.ok()) return fields.status();
+  setExactWavelet(*fields, plan);
+  return {};
+}
+
+/// The rounding of the largest floats; 0 of integers.
+double roundingOf(const Survey& survey) {
+  if (!survey.floats()) return 0;
+  const double largest = std::max(std::abs(survey.low()), std::abs(survey.high()));
+  return std::ldexp(1.0, std::ilogb(std::max(largest, 1e-30)) - 22);
+}
+
+/// The step of corrected heights: the exact one, or one that a largest error has many of.
+double fineStep(const Survey& survey, double error) {
+  if (const double exact = survey.exactStep(); exact > 0) return exact;
+  const double of_range = portable::exp2(std::ceil(portable::log2(survey.range() / kLossySteps)));
+  const double of_error = portable::exp2(std::floor(portable::log2(error / kStepsOfError)));
+  const double least = portable::exp2(std::ceil(portable::log2(survey.range() / kMostSteps)) + 1);
+  return std::max(std::min(of_range, of_error), least);
+}
+
+/// A step on the grid of an exact step, or beside it, that keeps a largest error when heights are
+/// rounded to it; 0: there is none.
+double roundedStep(const Survey& survey, double error) {
+  const double exact = survey.exactStep();
+  if (exact > 0) return exact * (2 * std::floor(error / exact + kSlack) + 1);
+  const double step = 2 * (error - roundingOf(survey));
+  return step > 0 && survey.range() / step < kMostSteps ? step : 0;
+}
+
+/// Plans a largest error, in sample units: heights are rounded and then kept, or cut and corrected.
+Status keepWithin(double error, const Survey& survey, const ReadSamples& read, MosaicPlan& plan) {
+  const double rounded = roundedStep(survey, error);
+  const double fine = survey.range() > 0 ? fineStep(survey, error) : 1;
+  const double own = survey.exactStep() > 0 ? 0 : fine / 2 + roundingOf(survey);
+  const double room = std::floor((error - own) / fine + kSlack);
+  if (hasRegions(plan) && survey.range() > 0 && room >= 1) {
+    const auto largest = static_cast<int32_t>(std::min(room, kMostLargest));
+    setStep(survey, fine, plan);
+    const Result<Fields> fields = readFields(plan, kTrialSide, read);
+    if (!fields.ok()) return fields.status();
+    const WaveletHeader wavelet =
+        chooseWavelet(fields->view(), fields->heights.range_bits, Purpose::kLossy);
+    const BoundWays ways = boundWaysByParts(fields->heights, fields->extent, wavelet, largest);
+    if (ways.correct || rounded == 0) {
+      setCut(*fields, ways.mean_square.value_or(usualCut(largest)), largest, plan);
+      return {};
+    }
+  }
+  if (rounded > 0) return keepSteps(rounded, survey, read, plan);
+  return {TKS_USAGE,
+          "That largest error is smaller than a mosaic of these floats can promise: give a larger "
+          "one."};
+}
+
+/// Plans coefficients that a target of bytes or of a PSNR cuts.
+Status keepMost(const MosaicOptions& options, const Survey& survey, const ReadSamples& read,
+                MosaicPlan& plan) {
+  const double exact = survey.exactStep();
+  const bool is_exact = exact > 0 && survey.range() / exact <= kLossySteps;
+  const double usual = portable::exp2(std::ceil(portable::log2(survey.range() / kLossySteps)));
+  const double step = options.step > 0 ? options.step : is_exact ? exact : usual;
+  setStep(survey, step, plan);
+  const Result<Fields> fields = readFields(plan, kUsualSide, read);
+  if (!fields.ok()) return fields.status();
+  setWavelet(chooseWavelet(fields->view(), fields->heights.range_bits, Purpose::kLossy), plan);
+  if (options.bytes > 0) plan.target.bytes = options.bytes;
+  if (options.psnr > 0) {
+    const double rmse = survey.range() * portable::exp2(-options.psnr / 20 * portable::log2(10.));
+    plan.target.mean_square = kPartOfError * rmse * rmse / (step * step);
+  }
+  return {};
+}
+
+}  // namespace
+
+Status chooseSteps(const Survey& survey, const MosaicOptions& options, const ReadSamples& read,
+                   MosaicPlan& plan) {
+  if (options.step > 0 && survey.range() / options.step >= kMostSteps) {
+    return {TKS_USAGE,
+            "That step divides the range of the heights into more than 2^26 parts; give a larger "
+            "one."};
+  }
+  if (options.bytes > 0 || options.psnr > 0) return keepMost(options, survey, read, plan);
+  if (options.step > 0) return keepSteps(options.step, survey, read, plan);
+  if (options.max_error > 0) {
+    const double error = options.max_error / std::abs(plan.header.metadata.scale);
+    return keepWithin(error, survey, read, plan);
+  }
+  if (const double exact = survey.exactStep(); exact > 0) return keepSteps(exact, survey, read, plan);
+  if (hasRegions(plan)) return keepFloats(survey, read, plan);
+  return {TKS_USAGE,
+          "The samples have no common step that divides their range into 2^26 parts or fewer: a "
+          "mosaic of one region cannot restore every bit of them; give a largest error."};
+}
+
+}  // namespace tetrakis::inline mosaic
