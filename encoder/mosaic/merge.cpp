@@ -164,8 +164,8 @@ class PayloadWriter {
       return append(std::span(parts.validity).subspan(packet.begin, packet.length()));
     const TrackPlace& place = parts.places[track];
     const std::string name = partName(place.tile);
-    const auto bytes = files_.read(
-        name, place.stated.offset + packet.begin - opening, packet.length());
+    const auto bytes =
+        files_.read(name, place.stated.offset + packet.begin - opening, packet.length());
     if (!bytes.ok()) return bytes.status();
     if (bytes->size() != packet.length())
       return {TKS_IO, "The part " + name + " of the mosaic is too short."};

@@ -99,8 +99,7 @@ void decodeAll(const TaskInputs& inputs, const BlockLayout& layout,
     if (!any) return;
     const TrackState state =
         decodeTrack(std::move(track.plan), inputs.plan.geometry().planes, codewords[i].bytes);
-    for (size_t k = 0; k < track.here.size(); ++k)
-      synthesis.put(state.bands[k], 0, track.here[k]);
+    for (size_t k = 0; k < track.here.size(); ++k) synthesis.put(state.bands[k], 0, track.here[k]);
     significance.take(i, state.bands, track.here);
   });
 }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,9 @@ constexpr uint32_t kTrialSide = 256;
 /// corrections restore the rest: as toSteps() has it. More of them leave more bits to corrections,
 /// fewer make coefficients wider.
 constexpr int kFloatsPerStepLog2 = 4;
+/// The bytes for which coarse levels get the shortest filters. A larger factor gives more planes
+/// windows that read little, and takes bytes.
+constexpr double kMostForWindows = 1.01;
 /// A largest error is divided into so many steps at least where nothing else gives a step.
 constexpr double kStepsOfError = 64;
 constexpr double kMostLargest = 1 << 20;  // of steps; correction_step has room for twice as many
@@ -43,6 +47,8 @@ constexpr double kSlack = 1e-9;           // a bound of whole steps is rounded b
 /// Nine fields of three rows, side by side, each from the middle of a ninth of the source, as
 /// typicalParts() would take them.
 struct Fields {
+  static constexpr uint32_t kSide = 3;  ///< fields in a row or column
+
   Extent extent;
   HeightSteps heights;
 
@@ -68,7 +74,7 @@ Status addField(const MosaicPlan& plan, const ReadSamples& read, const Window& w
 
 /// The fields in the steps of a plan whose wavelet has no fraction bits yet.
 Result<Fields> readFields(const MosaicPlan& plan, uint32_t side, const ReadSamples& read) {
-  constexpr uint32_t kFields = 3;
+  constexpr uint32_t kFields = Fields::kSide;
   const Extent plane = plan.geometry().extent();
   const uint32_t width = std::min(side, std::max(1u, plane.width / kFields)),
                  height = std::min(side, std::max(1u, plane.height / kFields));
@@ -122,35 +128,77 @@ void setWavelet(const WaveletHeader& wavelet, MosaicPlan& plan) {
   header.planes = planesFor(wavelet, coarsestLevel(header.extent()));
 }
 
-/// Filters for every step. Windows of large planes are what most readers want: they need the
-/// regions that filters reach.
+/// A track of coefficients of each field, which is a plane of its own: fields do not go on in one
+/// another. mean_square: the error at which coding may end.
+std::vector<EncodedTrack> codeFields(const Fields& fields, const WaveletHeader& wavelet,
+                                     double mean_square) {
+  constexpr double kBeyond = 1. / 8;  // rough fields keep more than the mean, flat ones less
+  const uint32_t width = fields.extent.width / Fields::kSide,
+                 height = fields.extent.height / Fields::kSide;
+  std::vector<EncodedTrack> tracks;
+  for (uint32_t i = 0; i < Fields::kSide * Fields::kSide; ++i) {
+    const View field{0,
+                     Window{i % Fields::kSide * width, i / Fields::kSide * height, width, height}};
+    const auto values = slice(std::span<const int32_t>(fields.heights.steps), fields.extent, field);
+    const auto valid = slice(std::span<const uint8_t>(fields.heights.valid), fields.extent, field);
+    CoefficientOptions options;
+    if (mean_square > 0) options.enough = kBeyond * mean_square * width * height;
+    tracks.push_back(
+        std::move(encodeCoefficients({values, {width, height}, valid}, wavelet, options).front()));
+  }
+  return tracks;
+}
+
+/// Windows of large planes are what most readers want: they need the regions that filters reach, so
+/// that the shortest filters serve coarse levels wherever they take few more bytes.
+WaveletHeader forWindows(const Fields& fields, const WaveletHeader& wavelet, double mean_square) {
+  const WaveletHeader short_reach = withShortReach(wavelet);
+  const auto bytes = [&](const WaveletHeader& tried) {
+    return static_cast<double>(bytesOf(codeFields(fields, tried, mean_square)));
+  };
+  return bytes(short_reach) < kMostForWindows * bytes(wavelet) ? short_reach : wavelet;
+}
+
+/// Filters for every step.
 void setExactWavelet(const Fields& fields, MosaicPlan& plan) {
   const WaveletHeader wavelet =
       chooseWavelet(fields.view(), fields.heights.range_bits, Purpose::kLossless);
-  setWavelet(withShortReach(wavelet), plan);
+  setWavelet(forWindows(fields, wavelet, 0), plan);
 }
 
-/// What a byte takes off, in squared steps, where coefficients of the fields leave an error. Where
-/// the fields say nothing it is that of noise: an error D falls by D log 4 a bit.
+/// What a byte takes off, in squared steps, where the coefficients of all fields together leave an
+/// error: the marginal allocation among their tracks. Where the fields say nothing it is that of
+/// noise: an error D falls by D log 4 a bit.
 double slopeAt(const Fields& fields, const WaveletHeader& wavelet, double mean_square) {
-  const double squares = mean_square * fields.samples();
-  const EncodedTrack track =
-      std::move(encodeCoefficients(fields.view(), wavelet, {.enough = squares / 2}).front());
-  const std::vector<RatePoint> hull = lowerHull(track.points, 0);
-  double slope = 16 * std::numbers::ln2 * mean_square;
-  for (size_t i = 1; i < hull.size(); ++i) {
-    const RatePoint &a = hull[i - 1], &b = hull[i];
-    slope = (a.distortion - b.distortion) / static_cast<double>(b.bytes - a.bytes);
-    if (b.distortion <= squares) break;
+  struct Edge {
+    double slope, removed;
+  };
+  std::vector<Edge> edges;
+  double left = 0;
+  for (const EncodedTrack& track : codeFields(fields, wavelet, mean_square)) {
+    const std::vector<RatePoint> hull = lowerHull(track.points, 0);
+    left += hull.front().distortion;
+    for (size_t i = 1; i < hull.size(); ++i) {
+      const double removed = hull[i - 1].distortion - hull[i].distortion;
+      edges.push_back({removed / static_cast<double>(hull[i].bytes - hull[i - 1].bytes), removed});
+    }
   }
-  return slope;
+  std::sort(edges.begin(), edges.end(),
+            [](const Edge& a, const Edge& b) { return a.slope > b.slope; });
+  const double squares = mean_square * fields.samples();
+  for (const Edge& edge : edges) {
+    left -= edge.removed;
+    if (left <= squares) return edge.slope;
+  }
+  return 16 * std::numbers::ln2 * mean_square;
 }
 
 /// Plans a cut that leaves an error, with corrections behind it that leave a largest one.
 void setCut(const Fields& fields, double mean_square, int32_t largest, MosaicPlan& plan) {
-  const WaveletHeader wavelet = chooseWavelet(fields.view(), fields.heights.range_bits,
-                                              Purpose::kLossy, {.mean_square = mean_square});
-  setWavelet(withShortReach(wavelet), plan);
+  const WaveletHeader chosen = chooseWavelet(fields.view(), fields.heights.range_bits,
+                                             Purpose::kLossy, {.mean_square = mean_square});
+  const WaveletHeader wavelet = forWindows(fields, chosen, mean_square);
+  setWavelet(wavelet, plan);
   plan.cut_slope = slopeAt(fields, wavelet, mean_square);
   plan.header.layers.corrections = CorrectionKind::kSteps;
   plan.header.layers.correction_step = static_cast<uint32_t>(2 * largest + 1);
@@ -168,10 +216,9 @@ Status keepSteps(double step, const Survey& survey, const ReadSamples& read, Mos
   if (!fields.ok()) return fields.status();
   setExactWavelet(*fields, plan);
   if (!hasRegions(plan)) return {};
-  const std::vector<EncodedTrack> whole =
-      encodeCoefficients(fields->view(), plan.geometry().wavelet, {});
+  const uint64_t whole = bytesOf(codeFields(*fields, plan.geometry().wavelet, 0));
   const std::optional<ExactCut> cut =
-      chooseExactCut(fields->view(), fields->heights.range_bits, bytesOf(whole));
+      chooseExactCut(fields->view(), fields->heights.range_bits, whole);
   if (cut) setCut(*fields, cut->mean_square, 0, plan);
   return {};
 }
@@ -179,7 +226,8 @@ Status keepSteps(double step, const Survey& survey, const ReadSamples& read, Mos
 /// Plans that floats without a common step come back: all coefficients of coarse steps, and
 /// corrections of the samples. A cut at 1, 64 and 4096 squared steps takes 3 to 60 % more bytes.
 Status keepFloats(const Survey& survey, const ReadSamples& read, MosaicPlan& plan) {
-  const auto largest = static_cast<float>(std::max(std::abs(survey.low()), std::abs(survey.high())));
+  const auto largest =
+      static_cast<float>(std::max(std::abs(survey.low()), std::abs(survey.high())));
   setStep(survey, std::ldexp(1.0, spacingExponent(largest) + kFloatsPerStepLog2), plan);
   plan.header.layers.corrections = CorrectionKind::kSamples;
   const Result<Fields> fields = readFields(plan, kUsualSide, read);
@@ -233,9 +281,10 @@ Status keepWithin(double error, const Survey& survey, const ReadSamples& read, M
     }
   }
   if (rounded > 0) return keepSteps(rounded, survey, read, plan);
+  if (hasRegions(plan)) return keepFloats(survey, read, plan);  // no error is within any
   return {TKS_USAGE,
-          "That largest error is smaller than a mosaic of these floats can promise: give a larger "
-          "one."};
+          "That largest error is smaller than a mosaic of one region of these floats can promise: "
+          "give a larger one."};
 }
 
 /// Plans coefficients that a target of bytes or of a PSNR cuts.
@@ -272,7 +321,8 @@ Status chooseSteps(const Survey& survey, const MosaicOptions& options, const Rea
     const double error = options.max_error / std::abs(plan.header.metadata.scale);
     return keepWithin(error, survey, read, plan);
   }
-  if (const double exact = survey.exactStep(); exact > 0) return keepSteps(exact, survey, read, plan);
+  if (const double exact = survey.exactStep(); exact > 0)
+    return keepSteps(exact, survey, read, plan);
   if (hasRegions(plan)) return keepFloats(survey, read, plan);
   return {TKS_USAGE,
           "The samples have no common step that divides their range into 2^26 parts or fewer: a "

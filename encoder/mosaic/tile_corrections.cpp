@@ -78,8 +78,8 @@ std::vector<RegionCorrections> correctAll(const RestoredTile& tile,
       of_samples ? sampleCorrections(tile.heights, tile.steps) : std::vector<int32_t>();
   std::vector<RegionCorrections> all(regions.size());
   parallelFor(threads, regions.size(), [&](size_t i) {
-    all[i] = of_samples ? correctSamples(tile, corrections, regions[i])
-                        : correctSteps(tile, regions[i]);
+    all[i] =
+        of_samples ? correctSamples(tile, corrections, regions[i]) : correctSteps(tile, regions[i]);
   });
   return all;
 }

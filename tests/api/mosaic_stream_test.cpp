@@ -114,8 +114,8 @@ tks_status code(const Bytes& plan, const tks_tile& tile, Source& source, Files& 
                 uint32_t threads = 1) {
   char message[256] = "";
   const tks_mosaic_files storage = files.files();
-  return tks_mosaic_code(plan.data(), plan.size(), tile, tile.group == 0 ? &source.source : nullptr,
-                         &storage, threads, message, sizeof message);
+  return tks_mosaic_code(plan.data(), plan.size(), tile, &source.source, &storage, threads, message,
+                         sizeof message);
 }
 
 int writeAt(void* user, uint64_t offset, const void* data, size_t size) {
@@ -219,6 +219,54 @@ TEST(MosaicStream, RestoresFloatsThatHaveAStep) {
   std::vector<std::byte> samples(stream.heightsBytes());
   ASSERT_EQ(tks_decode_heights(stream.get(), samples.data(), samples.size()), TKS_OK);
   EXPECT_TRUE(samples == source.raster.data);
+}
+
+/// Floats that have no step.
+Raster roots() {
+  Raster rough = quarters();
+  for (size_t i = 0; i < rough.data.size() / 4; ++i) {
+    const auto value = std::sqrt(static_cast<float>(i));
+    std::memcpy(rough.data.data() + 4 * i, &value, 4);
+  }
+  return rough;
+}
+
+/// An error that is smaller than any steps can promise is kept by samples as they are.
+TEST(MosaicStream, RestoresFloatsWithoutAStep) {
+  for (const double error : {0.0, 1e-7}) {
+    for (const bool voids : {false, true}) {
+      Source source(roots());
+      if (voids) dig(source, samples::VoidShape::kCoast);
+      tks_mosaic_options options = mosaicOptions();
+      options.max_error = error;
+      options.lossless = error == 0 ? 1 : 0;
+      Stream stream(mosaicOf(source, options));
+      EXPECT_EQ(stream.info().lossless, options.lossless);
+      std::vector<std::byte> samples(stream.heightsBytes());
+      ASSERT_EQ(tks_decode_heights(stream.get(), samples.data(), samples.size()), TKS_OK);
+      EXPECT_TRUE(samples == source.raster.data) << error << voids;
+    }
+  }
+}
+
+/// Smooth ground, and copies of one another: corrections behind a cut are what these need.
+TEST(MosaicStream, TakesAboutTheBytesOfAnEncoder) {
+  for (const Pattern pattern :
+       {Pattern::kHills, Pattern::kRamp, Pattern::kSteps, Pattern::kRidges}) {
+    Source source(make({pattern, 520, 490, 1, TKS_I16, 5}));
+    for (const double error : {0., 1., 20.}) {
+      tks_mosaic_options options = mosaicOptions();
+      options.regions = options.tile = 128;
+      options.max_error = error;
+      options.lossless = error == 0 ? 1 : 0;
+      const Bytes mosaic = mosaicOf(source, options);
+      const tks_encode_options whole = inRegions(error == 0 ? lossless() : within(error), 128);
+      const size_t of_encoder = encode(&source.raster, nullptr, whole).size();
+      constexpr double kShort = 800;  // 20 regions with codewords of their own
+      EXPECT_LT(static_cast<double>(mosaic.size()), 1.1 * static_cast<double>(of_encoder) + kShort)
+          << static_cast<int>(pattern) << ", " << error;
+    }
+  }
 }
 
 double largestError(Stream& stream, const Raster& raster) {
@@ -440,21 +488,17 @@ TEST(MosaicStream, TellsPlansApart) {
 }
 
 TEST(MosaicStream, RefusesWhatItCannotPromise) {
-  Raster rough = quarters();
-  for (size_t i = 0; i < rough.data.size() / 4; ++i) {
-    const auto value = std::sqrt(static_cast<float>(i));
-    std::memcpy(rough.data.data() + 4 * i, &value, 4);
-  }
-  Source source(rough);
+  Source source(roots());
   tks_mosaic_options options = mosaicOptions();
+  options.regions = options.tile = 512;
   options.lossless = 1;
-  planOf(source, options, TKS_USAGE);  // floats without a step
+  planOf(source, options, TKS_USAGE);  // floats without a step, in one region
+  options = mosaicOptions();
+  options.lossless = 1;
   options.bytes = 100;
   planOf(source, options, TKS_USAGE);  // two targets
   options = mosaicOptions();
   planOf(source, options, TKS_USAGE);  // none
-  options.max_error = 1e-7;
-  planOf(source, options, TKS_USAGE);
   options.max_error = 1;
   options.tile = 16;
   planOf(source, options, TKS_USAGE);  // less than a region
