@@ -53,7 +53,8 @@ typedef struct tks_mosaic_options {
                        0: 512 */
   uint32_t tile;    /* side of the tiles, likewise: at least a region, at most 16384; 0: 4096. A
                        task takes 8 to 11 bytes for each sample of its tile and of the 128 around
-                       it */
+                       it, one that restores 11 to 14 for each of its tile and of the regions
+                       around it */
 } tks_mosaic_options;
 
 /* Makes the plan: some kilobytes that every task is given. It reads the source once, window by

@@ -109,13 +109,12 @@ Result<std::vector<MosaicTask>> chosenTasks(const WorkFolder& folder, const Code
 namespace {
 
 /// What a task takes: its block as samples and as integers, with a mask and its copies, and what
-/// tracks and the blocks of a TIFF take beside it. Tasks that restore hold the samples as they
-/// decode, too.
+/// tracks and the blocks of a TIFF take beside it. A task that restores holds no samples of the
+/// regions around its tile, but decoded ones of the tile beside those of the source.
 Status checkTaskMemory(const WorkFolder& folder, const MosaicTask& task, tks_sample sample) {
-  constexpr uint64_t kBesides = 96 << 20, kAsIntegers = 4, kAsMasks = 3;
+  constexpr uint64_t kBesides = 96 << 20, kCoding = 7, kRestoring = 10;
   const tks_tile& tile = task.tile;
-  const uint64_t a_sample =
-      tks_sample_bytes(sample) + kAsMasks + (task.restores ? 4 : 1) * kAsIntegers;
+  const uint64_t a_sample = tks_sample_bytes(sample) + (task.restores ? kRestoring : kCoding);
   tks_window block = {};
   tks_mosaic_block(folder.plan().data(), folder.plan().size(), tile, &block);
   return checkMemoryFor("coding the tile " + nameOf(tile),

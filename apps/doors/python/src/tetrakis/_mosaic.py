@@ -65,8 +65,7 @@ class Mosaic:
         return bool(done.value)
 
     def code(self, tile: Tile, threads: int = 1) -> None:
-        """Runs the task of a tile. It takes about 16 bytes for each sample of the tile and of the
-        128 around it. Raises what the source raises; :class:`TksIOError` if parts that it needs
+        """Runs the task of a tile. It takes about 20 bytes for each sample of the tile. Raises what the source raises; :class:`TksIOError` if parts that it needs
         are missing."""
         guard = Guard()
         source = source_struct(self._samples, self._place, guard)
