@@ -36,6 +36,9 @@ constexpr uint32_t kTrialSide = 256;
 /// corrections restore the rest: as toSteps() has it. More of them leave more bits to corrections,
 /// fewer make coefficients wider.
 constexpr int kFloatsPerStepLog2 = 4;
+/// The part of the mean squared error of a cut to which each field is coded: rough fields keep more
+/// of it than others. A larger part misses slopes of fields that are flat; a smaller one takes time.
+constexpr double kBeyond = 1. / 8;
 /// The bytes for which coarse levels get the shortest filters. A larger factor gives more planes
 /// windows that read little, and takes bytes.
 constexpr double kMostForWindows = 1.01;
@@ -132,7 +135,6 @@ void setWavelet(const WaveletHeader& wavelet, MosaicPlan& plan) {
 /// another. mean_square: the error at which coding may end.
 std::vector<EncodedTrack> codeFields(const Fields& fields, const WaveletHeader& wavelet,
                                      double mean_square) {
-  constexpr double kBeyond = 1. / 8;  // rough fields keep more than the mean, flat ones less
   const uint32_t width = fields.extent.width / Fields::kSide,
                  height = fields.extent.height / Fields::kSide;
   std::vector<EncodedTrack> tracks;
