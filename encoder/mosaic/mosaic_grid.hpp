@@ -59,8 +59,8 @@ class MosaicGrid {
   /// Groups of regions. The base is the only tile of the group of this number.
   int groups() const { return static_cast<int>(groups_.size()); }
   bool isBase(const Tile& tile) const { return tile.group == groups(); }
-  /// Groups of tiles that code. The tile of the next group restores the plane of the base, and those
-  /// of each further group restore the plane of one group less.
+  /// Groups of tiles that code. The tile of the next group restores the plane of the base, and
+  /// those of each further group restore the plane of one group less.
   int codingGroups() const { return groups() + 1; }
   bool isRestoring(const Tile& tile) const { return tile.group >= codingGroups(); }
   /// The group whose plane the tile codes or restores.

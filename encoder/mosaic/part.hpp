@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Part is what the task of a tile leaves for the merge: codewords with their accounts, and the
-// mask of its samples. A LowPart is what it leaves for the tasks of the next group. Both are files of a mosaic,
-// sealed by the hash of the plan that they belong to and by checksums.
+// mask of its samples. A LowPart is what it leaves for the tasks of the next group. Both are files
+// of a mosaic, sealed by the hash of the plan that they belong to and by checksums.
 #pragma once
 
 #include <algorithm>
@@ -81,8 +81,8 @@ struct Part {
   PartMask valid;                    ///< of the samples of a tile of group 0, in a plan with voids
 };
 
-/// A low band that a tile leaves for the tasks of the next group: of the samples themselves where it
-/// codes, or as decoders have it where it restores.
+/// A low band that a tile leaves for the tasks of the next group: of the samples themselves where
+/// it codes, or as decoders have it where it restores.
 struct LowPart {
   Extent extent;
   std::vector<int32_t> values;

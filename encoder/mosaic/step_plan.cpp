@@ -36,8 +36,8 @@ constexpr uint32_t kTrialSide = 256;
 /// corrections restore the rest: as toSteps() has it. More of them leave more bits to corrections,
 /// fewer make coefficients wider.
 constexpr int kFloatsPerStepLog2 = 4;
-/// The part of the mean squared error of a cut to which each field is coded: rough fields keep more
-/// of it than others. A larger part misses slopes of fields that are flat; a smaller one takes time.
+/// The part of the mean squared error of a cut to which each field is coded: rough fields keep
+/// more of it than others. A larger part misses slopes of flat fields; a smaller one takes time.
 constexpr double kBeyond = 1. / 8;
 /// The bytes for which coarse levels get the shortest filters. A larger factor gives more planes
 /// windows that read little, and takes bytes.

@@ -33,8 +33,8 @@ extern "C" {
 typedef int (*tks_read_window)(void* user, const tks_window* window, void* samples);
 
 /* The source of a mosaic: as of tks_encode, but its samples come by windows, each of them two or
- * three times. `data` counts for nothing. The domain is a plane of at most 2^32 samples. tks_heights.step: that of the samples; 0:
- * it is found. */
+ * three times. `data` counts for nothing. The domain is a plane of at most 2^32 samples.
+ * tks_heights.step: that of the samples; 0: it is found. */
 typedef struct tks_mosaic_source {
   size_t size; /* sizeof(tks_mosaic_source) */
   const tks_heights* heights;
@@ -86,8 +86,8 @@ tks_status tks_mosaic_needs(const uint8_t* plan, size_t plan_size, tks_tile tile
                             size_t room, size_t* count);
 
 /* Writes which samples the task of a tile reads: of the heights in group 0 and in the last group
- * that restores; in others of the low band of 3 * group levels, or 3 levels less for each group that
- * restores. */
+ * that restores; in others of the low band of 3 * group levels, or of 3 levels less for each group
+ * that restores. */
 tks_status tks_mosaic_block(const uint8_t* plan, size_t plan_size, tks_tile tile,
                             tks_window* block);
 
