@@ -135,8 +135,9 @@ Candidate<CodedHeights> expecting(std::optional<double> bytes,
 /// Makes all attempts at a largest error in steps, whether or not they keep it.
 std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t largest) {
   const tks_heights& samples = *bound.quantised->samples;
-  const BoundWays ways =
-      boundWays(bound.quantised->steps, extentOf(samples), bound.wavelet, largest);
+  // In regions nobody searches for the cut, so that parts choose it whatever the size.
+  const auto choose = bound.options.region_log2 > 0 && largest > 0 ? boundWaysByParts : boundWays;
+  const BoundWays ways = choose(bound.quantised->steps, extentOf(samples), bound.wavelet, largest);
   noteRuledOut(bound, ways, largest);
   std::vector<Candidate<CodedHeights>> made;
   if (ways.round) {
