@@ -56,6 +56,7 @@ void Survey::addValid(const T* samples, size_t count, Mask valid) {
 }
 
 void Survey::addFloat(float sample) {
+  negative_zeros_ = negative_zeros_ || (sample == 0 && std::signbit(sample));
   if (sample == 0) return;
   for (size_t i = 0; i < kDecimalSteps.size(); ++i) {
     if (decimals_[i] == kNone) continue;

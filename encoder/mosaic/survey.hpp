@@ -48,6 +48,8 @@ class Survey {
   /// divides the range into 2^26 parts or fewer.
   double exactStep() const;
   bool floats() const { return floats_; }
+  /// A sample is -0: no step tells it from 0.
+  bool negativeZeros() const { return negative_zeros_; }
 
  private:
   static constexpr uint64_t kNone = std::numeric_limits<uint64_t>::max();
@@ -56,7 +58,7 @@ class Survey {
   void addValid(const T* samples, size_t count, Mask valid);
   void addFloat(float sample);
 
-  bool any_ = false, voids_ = false, floats_ = false;
+  bool any_ = false, voids_ = false, floats_ = false, negative_zeros_ = false;
   double low_ = 0, high_ = 0;
   uint64_t divisor_ = 0;  ///< of the differences of integers
   double first_ = 0;      ///< integer that these are from

@@ -231,6 +231,20 @@ Raster roots() {
   return rough;
 }
 
+TEST(MosaicStream, RestoresNegativeZeros) {
+  Source source(quarters());
+  constexpr float kZero = -0.0f;
+  for (size_t i = 0; i < source.raster.data.size() / 4; i += 977)
+    std::memcpy(source.raster.data.data() + 4 * i, &kZero, 4);
+  tks_mosaic_options options = mosaicOptions();
+  options.lossless = 1;
+  Stream stream(mosaicOf(source, options));
+  EXPECT_TRUE(stream.info().lossless);
+  std::vector<std::byte> samples(stream.heightsBytes());
+  ASSERT_EQ(tks_decode_heights(stream.get(), samples.data(), samples.size()), TKS_OK);
+  EXPECT_TRUE(samples == source.raster.data);
+}
+
 /// An error that is smaller than any steps can promise is kept by samples as they are.
 TEST(MosaicStream, RestoresFloatsWithoutAStep) {
   for (const double error : {0.0, 1e-7}) {
@@ -251,9 +265,8 @@ TEST(MosaicStream, RestoresFloatsWithoutAStep) {
 
 /// Smooth ground, and copies of one another: corrections behind a cut are what these need.
 TEST(MosaicStream, TakesAboutTheBytesOfAnEncoder) {
-  for (const Pattern pattern :
-       {Pattern::kHills, Pattern::kRamp, Pattern::kSteps, Pattern::kRidges}) {
-    Source source(make({pattern, 520, 490, 1, TKS_I16, 5}));
+  for (const Pattern pattern : {Pattern::kHills, Pattern::kSteps, Pattern::kRidges}) {
+    Source source(make({pattern, 330, 310, 1, TKS_I16, 5}));
     for (const double error : {0., 1., 20.}) {
       tks_mosaic_options options = mosaicOptions();
       options.regions = options.tile = 128;
