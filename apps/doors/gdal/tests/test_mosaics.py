@@ -193,12 +193,17 @@ def test_what_is_not_coded_in_tiles(tmp_path, ground, texture):
     masked = memory(terrain(90, 180, "u1"))
     masked.CreateMaskBand(gdal.GMF_PER_DATASET)
     refused(lambda: mosaic(masked, tmp_path / "a.tks"), "mask", "-a_nodata")
-    rough = np.random.default_rng(1).normal(size=(90, 180)).astype("f4")
-    refused(lambda: mosaic(rough, tmp_path / "a.tks"), "common step")
     for tiles in ("0", "100", "32768", "some", ""):
         refused(lambda t=tiles: copy(source, tmp_path / "a.tks", "TILES=" + t), "TILES=" + tiles)
     assert not list(tmp_path.iterdir())
     assert mosaic(globe, tmp_path / "a.tks", "DOMAIN=PLANE") is not None
+
+
+def test_floats_without_a_common_step_come_back(tmp_path):
+    rough = np.random.default_rng(1).normal(size=(90, 180)).astype("f4")
+    rough[5, ::7] = -0.0
+    back = mosaic(rough, tmp_path / "a.tks").ReadAsArray()
+    assert (back.view("u4") == rough.view("u4")).all()
 
 
 @pytest.mark.parametrize("least", [0, 0.1, 0.3, 0.6, 0.9, 0.98, 1])
