@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/stream.hpp"
 #include "apps/tools/files/text.hpp"
 #include "apps/tools/mosaic/mosaic_steps.hpp"

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <utility>
 
+#include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/memory_limit.hpp"
 #include "apps/tools/files/temporary.hpp"
 #include "apps/tools/files/text.hpp"

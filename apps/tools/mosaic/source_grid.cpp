@@ -8,6 +8,7 @@
 #include <list>
 #include <utility>
 
+#include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/place/ground_spacing.hpp"
 #include "apps/tools/files/text.hpp"
 #include "apps/tools/files/void_samples.hpp"

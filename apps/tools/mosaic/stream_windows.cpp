@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/stream.hpp"
 #include "apps/tools/files/text.hpp"
 #include "apps/tools/mosaic/height_source.hpp"
