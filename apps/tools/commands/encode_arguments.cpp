@@ -175,11 +175,12 @@ Status checkCube(const EncodeArguments& arguments) {
     if (arguments.depth == 0) return Status();
     return Status(TKS_USAGE, "--depth is about a cube: give --domain cube");
   }
+  const bool regions = arguments.regions != "auto" && arguments.regions != "off";
   const std::pair<const char*, bool> others[] = {
       {"--lossless", arguments.lossless},
       {"--max-error", !arguments.max_error.empty()},
       {"--report", !arguments.report.empty()},
-      {"--regions", arguments.regions != "auto" && arguments.regions != "off"}};
+      {"--regions without a --texture", regions && arguments.texture.empty()}};
   for (const auto& [name, given] : others) {
     if (given)
       return Status(TKS_USAGE, "--domain cube resamples heights, so that " + std::string(name) +

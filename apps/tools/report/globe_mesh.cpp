@@ -13,15 +13,16 @@
 #include "apps/tools/report/surface_normals.hpp"
 
 namespace tetrakis::tools {
-namespace {
 
-using Vector = std::array<double, 3>;
-
-tks_globe bodyOf(const tks_info& info, double exaggeration) {
+tks_globe globeOf(const tks_info& info, double exaggeration) {
   const GridUnit unit = gridUnitOf(info.geo_keys, info.crs);
   const double minor = unit.ellipsoid.semi_major * (1 - unit.ellipsoid.flattening);
   return {sizeof(tks_globe), unit.ellipsoid.semi_major, minor, unit.degrees, exaggeration};
 }
+
+namespace {
+
+using Vector = std::array<double, 3>;
 
 /// From x to longitude 0 and z north to the axes of glTF.
 Vector upright(std::span<const double> p) {
@@ -82,7 +83,7 @@ std::vector<float> textureCoordinates(const tks_info& info, const GlobeMesh& mes
 
 Result<MeshFile> globeMesh(Decoder& decoder, const GlobeRequest& request) {
   const tks_info& info = decoder.info();
-  const tks_globe body = bodyOf(info, request.exaggeration);
+  const tks_globe body = globeOf(info, request.exaggeration);
   const Result<GlobeMesh> mesh =
       request.coded ? decoder.codedGlobe(body) : decoder.budgetGlobe(body, request.max_triangles);
   if (!mesh.ok()) return mesh.status();

@@ -14,6 +14,7 @@ const TIMEOUT = {timeout: 120000};
 const PLACES = {
   north: '0,1.6e7,0', south: '0,-1.6e7,0', date: '-1.6e7,0,0', greenwich: '1.6e7,0,0',
 };
+const INDEXED_BYTES = 400000;
 let site, stream;
 
 before(async () => {
@@ -23,6 +24,8 @@ before(async () => {
   site = await viewerSite({
     'earth.tks': stream,
     'textured.tks': await encode({...earth(), bytes: 120000}),
+    'whole.tks': await encode({...earth(), bytes: INDEXED_BYTES, regions: 64}),
+    'indexed.tks': await encode({...earth(), bytes: INDEXED_BYTES, regions: 64, index: true}),
     'cube.tks': await encode({...onCube, bytes: 120000}),
     'bare_cube.tks': await encode({heights: onCube.heights, bytes: 80000}),
     'moon.tks': await encode({heights: moon, bytes: 40000}),
@@ -98,6 +101,41 @@ for (const [stream, bytes] of [['textured', '4kB'], ['textured', 'all'], ['cube'
     }, bytes === '4kB');
   });
 }
+
+/** The root of the mean square by which two pictures differ within so many pixels of the middle. */
+function differenceOf(page, pictures, radius) {
+  return page.evaluate(async ({files, middle, radius}) => {
+    const [a, b] = await Promise.all(files.map(async (base64) => {
+      const blob = await (await fetch('data:image/png;base64,' + base64)).blob();
+      const image = await createImageBitmap(blob);
+      const context = new OffscreenCanvas(2 * radius, 2 * radius).getContext('2d');
+      context.drawImage(image, radius - middle.x, radius - middle.y);
+      return context.getImageData(0, 0, 2 * radius, 2 * radius).data;
+    }));
+    return Math.sqrt(a.reduce((sum, value, i) => sum + (value - b[i]) ** 2, 0) / a.length);
+  }, {files: pictures.map((file) => file.toString('base64')), middle: MIDDLE, radius});
+}
+
+test('a globe with an index takes the bytes of the side that is seen', TIMEOUT, async () => {
+  const look = `eye=${PLACES.date}&target=0,0,0`, pictures = [];
+  let fetched = 0;
+  for (const name of ['whole', 'indexed']) {
+    await site.withPage(`tks=${name}.tks#${look}`, async (page) => {
+      fetched = Number(await page.locator('body').getAttribute('data-bytes'));
+      pictures.push(await page.locator('#picture').screenshot());
+      if (name === 'whole') return;
+      assert.ok(fetched < 0.6 * INDEXED_BYTES, `${fetched} bytes for the date line`);
+      const difference = await differenceOf(page, pictures, 180);
+      assert.ok(difference < 3, `the picture differs by ${difference}`);
+      await page.evaluate((hash) => (location.hash = hash),
+        `eye=${PLACES.greenwich}&target=0,0,0`);
+      await page.waitForFunction((before) => Number(document.body.dataset.bytes) > before, fetched);
+      await drawn(page);
+      const both = Number(await page.locator('body').getAttribute('data-bytes'));
+      assert.ok(both > 1.3 * fetched, `${fetched} bytes, and ${both} with the other side`);
+    });
+  }
+});
 
 test('the wheel comes nearer, and the camera stays above the ground', TIMEOUT, async () => {
   await site.withPage('tks=earth.tks', async (page) => {
