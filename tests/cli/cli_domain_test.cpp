@@ -244,6 +244,23 @@ TEST_F(CliCube, LevelsAreCoarserGridsOfTheSameGround) {
   EXPECT_EQ(cli("decode s.tks -f --height d.tif --level 9").code, 1);
 }
 
+/// `compare` judges the grid that `decode` writes.
+TEST_F(CliCube, IsComparedOnItsGrid) {
+  ASSERT_EQ(encodeCube(" --bytes 2000").code, 0);
+  const tools::HeightFile back = decoded();
+  double squares = 0;
+  for (size_t i = 0; i < 72 * 36; ++i)
+    squares += std::pow(sampleOf(back, i) - sampleOf(world_, i), 2);
+  const Outcome run = cli("compare s.tks --height g.tif --json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NEAR(Json::parse(run.out)["height_rmse"], std::sqrt(squares / (72 * 36)), 1e-9);
+  EXPECT_EQ(cli("compare s.tks --height g.tif --triangles 500").code, 1);
+  ASSERT_TRUE(tools::writeHeights(path("other.tif"), ground(36, -180, 10, "EPSG:4326")).ok());
+  EXPECT_EQ(cli("compare s.tks --height other.tif").code, 7);
+  const Outcome plan = cli("plan s.tks --channel 8k/s --seconds 1");
+  EXPECT_EQ(plan.code, 0) << plan.err;
+}
+
 class CliGlobe : public CliCube {
  protected:
   /// Of an .obj file.
@@ -297,6 +314,52 @@ TEST_F(CliGlobe, LiesOnTheBodyOfItsReferenceSystem) {
   EXPECT_NEAR(once, 3000, 100);
   meshOf(" --exaggeration 50");
   EXPECT_NEAR(farthest() - 1737400, 50 * once, 10);
+}
+
+/// Of textures in regions over a cylinder and over a cube, what a camera sees comes first.
+TEST_F(CliGlobe, ReordersForCamerasOfAGlobe) {
+  tools::ImageFile image;
+  image.width = 256;
+  image.height = 128;
+  image.channels = 1;
+  for (uint32_t i = 0; i < 256 * 128; ++i)
+    image.data.push_back(static_cast<std::byte>((i * 2654435761u) >> 24));
+  image.place.geotransform = tools::GeoTransform{-180, 360. / 256, 0, 90, 0, -180. / 128};
+  ASSERT_TRUE(tools::writeImage(path("t.tif"), image).ok());
+  std::ofstream(path("c.json")) << R"({"cameras": [{"eye": [0, 0, -2e7], "target": [0, 0, 0],
+    "fov_y": 40, "width": 1000, "height": 800}]})";  // above 90 degrees east
+  const auto squares = [&](const char* stream, uint32_t first) {
+    EXPECT_EQ(cli(std::string("decode -f --bytes 10k --texture d.tif ") + stream).code, 0);
+    const tools::ImageFile back = *tools::readImage(path("d.tif"));
+    double sum = 0;
+    for (uint32_t i = 0; i < 64 * 64; ++i) {
+      const size_t at = (32 + i / 64) * 256 + first + i % 64;
+      sum +=
+          std::pow(std::to_integer<int>(back.data[at]) - std::to_integer<int>(image.data[at]), 2);
+    }
+    return sum;
+  };
+  for (const char* domain : {"cylinder", "cube"}) {
+    SCOPED_TRACE(domain);
+    ASSERT_EQ(
+        encodeCube(std::string(" --bytes 30k --texture t.tif --regions 32 --index --domain ") +
+                   domain)
+            .code,
+        0);
+    const Outcome run = cli("reorder s.tks -f -o r.tks --globe --cameras c.json");
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_EQ(cli("verify r.tks").code, 0);
+    EXPECT_LT(squares("r.tks", 160), 0.8 * squares("s.tks", 160));  // 45 to 135 degrees east
+    EXPECT_GT(squares("r.tks", 32), squares("s.tks", 32));
+    const Outcome flat = cli("reorder s.tks -f -o r.tks --view top");
+    EXPECT_EQ(flat.code, domain == std::string("cube") ? 1 : 0) << flat.err;
+  }
+  EXPECT_EQ(cli("reorder s.tks -f -o r.tks --globe --view top").code, 1);
+  EXPECT_EQ(cli("reorder s.tks -f -o r.tks --globe --exaggeration 0 --cameras c.json").code, 1);
+  std::ofstream(path("c.json")) << R"({"cameras": [{"eye": [0, 0, 2e7], "target": [0, 0, 4e7]}]})";
+  const Outcome blind = cli("reorder s.tks -f -o r.tks --globe --cameras c.json");
+  EXPECT_EQ(blind.code, 1);
+  EXPECT_NE(blind.err.find("sees no ground"), std::string::npos) << blind.err;
 }
 
 TEST_F(CliGlobe, RefusesWhatIsNone) {

@@ -38,6 +38,8 @@ Result<Buffer> reordered(Decoder& decoder, const ReorderArguments& arguments) {
 Status reorder(const ReorderArguments& arguments) {
   if (arguments.cameras.isDefault())
     return Status(TKS_USAGE, "nothing to serve: give --cameras or --view");
+  if (arguments.exaggeration == 0)
+    return Status(TKS_USAGE, "--exaggeration 0 would leave no relief: give another number");
   Status stays = checkInputsStay({arguments.source.path}, arguments.output);
   if (!stays.ok()) return stays;
   Result<Output> output = Output::plan(arguments.output, arguments.force, ".tks");
