@@ -125,6 +125,10 @@ Result<CoarseGlobe> coarseGlobe(tks_decoder& decoder, const tks_globe* given) {
   if (!header.geometry) return noHeights();
   const Result<tks_globe> globe = takeGlobe(given);
   if (!globe.ok()) return globe.status();
+  // Of the heights and of the texture, with what three sightings see of each.
+  constexpr uint64_t kPoint = sizeof(GlobePoint) + 3 * sizeof(GroundPoint);
+  constexpr uint64_t kBytes = 2 * uint64_t{kCoarsePoints} * kCoarsePoints * kPoint;
+  if (Status status = checkPlanMemory(decoder, kBytes); !status.ok()) return status;
   Result<GlobeGround> heights = groundOfHeights(decoder, *globe);
   if (!heights.ok()) return heights.status();
   std::optional<GlobeGround> texture = groundOfTexture(header, *globe);

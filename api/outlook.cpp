@@ -143,9 +143,9 @@ std::vector<WeightedSighting> outlookOf(const CoarseGlobe& globe, const tks_scre
            kAround + kElsewhere}};
 }
 
-Status checkPlanMemory(const tks_decoder& decoder) {
+Status checkPlanMemory(const tks_decoder& decoder, uint64_t beside) {
   const uint64_t bytes =
-      decoder.packets.bytes + decoder.pieces.bytes() + planBytes(decoder.parsed.header);
+      decoder.packets.bytes + decoder.pieces.bytes() + planBytes(decoder.parsed.header) + beside;
   if (bytes <= decoder.max_memory) return {};
   return {TKS_LIMIT, "Choosing packets takes " + describeBytes(bytes) +
                          " of memory; the limit (max_memory) is " +

@@ -77,7 +77,7 @@ std::vector<WeightedSighting> outlookOf(const tks_decoder& decoder, const Coarse
 std::vector<WeightedSighting> outlookOf(const CoarseGlobe& globe, const tks_screen_camera& camera,
                                         uint32_t triangles);
 
-/// TKS_LIMIT with a sentence if choosing packets takes more than the limit.
-Status checkPlanMemory(const tks_decoder& decoder);
+/// TKS_LIMIT with a sentence if choosing packets takes more than the limit. beside: further bytes.
+Status checkPlanMemory(const tks_decoder& decoder, uint64_t beside = 0);
 
 }  // namespace tetrakis::inline api

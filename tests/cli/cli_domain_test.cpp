@@ -78,6 +78,15 @@ TEST_F(CliDomain, AColumnThatIsThereTwiceIsTold) {
   }
 }
 
+TEST_F(CliDomain, APartOfAColumnThatLacksOrOverlapsIsTold) {
+  for (const double all : {359.9, 360.02}) {
+    const Outcome run = encode(ground(360, -180, all / 360, "EPSG:4326"));
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("--domain cylinder closes it"), std::string::npos) << run.err;
+    EXPECT_EQ(domainOf(), "plane");
+  }
+}
+
 TEST_F(CliDomain, IsWhatTheUserSays) {
   const tools::HeightFile world = ground(36, -180, 10, "EPSG:4326");
   ASSERT_EQ(encode(world, " --domain plane").code, 0);
@@ -244,6 +253,17 @@ TEST_F(CliCube, LevelsAreCoarserGridsOfTheSameGround) {
   EXPECT_EQ(cli("decode s.tks -f --height d.tif --level 9").code, 1);
 }
 
+TEST_F(CliCube, RefusesWhatKnowsPlanesAlone) {
+  for (const char* options :
+       {"--bytes 2k --triangles 500", "--bytes 2k --view low", "--bytes 2k --cameras c.json",
+        "--bytes 2k --engine rendered", "--bytes 2k --regions 16", "--bytes 2k --report r",
+        "--lossless", "--max-error 5"}) {
+    const Outcome run = encodeCube(std::string(" ") + options);
+    EXPECT_EQ(run.code, 1) << options;
+    EXPECT_NE(run.err.find("does not go with --domain cube"), std::string::npos) << run.err;
+  }
+}
+
 /// `compare` judges the grid that `decode` writes.
 TEST_F(CliCube, IsComparedOnItsGrid) {
   ASSERT_EQ(encodeCube(" --bytes 2000").code, 0);
@@ -370,6 +390,11 @@ TEST_F(CliGlobe, RefusesWhatIsNone) {
   EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --exaggeration 3").code, 1);
   EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --globe --view low").code, 1);
   EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --globe --exaggeration 0").code, 1);
+  world_.crs = "EPSG:3857";
+  ASSERT_EQ(encodeCube(" --bytes 4000 --domain cylinder").code, 0);
+  const Outcome map = cli("decode s.tks -f --mesh m.glb --globe");
+  EXPECT_EQ(map.code, 1);
+  EXPECT_NE(map.err.find("no angles"), std::string::npos) << map.err;
 }
 
 /// A texture of longitudes and latitudes lies under its own place of a cube, whole or in part, also

@@ -23,8 +23,9 @@ struct ReorderArguments {
 
 Result<Buffer> reordered(Decoder& decoder, const ReorderArguments& arguments) {
   if (arguments.globe) {
-    const tks_globe globe = globeOf(decoder.info(), arguments.exaggeration);
-    const auto cameras = globeCameras(decoder, arguments.cameras, globe);
+    const Result<tks_globe> globe = globeOf(decoder.info(), arguments.exaggeration);
+    if (!globe.ok()) return globe.status();
+    const auto cameras = globeCameras(decoder, arguments.cameras, *globe);
     if (!cameras.ok()) return cameras.status();
     return decoder.reordered(*cameras);
   }

@@ -180,11 +180,16 @@ Status checkCube(const EncodeArguments& arguments) {
       {"--lossless", arguments.lossless},
       {"--max-error", !arguments.max_error.empty()},
       {"--report", !arguments.report.empty()},
-      {"--regions without a --texture", regions && arguments.texture.empty()}};
+      {"--regions without a --texture", regions && arguments.texture.empty()},
+      {"--triangles", arguments.triangles > 0},
+      {"--cameras", !arguments.cameras.file.empty()},
+      {"--view", !arguments.cameras.view.empty()},
+      {"--engine rendered", arguments.engine == "rendered"}};
   for (const auto& [name, given] : others) {
     if (given)
-      return Status(TKS_USAGE, "--domain cube resamples heights, so that " + std::string(name) +
-                                   " does not go with it");
+      return Status(TKS_USAGE, std::string(name) +
+                                   " does not go with --domain cube, whose heights are resampled "
+                                   "and lie round a globe");
   }
   return Status();
 }

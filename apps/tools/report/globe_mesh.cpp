@@ -14,10 +14,12 @@
 
 namespace tetrakis::tools {
 
-tks_globe globeOf(const tks_info& info, double exaggeration) {
+Result<tks_globe> globeOf(const tks_info& info, double exaggeration) {
   const GridUnit unit = gridUnitOf(info.geo_keys, info.crs);
+  if (unit.degrees == 0 && *info.crs)
+    return Status(TKS_USAGE, "the coordinates of the heights are no angles: they lie on no globe");
   const double minor = unit.ellipsoid.semi_major * (1 - unit.ellipsoid.flattening);
-  return {sizeof(tks_globe), unit.ellipsoid.semi_major, minor, unit.degrees, exaggeration};
+  return tks_globe{sizeof(tks_globe), unit.ellipsoid.semi_major, minor, unit.degrees, exaggeration};
 }
 
 namespace {
@@ -83,9 +85,10 @@ std::vector<float> textureCoordinates(const tks_info& info, const GlobeMesh& mes
 
 Result<MeshFile> globeMesh(Decoder& decoder, const GlobeRequest& request) {
   const tks_info& info = decoder.info();
-  const tks_globe body = globeOf(info, request.exaggeration);
+  const Result<tks_globe> body = globeOf(info, request.exaggeration);
+  if (!body.ok()) return body.status();
   const Result<GlobeMesh> mesh =
-      request.coded ? decoder.codedGlobe(body) : decoder.budgetGlobe(body, request.max_triangles);
+      request.coded ? decoder.codedGlobe(*body) : decoder.budgetGlobe(*body, request.max_triangles);
   if (!mesh.ok()) return mesh.status();
   MeshFile file;
   for (uint32_t v = 0; v < mesh->vertexCount(); ++v)
@@ -95,7 +98,7 @@ Result<MeshFile> globeMesh(Decoder& decoder, const GlobeRequest& request) {
   file.normals = uprightNormals(*mesh);
   if (!info.has_texture) return file;
   if (isGridOnCube(info) && info.texture_domain != TKS_DOMAIN_FOREST)
-    layOnCube(info, body, *mesh, file);
+    layOnCube(info, *body, *mesh, file);
   else
     file.texcoords = textureCoordinates(info, *mesh);
   return file;

@@ -17,8 +17,9 @@ struct GlobeRequest {
   double exaggeration = 1;     ///< what heights are multiplied by
 };
 
-/// The ellipsoid of the CRS, else WGS 84.
-tks_globe globeOf(const tks_info& info, double exaggeration);
+/// The ellipsoid of the CRS, else WGS 84. Without a CRS the coordinates are degrees; TKS_USAGE: they
+/// are no angles.
+Result<tks_globe> globeOf(const tks_info& info, double exaggeration);
 
 /// Positions in metres from the centre: x towards longitude 0, y to the north pole, z towards 90
 /// degrees west. The ellipsoid is that of globeOf(). Normals are those of the mesh, the
