@@ -198,6 +198,16 @@ def test_copies_of_a_cube(cube, tmp_path):
     assert exact.GetMetadataItem("DOMAIN", "TKS") == "CYLINDER"
 
 
+@pytest.mark.parametrize("options", [["DOMAIN=CYLINDER"], ["DOMAIN=CUBE", "PSNR=70"]])
+def test_gdalwarp_cuts_windows_that_go_on_behind_the_last_column(tmp_path, options):
+    name, cut = tmp_path / "a.tks", tmp_path / "cut.tif"
+    whole = copy(globe(), name, *options).ReadAsArray()
+    # Without -ovr NONE GDAL takes an overview here, of GeoTIFFs that have some as well.
+    run("gdalwarp", "-q", "-ovr", "NONE", "-te", 168, 30, 192, 54, "-tr", 1.2, 1.2, name, cut)
+    across = np.concatenate([whole[30:50, -10:], whole[30:50, :10]], axis=1)
+    np.testing.assert_array_equal(gdal.Open(str(cut)).ReadAsArray(), across)
+
+
 @pytest.mark.parametrize("placed", [True, False])
 def test_a_texture_lies_on_longitudes_and_latitudes_over_a_cube(tmp_path, placed):
     shade = world(rows=64, columns=128) / 32 + 128
