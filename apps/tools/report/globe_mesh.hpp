@@ -17,7 +17,7 @@ struct GlobeRequest {
   double exaggeration = 1;     ///< what heights are multiplied by
 };
 
-/// The ellipsoid of the CRS, else WGS 84. Without a CRS the coordinates are degrees; TKS_USAGE: they
+/// The ellipsoid of the CRS, else WGS 84. Without a CRS coordinates are degrees. TKS_USAGE: they
 /// are no angles.
 Result<tks_globe> globeOf(const tks_info& info, double exaggeration);
 
