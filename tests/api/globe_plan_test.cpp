@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/vec3.hpp"
+#include "conformance/samples/header_seal.hpp"
 #include "ratecontrol/receiver/globe_sight.hpp"
 #include "tests/support/forest_raster.hpp"
 #include "tests/support/forest_shapes.hpp"
@@ -221,6 +222,38 @@ TEST(GlobePlan, PointsOfASphereAreSeenAsTheyAreProjected) {
     ++count;
   }
   EXPECT_GT(count, 400u);
+}
+
+/// With the checksum repaired: whatever a header says of the place, the domain and the samples.
+TEST(GlobePlan, SurvivesEveryDamagedByte) {
+  const Grid grid{24, 12, -180, 90, 15, -15};
+  const Raster raster = rasterOf(grid), image = make({Pattern::kSteps, 32, 16, 1, TKS_U8});
+  const ForestRaster cube(Forest(3, cubeShape().sides), {Pattern::kRidges, 0, 0, 1, TKS_I16, 3});
+  const tks_heights on_grid = placed(raster, grid), on_cube = cube.heights();
+  const tks_image texels = image.image();
+  const tks_limits limits = smallLimits();
+  const tks_globe globe = moon();
+  const tks_screen_camera view = cameraAbove(globe, 20, 30, 2);
+  for (const tks_heights* heights : {&on_grid, &on_cube}) {
+    const Bytes bytes = encodeGiven(heights, &texels, indexed());
+    const auto header = static_cast<size_t>(Stream(bytes).info().header_bytes);
+    for (size_t at = 0; at < header; ++at) {
+      for (const int flip : {0x01, 0x40, 0x90}) {
+        Bytes damaged = bytes;
+        damaged[at] = static_cast<uint8_t>(damaged[at] ^ flip);
+        sealHeader(damaged);
+        Stream stream(Prefix(damaged).first(flip == 0x40 ? header : bytes.size()), &limits);
+        if (stream.status() != TKS_OK) continue;
+        tks_ranges ranges = {};
+        const tks_fetch fetch = {sizeof fetch, 700, 30, 0};
+        tks_plan(stream.get(), &view, &fetch, &ranges);
+        tks_free_ranges(&ranges);
+        tks_buffer buffer = {};
+        tks_reorder(stream.get(), &view, 1, &buffer);
+        tks_free_buffer(&buffer);
+      }
+    }
+  }
 }
 
 TEST(GlobePlan, WhatHasNoGlobeIsRefusedInASentence) {
