@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which rasters the command line puts on a cube, what comes back, and globes of cubes and cylinders.
+// Rasters that the command line puts on a cube, what comes back, and globes of cubes and cylinders.
 #include <algorithm>
 #include <array>
 #include <cmath>
