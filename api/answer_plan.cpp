@@ -109,7 +109,7 @@ Result<tks_decoder*> AnswerPlan::decoderOfEntry(size_t place) {
 
 Result<std::vector<WeightedSighting>> AnswerPlan::sightings(size_t place, Ground ground) {
   if (ground == Ground::kAll || !message_.view)
-    return std::vector<WeightedSighting>{{{0, 0, {}, message_.triangles}, 1}};
+    return std::vector<WeightedSighting>{{{.ground = {}, .triangles = message_.triangles}, 1}};
   const Result<KnownGroup*> group = known(entryOf(place));
   if (!group.ok()) return group.status();
   if (!(*group)->ground) {

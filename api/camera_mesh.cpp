@@ -85,6 +85,8 @@ class ScreenMeshCall {
     }
     const auto cameras = takeCameras(screen.cameras, screen.camera_count);
     if (!cameras.ok()) return cameras.status();
+    if (Status status = refuseGlobes("A mesh for the screen", *cameras); !status.ok())
+      return status;
     tks_image texture{};
     if (screen.texture != nullptr) {
       if (Status status = takeTexture(*screen.texture, texture); !status.ok()) return status;

@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "api/globe.hpp"
 #include "api/guarded.hpp"
 #include "api/memory.hpp"
 #include "api/written.hpp"
@@ -20,7 +22,6 @@
 #include "codec/mesh/globe/globe_places.hpp"
 
 namespace tetrakis::inline api {
-namespace {
 
 Result<tks_globe> takeGlobe(const tks_globe* given) {
   if (given == nullptr) return Status(TKS_USAGE, "The globe is missing.");
@@ -37,23 +38,34 @@ Result<tks_globe> takeGlobe(const tks_globe* given) {
   return globe;
 }
 
-/// Of heights that go round it.
-Result<GlobePlaces> placesOn(const tks_globe& globe, const StreamHeader& header) {
-  const Placement& place = header.georeference.heights;
-  const auto [width, height] = header.geometry->shown();
+Result<GlobePlaces> placesOn(const tks_globe& globe, const std::string& what,
+                             const Placement& place, Extent grid) {
   const GeoTransform& t = place.transform;
   const ColumnsRound round = place.has_transform
-                                 ? columnsRound({width, height, t.data()}, globe.degrees)
+                                 ? columnsRound({grid.width, grid.height, t.data()}, globe.degrees)
                                  : ColumnsRound::kNo;
   if (round != ColumnsRound::kOnce || !(std::abs(t[5]) > 0))
-    return Status(TKS_USAGE, "The columns of the heights do not go once round a globe.");
+    return Status(TKS_USAGE, "The columns of " + what + " do not go once round a globe.");
   // A geotransform is that of the outer corners of samples.
-  const GlobeAxis longitudes{(t[0] + 0.5 * t[1]) * globe.degrees, t[1] * globe.degrees, width};
-  const GlobeAxis latitudes{(t[3] + 0.5 * t[5]) * globe.degrees, t[5] * globe.degrees, height};
-  GlobePlaces places(longitudes, latitudes, {globe.semi_major, globe.semi_minor});
-  if (!places.onGlobe()) return Status(TKS_USAGE, "Rows of the heights lie beyond a pole.");
+  const GlobeAxis longitudes{(t[0] + 0.5 * t[1]) * globe.degrees, t[1] * globe.degrees, grid.width};
+  const GlobeAxis latitudes{(t[3] + 0.5 * t[5]) * globe.degrees, t[5] * globe.degrees, grid.height};
+  GlobePlaces places(longitudes, latitudes, spheroidOf(globe));
+  if (!places.onGlobe()) return Status(TKS_USAGE, "Rows of " + what + " lie beyond a pole.");
   return places;
 }
+
+double metresPerHeight(const tks_globe& globe, const StreamHeader& header) {
+  return metresPerUnit(header.metadata.unit).value_or(1) * globe.exaggeration;
+}
+
+Status checkCube(const Forest& forest) {
+  if (std::equal(forest.sides().begin(), forest.sides().end(), kCubeSides.begin(),
+                 kCubeSides.end()))
+    return {};
+  return {TKS_USAGE, "The patches of the heights are not those of a globe on a cube."};
+}
+
+namespace {
 
 class GlobeCall {
  public:
@@ -66,7 +78,8 @@ class GlobeCall {
     const Result<tks_globe> globe = takeGlobe(given);
     if (!globe.ok()) return globe.status();
     if (header.geometry->wavelet.forest != nullptr) return runOnCube(*globe, out);
-    const Result<GlobePlaces> places = placesOn(*globe, header);
+    const Result<GlobePlaces> places =
+        placesOn(*globe, "the heights", header.georeference.heights, header.geometry->shown());
     if (!places.ok()) return places.status();
     const std::vector<float> areas = places->rowAreas();
     Result<SurfaceMesh> surface = surfaceMesh(decoder_, kind_, max_triangles_, areas);
@@ -77,7 +90,7 @@ class GlobeCall {
     if (places->mirrored())
       for (size_t t = 0; t < mesh.triangles.size(); t += 3)
         std::swap(mesh.triangles[t + 1], mesh.triangles[t + 2]);
-    const double metres = metresPerHeight(*globe);
+    const double metres = metresPerHeight(*globe, header);
     give(mesh.heights, mesh.triangles, out, [&](size_t v) {
       const GridPlace& place = mesh.places[v];
       return GlobeVertex{places->at(place, mesh.heights[v] * metres), place.column, place.row};
@@ -89,9 +102,7 @@ class GlobeCall {
   /// The mesh of a cube, patch by patch. A vertex on a side lies where its sample's owner lies.
   Status runOnCube(const tks_globe& globe, tks_globe_mesh& out) {
     const Forest& forest = *decoder_.parsed.header.geometry->wavelet.forest;
-    if (!std::equal(forest.sides().begin(), forest.sides().end(), kCubeSides.begin(),
-                    kCubeSides.end()))
-      return Status(TKS_USAGE, "The patches of the heights are not those of a globe on a cube.");
+    if (Status status = checkCube(forest); !status.ok()) return status;
     const bool budget = kind_ == TKS_MESH_BUDGET;
     const auto depth = static_cast<uint32_t>(forest.depth());
     const uint32_t level = cubeBendLevel(depth, budget ? max_triangles_ : 0);
@@ -103,19 +114,14 @@ class GlobeCall {
     const Result<ForestSurface> surface =
         forestSurface(decoder_, {kind_, max_triangles_, level, true}, kVertex * (bends + chosen));
     if (!surface.ok()) return surface.status();
-    const double metres = metresPerHeight(globe);
-    const CubeSpheroid cube(forest, {globe.semi_major, globe.semi_minor});
+    const double metres = metresPerHeight(globe, decoder_.parsed.header);
+    const CubeSpheroid cube(forest, spheroidOf(globe));
     give(surface->heights, surface->mesh.triangles, out, [&](size_t v) {
       const uint32_t sample = surface->mesh.vertices[v], side = forest.side();
       return GlobeVertex{cube.at(sample, surface->heights[v] * metres),
                          static_cast<double>(sample % side), static_cast<double>(sample / side)};
     });
     return {};
-  }
-
-  double metresPerHeight(const tks_globe& globe) const {
-    const StreamHeader& header = decoder_.parsed.header;
-    return metresPerUnit(header.metadata.unit).value_or(1) * globe.exaggeration;
   }
 
   /// With the vertices of coarse levels, which are few beside the triangles that are asked for.

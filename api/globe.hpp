@@ -1,16 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-// What callers give of a globe: a geographic grid, and the depth of a cube.
+// What callers give of a globe: its ellipsoid, a geographic grid, and the depth of a cube.
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "api/guarded.hpp"
 #include "base/forest.hpp"
+#include "bitstream/stream/header.hpp"
 #include "codec/cube/cube_interpolation.hpp"
 #include "codec/cube/cube_sphere.hpp"
 #include "codec/cube/geographic_grid.hpp"
+#include "codec/mesh/globe/globe_places.hpp"
 
 namespace tetrakis::inline api {
+
+/// With usual values in the place of 0. TKS_USAGE with a sentence.
+Result<tks_globe> takeGlobe(const tks_globe* given);
+
+inline Spheroid spheroidOf(const tks_globe& globe) {
+  return {globe.semi_major, globe.semi_minor};
+}
+
+/// Where the samples of a grid lie; degrees: of the globe. TKS_USAGE with a sentence about `what`:
+/// it does not go round, or beyond a pole.
+Result<GlobePlaces> placesOn(const tks_globe& globe, const std::string& what,
+                             const Placement& place, Extent grid);
+
+/// Metres that a height of 1 is drawn as.
+double metresPerHeight(const tks_globe& globe, const StreamHeader& header);
+
+/// TKS_USAGE unless the patches of the heights are those of a cube.
+Status checkCube(const Forest& forest);
 
 inline Result<GeographicGrid> gridOf(const tks_geographic_grid* given) {
   constexpr uint32_t kMostSide = 1 << 20;

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "api/guarded.hpp"
@@ -54,30 +56,41 @@ Result<std::vector<tks_screen_camera>> takeCameras(const tks_screen_camera* give
   return cameras;
 }
 
-Result<CoarseGround> coarseGround(tks_decoder& decoder) {
-  constexpr uint32_t kMostPoints = 128;  // a side: hidden ground need not be known more finely
+Status refuseGlobes(const std::string& what, std::span<const tks_screen_camera> cameras) {
+  const auto looks = [](const tks_screen_camera& camera) { return camera.globe != nullptr; };
+  if (std::none_of(cameras.begin(), cameras.end(), looks)) return {};
+  return {TKS_UNSUPPORTED, what + " knows flat ground alone, and no globe of a camera."};
+}
+
+Result<std::vector<float>> coarseHeights(tks_decoder& decoder, const View& view) {
   const StreamHeader& header = decoder.parsed.header;
   const Extent plane = header.geometry ? header.geometry->shown() : header.texture->shown();
-  View view;
-  while ((std::max(plane.width, plane.height) - 1) >> view.level >= kMostPoints) ++view.level;
+  std::vector<float> heights(view.extentIn(plane).samples());
+  if (!header.geometry || heightsAreUnsent(decoder)) return heights;
+  if (Status status = checkMemory(decoder, {TKS_PART_HEIGHTS, view, 0}); !status.ok())
+    return status;
+  const DecodedHeights decoded = decodeHeights(decoder, view);
+  assert(decoded.geometry.extent() == view.extentIn(plane));
+  writeSurface(decoder, decoded, heights.data());
+  float low = HUGE_VALF;
+  for (const float height : heights) low = std::fmin(low, height);
+  for (float& height : heights)
+    if (std::isnan(height)) height = std::isfinite(low) ? low : 0;
+  return heights;
+}
+
+Result<CoarseGround> coarseGround(tks_decoder& decoder) {
+  const StreamHeader& header = decoder.parsed.header;
+  const Extent plane = header.geometry ? header.geometry->shown() : header.texture->shown();
+  View view = coarseViewOf(plane);
   // Levels of a forest have rasters of their own, in which cameras of this one mean nothing.
   const bool forest = header.geometry && header.geometry->wavelet.forest != nullptr;
   if (header.geometry)
     view.level = forest ? 0 : std::min(view.level, coarsestLevelOf(header.geometry));
+  Result<std::vector<float>> heights = coarseHeights(decoder, view);
+  if (!heights.ok()) return heights.status();
   const Extent extent = view.extentIn(plane);
-  CoarseGround ground{extent.width, extent.height, view.step(), {}};
-  ground.heights.resize(extent.samples());
-  if (!header.geometry || heightsAreUnsent(decoder)) return ground;
-  if (Status status = checkMemory(decoder, {TKS_PART_HEIGHTS, view, 0}); !status.ok())
-    return status;
-  const DecodedHeights decoded = decodeHeights(decoder, view);
-  assert(decoded.geometry.extent() == extent);
-  writeSurface(decoder, decoded, ground.heights.data());
-  float low = HUGE_VALF;
-  for (const float height : ground.heights) low = std::fmin(low, height);
-  for (float& height : ground.heights)
-    if (std::isnan(height)) height = std::isfinite(low) ? low : 0;
-  return ground;
+  return CoarseGround{extent.width, extent.height, view.step(), *std::move(heights)};
 }
 
 namespace {
@@ -92,26 +105,47 @@ Eye eyeThrough(const tks_screen_camera& camera) {
 
 Sighting sightingOf(const CoarseGround& ground, const tks_screen_camera& camera,
                     uint32_t triangles) {
-  return {ground.columns, ground.rows, sightOf(ground, eyeThrough(camera)), triangles};
+  return {.ground = {ground.columns, ground.rows, sightOf(ground, eyeThrough(camera))},
+          .triangles = triangles};
 }
+
+Sighting sightingOf(const CoarseGlobe& globe, const tks_screen_camera& camera, uint32_t triangles) {
+  const Eye eye = eyeThrough(camera);
+  return {sightOf(globe.heights, eye), sightOf(globe.texture, eye), triangles};
+}
+
+namespace {
+
+// Chances that the next picture is one after a turn, or any other. They let ground that is not seen
+// now lag 12 to 15 dB behind what is (docs/EXPERIMENTS.md, Plans that look beyond the picture).
+constexpr double kAround = 1 / 16.0, kElsewhere = 1 / 32.0;
+
+}  // namespace
 
 std::vector<WeightedSighting> outlookOf(const tks_decoder& decoder, const CoarseGround& ground,
                                         const tks_screen_camera& camera, uint32_t triangles) {
-  // Chances that the next picture is another one. They let ground that is not seen now lag 12 to
-  // 15 dB behind what is (docs/EXPERIMENTS.md, Plans that look beyond the picture).
-  constexpr double kAround = 1 / 16.0, kElsewhere = 1 / 32.0;
   const Metadata& m = decoder.parsed.header.metadata;
   const double aspect = m.spacing_x > 0 && m.spacing_y > 0 ? m.spacing_x / m.spacing_y : 1;
-  return {
-      {sightingOf(ground, camera, triangles), 1},
-      {{ground.columns, ground.rows, sightAround(ground, eyeThrough(camera), aspect), triangles},
-       kAround},
-      {{0, 0, {}, triangles}, kElsewhere}};
+  SeenRaster around = {ground.columns, ground.rows,
+                       sightAround(ground, eyeThrough(camera), aspect)};
+  return {{sightingOf(ground, camera, triangles), 1},
+          {{.ground = std::move(around), .triangles = triangles}, kAround},
+          {{.ground = {}, .triangles = triangles}, kElsewhere}};
 }
 
-Status checkPlanMemory(const tks_decoder& decoder) {
+std::vector<WeightedSighting> outlookOf(const CoarseGlobe& globe, const tks_screen_camera& camera,
+                                        uint32_t triangles) {
+  const Sighting seen = sightingOf(globe, camera, triangles);
+  // Whoever turns a globe sees all of it.
+  return {{seen, 1},
+          {{sightAround(globe.heights, seen.ground), sightAround(globe.texture, seen.texture),
+            triangles},
+           kAround + kElsewhere}};
+}
+
+Status checkPlanMemory(const tks_decoder& decoder, uint64_t beside) {
   const uint64_t bytes =
-      decoder.packets.bytes + decoder.pieces.bytes() + planBytes(decoder.parsed.header);
+      decoder.packets.bytes + decoder.pieces.bytes() + planBytes(decoder.parsed.header) + beside;
   if (bytes <= decoder.max_memory) return {};
   return {TKS_LIMIT, "Choosing packets takes " + describeBytes(bytes) +
                          " of memory; the limit (max_memory) is " +

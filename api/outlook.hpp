@@ -3,12 +3,17 @@
 // viewer sees or may see after a turn, so that the bytes for that ground can be fetched first.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "api/decoder.hpp"
+#include "base/plane.hpp"
+#include "base/view.hpp"
 #include "ratecontrol/receiver/fetch_plan.hpp"
+#include "ratecontrol/receiver/globe_sight.hpp"
 #include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.h"
 
@@ -19,6 +24,9 @@ namespace tetrakis::inline api {
 /// What the caller has of a camera; fields that it lacks are 0. TKS_USAGE, TKS_UNSUPPORTED with a
 /// sentence that begins with `name` or holds it.
 Status takeCamera(const std::string& name, const tks_screen_camera& given, tks_screen_camera& out);
+
+/// TKS_UNSUPPORTED with a sentence about `what`, which knows no globe, if a camera looks at one.
+Status refuseGlobes(const std::string& what, std::span<const tks_screen_camera> cameras);
 
 /// All cameras of an array of structs of one size.
 Result<std::vector<tks_screen_camera>> takeCameras(const tks_screen_camera* given, uint32_t count);
@@ -32,19 +40,44 @@ inline double weightOf(const tks_screen_camera& camera) {
 // which ground it would see after a turn on the spot. A plan for the present picture alone leaves
 // the ground behind the viewer bare: the first picture after a turn lost 11 dB.
 
+constexpr uint32_t kCoarsePoints = 128;  ///< a side: hidden ground need not be known more finely
+
+/// The first level with no more than so many samples along the longer side.
+inline View coarseViewOf(Extent plane, uint32_t most = kCoarsePoints) {
+  View view;
+  while ((std::max(plane.width, plane.height) - 1) >> view.level >= most) ++view.level;
+  return view;
+}
+
+/// Heights in the unit from what is there: 0 where nothing is, the lowest one where they are void.
+/// TKS_LIMIT.
+Result<std::vector<float>> coarseHeights(tks_decoder& decoder, const View& view);
+
 /// The ground at a coarse mip level, from what is there; flat where nothing is.
 Result<CoarseGround> coarseGround(tks_decoder& decoder);
+
+/// The same of heights round a globe, and of a texture that lies otherwise; without points: it lies
+/// as the heights do.
+struct CoarseGlobe {
+  GlobeGround heights, texture;
+};
+
+/// TKS_USAGE: as tks_decode_globe. TKS_LIMIT.
+Result<CoarseGlobe> coarseGlobe(tks_decoder& decoder, const tks_globe* globe);
 
 /// camera: one that takeCamera() took.
 Sighting sightingOf(const CoarseGround& ground, const tks_screen_camera& camera,
                     uint32_t triangles);
+Sighting sightingOf(const CoarseGlobe& globe, const tks_screen_camera& camera, uint32_t triangles);
 
 /// What that viewer sees, and what else may come into the picture: the ground around, after a turn,
 /// and all of the ground.
 std::vector<WeightedSighting> outlookOf(const tks_decoder& decoder, const CoarseGround& ground,
                                         const tks_screen_camera& camera, uint32_t triangles);
+std::vector<WeightedSighting> outlookOf(const CoarseGlobe& globe, const tks_screen_camera& camera,
+                                        uint32_t triangles);
 
-/// TKS_LIMIT with a sentence if choosing packets takes more than the limit.
-Status checkPlanMemory(const tks_decoder& decoder);
+/// TKS_LIMIT with a sentence if choosing packets takes more than the limit. beside: further bytes.
+Status checkPlanMemory(const tks_decoder& decoder, uint64_t beside = 0);
 
 }  // namespace tetrakis::inline api

@@ -16,9 +16,15 @@ namespace {
 Result<std::vector<WeightedSighting>> sightingsIn(tks_decoder& decoder,
                                                   const tks_screen_camera* given,
                                                   uint32_t triangles) {
-  if (given == nullptr) return std::vector<WeightedSighting>{{{0, 0, {}, triangles}, 1}};
+  if (given == nullptr)
+    return std::vector<WeightedSighting>{{{.ground = {}, .triangles = triangles}, 1}};
   tks_screen_camera camera{};
   if (Status status = takeCamera("the view", *given, camera); !status.ok()) return status;
+  if (camera.globe != nullptr) {
+    const Result<CoarseGlobe> globe = coarseGlobe(decoder, camera.globe);
+    if (!globe.ok()) return globe.status();
+    return outlookOf(*globe, camera, triangles);
+  }
   const Result<CoarseGround> ground = coarseGround(decoder);
   if (!ground.ok()) return ground.status();
   return outlookOf(decoder, *ground, camera, triangles);

@@ -226,6 +226,7 @@ Status open(tks_receiver& receiver, uint64_t frame) {
 Result<ControlView> controlViewOf(const tks_screen_camera& given) {
   tks_screen_camera camera{};
   if (Status status = takeCamera("the view", given, camera); !status.ok()) return status;
+  if (Status status = refuseGlobes("A message", {&camera, 1}); !status.ok()) return status;
   ControlView view{camera.width, camera.height, {}};
   constexpr std::array<size_t, 3> kRows = {0, 1, 3};
   for (size_t i = 0; i < view.rows.size(); ++i) {

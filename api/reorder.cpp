@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "api/encoded_stream.hpp"
@@ -18,14 +19,26 @@
 namespace tetrakis::inline api {
 namespace {
 
-Result<std::vector<WeightedSighting>> sightingsOf(tks_decoder& decoder,
-                                                  const std::vector<tks_screen_camera>& cameras) {
+Result<Sighting> sightingIn(tks_decoder& decoder, const tks_screen_camera& camera) {
+  const uint32_t triangles = decoder.parsed.header.triangles;
+  if (camera.globe != nullptr) {
+    const Result<CoarseGlobe> globe = coarseGlobe(decoder, camera.globe);
+    if (!globe.ok()) return globe.status();
+    return sightingOf(*globe, camera, triangles);
+  }
   const Result<CoarseGround> ground = coarseGround(decoder);
   if (!ground.ok()) return ground.status();
+  return sightingOf(*ground, camera, triangles);
+}
+
+Result<std::vector<WeightedSighting>> sightingsOf(tks_decoder& decoder,
+                                                  const std::vector<tks_screen_camera>& cameras) {
   std::vector<WeightedSighting> sightings;
-  for (const tks_screen_camera& camera : cameras)
-    sightings.push_back(
-        {sightingOf(*ground, camera, decoder.parsed.header.triangles), weightOf(camera)});
+  for (const tks_screen_camera& camera : cameras) {
+    Result<Sighting> sighting = sightingIn(decoder, camera);
+    if (!sighting.ok()) return sighting.status();
+    sightings.push_back({*std::move(sighting), weightOf(camera)});
+  }
   return sightings;
 }
 

@@ -355,7 +355,7 @@ typedef struct tks_encode_options {
   uint32_t regions;    /* side of the regions by which windows can be decoded, in samples of either
                         component: a power of two from 16 to 2^20; 1: none, which tks_info calls 0;
                         0: chosen, none up to 1025 x 1025 heights, 2048² texels, or for windows
-                        256 wherever that makes several */
+                        256 wherever that makes several. What lies on a forest has none */
   int index;           /* a tks_index: whether to write the byte ranges of every packet in front */
   tks_weights weights; /* of the texture; targets and stated errors remain squares */
   tks_progress progress;
@@ -943,6 +943,9 @@ typedef struct tks_screen_camera {
   double clip[16];        /* that of tks_view_mesh: columns, rows and heights to clip coordinates,
                              whose y points up in the picture */
   double weight;          /* of its picture beside others; not negative; 0 counts as 1 here */
+  const tks_globe* globe; /* what the heights are drawn round: then clip takes metres from its
+                             centre, as positions of tks_globe_mesh. NULL: none. Only of tks_plan
+                             and tks_reorder */
 } tks_screen_camera;
 
 /* What a mesh will be drawn for. */
@@ -1006,8 +1009,9 @@ typedef struct tks_fetch {
  * it counts when that has come.
  *
  * view: NULL: all ground counts alike. Its weight is not looked at; its columns and rows are those
- * of the heights, or of a texture without heights. The call decodes a coarse mip level of the
- * heights: what hides what. TKS_USAGE, TKS_UNSUPPORTED: as tks_decode_screen_mesh of a camera. */
+ * of the heights, or of a texture without heights; or it looks at a globe, whose far side it does
+ * not see. The call decodes a coarse mip level of the heights: what hides what. TKS_USAGE,
+ * TKS_UNSUPPORTED: as tks_decode_screen_mesh of a camera, and as tks_decode_globe of its globe. */
 tks_status tks_plan(tks_decoder* decoder, const tks_screen_camera* view, const tks_fetch* fetch,
                     tks_ranges* out);
 

@@ -10,53 +10,20 @@ namespace tetrakis::inline receiver {
 
 namespace {
 
-using Place = std::array<double, 3>;  // column, row, height
-
-double determinant(const Place& a, const Place& b, const Place& c) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
-/// A row of the matrix at a place.
-double rowAt(const std::array<double, 16>& clip, size_t row, const Place& p) {
-  const double* m = &clip[4 * row];
-  return m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3];
-}
-
-/// Where x, y and w of the clip coordinates are 0; nothing for parallel projections.
-std::optional<Place> eyeOf(const std::array<double, 16>& clip) {
-  std::array<Place, 3> columns{};
-  Place constant{};
-  constexpr std::array<size_t, 3> kRows = {0, 1, 3};
-  for (size_t i = 0; i < 3; ++i) {
-    for (size_t j = 0; j < 3; ++j) columns[j][i] = clip[4 * kRows[i] + j];
-    constant[i] = -clip[4 * kRows[i] + 3];
-  }
-  const double all = determinant(columns[0], columns[1], columns[2]);
-  Place eye{};
-  for (size_t j = 0; j < 3; ++j) {
-    std::array<Place, 3> replaced = columns;
-    replaced[j] = constant;  // Cramer's rule
-    eye[j] = determinant(replaced[0], replaced[1], replaced[2]) / all;
-  }
-  if (!std::all_of(eye.begin(), eye.end(), [](double v) { return std::isfinite(v); })) return {};
-  return eye;
-}
-
 /// Coarse ground as the eye sees it.
 class Sight {
  public:
   Sight(const CoarseGround& ground, const Eye& eye)
-      : ground_(ground), view_(eye), eye_(eyeOf(eye.clip)) {
+      : ground_(ground), view_(eye), eye_(placeOf(eye)) {
     highest_ = *std::max_element(ground.heights.begin(), ground.heights.end());
   }
 
-  GroundPoint at(uint32_t x, uint32_t y) const { return unlessHidden(x, y, shown(placeOf(x, y))); }
+  GroundPoint at(uint32_t x, uint32_t y) const { return unlessHidden(x, y, shown(pointAt(x, y))); }
 
   /// After a turn about the vertical through the eye that brings the point to the middle column.
   GroundPoint faced(uint32_t x, uint32_t y, double aspect) const {
     if (!eye_) return {};
-    Place place = placeOf(x, y);
+    Vec3 place = pointAt(x, y);
     const double* ahead = &view_.clip[12];  // w rises along it
     const double across = ahead[0] / aspect, down = ahead[1];
     const double most = std::hypot(across, down);
@@ -72,26 +39,15 @@ class Sight {
     return seen.pixels > 0 && !isHidden(x, y) ? seen : GroundPoint{};
   }
 
-  Place placeOf(uint32_t x, uint32_t y) const {
+  Vec3 pointAt(uint32_t x, uint32_t y) const {
     return {double(x) * ground_.step, double(y) * ground_.step, heightAt(x, y)};
   }
 
   /// The pixels and the parallax of a point that nothing hides.
-  GroundPoint shown(const Place& point) const {
-    const double w = rowAt(view_.clip, 3, point);
-    const double cx = rowAt(view_.clip, 0, point), cy = rowAt(view_.clip, 1, point);
-    // Ground that ends a step beyond the picture's border still reaches into it.
-    constexpr double kBorder = 1.1;
-    if (!(w > 0) || std::abs(cx) > kBorder * w || std::abs(cy) > kBorder * w) return {};
-    std::array<double, 3> dx{}, dy{};  // pixels by column, row, height
-    for (size_t j = 0; j < 3; ++j) {
-      dx[j] = (view_.clip[j] - cx / w * view_.clip[12 + j]) / w * view_.width / 2;
-      dy[j] = (view_.clip[4 + j] - cy / w * view_.clip[12 + j]) / w * view_.height / 2;
-    }
-    const double pixels = std::abs(dx[0] * dy[1] - dx[1] * dy[0]);
-    const double parallax = dx[2] * dx[2] + dy[2] * dy[2];
-    if (!std::isfinite(pixels) || !std::isfinite(parallax)) return {};
-    return {pixels, parallax};
+  GroundPoint shown(const Vec3& point) const {
+    const std::optional<PixelsBy> by = pixelsBy(view_, point);
+    if (!by) return {};
+    return shownPoint(by->along({1, 0, 0}), by->along({0, 1, 0}), by->along({0, 0, 1}));
   }
 
   double heightAt(uint32_t x, uint32_t y) const {
@@ -125,7 +81,7 @@ class Sight {
 
   const CoarseGround& ground_;
   const Eye& view_;
-  std::optional<Place> eye_;
+  std::optional<Vec3> eye_;
   double highest_ = 0;
 };
 

@@ -3,9 +3,10 @@
 // the cost of an error there in the viewer's picture; a Sighting is that cost with its ground.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
+
+#include "ratecontrol/receiver/eye.hpp"
 
 namespace tetrakis::inline receiver {
 
@@ -20,18 +21,6 @@ struct CoarseGround {
   std::vector<float> heights;
 };
 
-/// Takes (column, row, height, 1) to clip coordinates, as tks_screen_camera.
-struct Eye {
-  std::array<double, 16> clip{};
-  uint32_t width = 0, height = 0;  ///< of the picture, in pixels
-};
-
-/// What a point of the ground is to a picture.
-struct GroundPoint {
-  double pixels = 0;    ///< that one sample of the grid covers; 0: hidden, or outside
-  double parallax = 0;  ///< squared pixels that a height error of 1 moves the point by
-};
-
 /// One a point of the ground, row by row. A point is hidden where a straight walk to the eye goes
 /// below coarse ground. Without such an eye (a map) nothing is hidden.
 std::vector<GroundPoint> sightOf(const CoarseGround& ground, const Eye& eye);
@@ -44,11 +33,17 @@ std::vector<GroundPoint> sightAround(const CoarseGround& ground, const Eye& eye,
 // A Sighting tells how the picture of a viewer, now or later, shows each point of the ground, so
 // that a receiver can say which bytes improve it.
 
+/// Points that lie over all of a raster, row by row.
+struct SeenRaster {
+  uint32_t columns = 0, rows = 0;
+  std::vector<GroundPoint> points;
+};
+
 /// What a receiver looks at. Without points all ground counts alike.
 struct Sighting {
-  uint32_t columns = 0, rows = 0;  ///< of the points, which lie over all of the ground
-  std::vector<GroundPoint> points;
-  uint32_t triangles = 0;  ///< that meshes will have; 0: any number
+  SeenRaster ground;        ///< over the heights, or over a texture without heights
+  SeenRaster texture = {};  ///< over a texture that lies otherwise; without points: as the ground
+  uint32_t triangles = 0;   ///< that meshes will have; 0: any number
 };
 
 /// What some viewer sees, and how much that counts.

@@ -105,12 +105,13 @@ class SightedStream {
         sighting_(sighting),
         usual_of_heights_(usualCost(
             header, [&](const GroundPoint& point) { return heightsCost(header, point); })),
-        usual_pixels_(usualCost(header, [](const GroundPoint& point) { return point.pixels; })),
+        usual_texel_(texelsPixels(
+            header, usualCost(header, [](const GroundPoint& point) { return point.pixels; }))),
         unseen_(levelBelowMesh(header, sighting.triangles)) {}
 
   double costOfHeights(const Region& region) const {
-    if (sighting_.points.empty()) return shownShare(region, 1, unseen_);
-    return meanOver(region, header_.geometry->extent(),
+    if (sighting_.ground.points.empty()) return shownShare(region, 1, unseen_);
+    return meanOver(region, header_.geometry->extent(), sighting_.ground,
                     [&](const GroundPoint& point) {
                       return heightsCost(header_, point) *
                              shownShare(region, point.pixels, unseen_);
@@ -119,27 +120,29 @@ class SightedStream {
   }
 
   double costOfTexture(const Region& region) const {
-    if (sighting_.points.empty()) return 1;
-    return meanOver(region, header_.texture->extent(),
-                    [&](const GroundPoint& point) {
-                      return point.pixels *
-                             shownShare(region, texelsPixels(header_, point.pixels), 0);
-                    }) /
-           usual_pixels_;
+    if (sighting_.ground.points.empty()) return 1;
+    const bool is_own = !sighting_.texture.points.empty();
+    return meanOver(
+               region, header_.texture->extent(), is_own ? sighting_.texture : sighting_.ground,
+               [&](const GroundPoint& point) {
+                 const double pixels = is_own ? point.pixels : texelsPixels(header_, point.pixels);
+                 return pixels * shownShare(region, pixels, 0);
+               }) /
+           usual_texel_;
   }
 
  private:
   /// The mean cost of the points that a region of a plane reaches, as its waves end beyond it;
   /// hidden points count as 0.
   template <class Cost>
-  double meanOver(const Region& region, Extent plane, Cost&& cost) const {
+  static double meanOver(const Region& region, Extent plane, const SeenRaster& seen, Cost&& cost) {
     const auto first = [](uint32_t begin, uint32_t side, uint32_t points) {
       return static_cast<uint32_t>(uint64_t{begin} * points / side);
     };
     const auto behind = [](uint32_t end, uint32_t side, uint32_t points) {
       return static_cast<uint32_t>((uint64_t{end} * points + side - 1) / side);
     };
-    const auto& [columns, rows, points, triangles] = sighting_;
+    const auto& [columns, rows, points] = seen;
     double sum = 0;
     size_t count = 0;
     const uint32_t reach = region.isBase() ? 0 : uint32_t{1} << std::min(region.last_level, 24);
@@ -158,7 +161,7 @@ class SightedStream {
 
   const StreamHeader& header_;
   const Sighting& sighting_;
-  double usual_of_heights_, usual_pixels_;  ///< what errors cost the encoder's viewers
+  double usual_of_heights_, usual_texel_;  ///< what errors cost the encoder's viewers
   int unseen_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "tests/support/forest_raster.hpp"
 #include "tests/support/forest_shapes.hpp"
+#include "tests/support/globe_grids.hpp"
 #include "tests/support/welded_mesh.hpp"
 
 namespace tetrakis::test {
@@ -19,36 +20,9 @@ using samples::Pattern;
 using samples::Raster;
 using Point = std::array<double, 3>;
 
-/// In degrees, of the outer corner of the first sample and from one sample to the next.
-struct Grid {
-  uint32_t width, height;
-  double west, north, column, row;
-};
-constexpr Grid kAreas{36, 18, -180, 90, 10, -10};
-constexpr Grid kPoints{36, 19, -5, 95, 10, -10};
-constexpr Grid kSouthUp{40, 20, 180, -90, 9, 9};
-constexpr Grid kBand{50, 23, -180, 84, 7.2, -6.5};
-
-tks_heights placed(const Raster& raster, const Grid& grid) {
-  tks_heights heights = raster.heights();
-  heights.domain = TKS_DOMAIN_CYLINDER;
-  heights.has_geotransform = 1;
-  const double transform[] = {grid.west, grid.column, 0, grid.north, 0, grid.row};
-  std::copy(std::begin(transform), std::end(transform), heights.geotransform);
-  return heights;
-}
-
-Raster rasterOf(const Grid& grid) {
-  return make({Pattern::kRidges, grid.width, grid.height, 1, TKS_I16, 3});
-}
-
 Bytes streamOf(const Grid& grid, const tks_encode_options& options = lossless()) {
   const Raster raster = rasterOf(grid);
   return encodeHeights(placed(raster, grid), options);
-}
-
-tks_globe moon() {
-  return {sizeof(tks_globe), 1737400, 1737400, 0, 0};
 }
 
 struct Drawn {

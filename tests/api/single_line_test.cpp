@@ -265,7 +265,7 @@ TEST(SingleLine, IsFetchedByPlans) {
     const Bytes bytes = encode(&raster, nullptr, options);
     Stream stream(Prefix(bytes).first(readHeader(bytes)->bytes));
     const tks_screen_camera camera = {
-        sizeof camera, 64, 64, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 300}, 1};
+        sizeof camera, 64, 64, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 300}, 1, nullptr};
     const tks_fetch all = {sizeof all, bytes.size(), 0, 0};
     for (const tks_screen_camera* view :
          {&camera, static_cast<const tks_screen_camera*>(nullptr)}) {

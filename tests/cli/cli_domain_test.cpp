@@ -1,42 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which rasters the command line takes for cylinders, by where they lie, and which go to cubes.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstring>
-#include <fstream>
-#include <nlohmann/json.hpp>
-#include <sstream>
-#include <vector>
-
-#include "tests/cli/cli_fixture.hpp"
-#include "tests/support/welded_mesh.hpp"
+// Which rasters the command line takes for cylinders, by where they lie.
+#include "tests/cli/cli_globe_fixture.hpp"
 
 namespace tetrakis::test {
 namespace {
-
-using Json = nlohmann::json;
-
-class CliDomain : public CliTest {
- protected:
-  tools::HeightFile ground(uint32_t width, double west, double degrees, const char* crs) {
-    tools::HeightFile file;
-    file.width = width;
-    file.height = 3;
-    file.sample = TKS_I16;
-    file.crs = crs;
-    file.geotransform = tools::GeoTransform{west, degrees, 0, 60, 0, -degrees};
-    for (uint32_t i = 0; i < 3 * width; ++i) appendSample(file, static_cast<uint16_t>(i % 17));
-    return file;
-  }
-  Outcome encode(const tools::HeightFile& file, const std::string& options = "") {
-    EXPECT_TRUE(tools::writeHeights(path("g.tif"), file).ok());
-    return cli("encode g.tif --lossless -f -o s.tks" + options);
-  }
-  std::string domainOf(const char* part = "heights") {
-    return Json::parse(cli("info --json s.tks").out)[part]["domain"];
-  }
-};
 
 TEST_F(CliDomain, GeographicGridsOf360DegreesAreCylinders) {
   for (const auto& [width, west] : {std::pair{36u, -180.}, {36u, 0.}, {37u, -180.}, {1080u, 20.}}) {
@@ -74,6 +41,15 @@ TEST_F(CliDomain, AColumnThatIsThereTwiceIsTold) {
     const Outcome run = encode(ground(width, west, degrees, "EPSG:4326"));
     EXPECT_NE(run.err.find("-srcwin 0 0 " + std::to_string(width - 1)), std::string::npos)
         << run.err;
+    EXPECT_EQ(domainOf(), "plane");
+  }
+}
+
+TEST_F(CliDomain, APartOfAColumnThatLacksOrOverlapsIsTold) {
+  for (const double all : {359.9, 360.02}) {
+    const Outcome run = encode(ground(360, -180, all / 360, "EPSG:4326"));
+    ASSERT_EQ(run.code, 0) << run.err;
+    EXPECT_NE(run.err.find("--domain cylinder closes it"), std::string::npos) << run.err;
     EXPECT_EQ(domainOf(), "plane");
   }
 }
@@ -158,232 +134,6 @@ TEST_F(CliDomain, WindowsGoOnAcross180Degrees) {
     EXPECT_EQ(texels.data[i], image.data[(2 + i / 10) * 72 + 32 + i % 10]);
   EXPECT_EQ(cli("decode s.tks -f --height d.tif --window 34 1 37 1").code, 1);
   EXPECT_EQ(cli("decode s.tks -f --height d.tif --window 36 1 1 1").code, 1);
-}
-
-class CliCube : public CliDomain {
- protected:
-  CliCube() {
-    world_.width = 72;
-    world_.height = 36;
-    world_.sample = TKS_I16;
-    world_.crs = "EPSG:4326";
-    world_.unit = "m";
-    world_.geotransform = tools::GeoTransform{-180, 5, 0, 90, 0, -5};
-    for (uint32_t i = 0; i < 72 * 36; ++i)
-      appendSample(world_, static_cast<uint16_t>(1000 * std::sin((i / 72 + 0.5) * 0.0872664626) *
-                                                     std::cos(i % 72 * 0.0872664626) +
-                                                 2000));
-  }
-  Outcome encodeCube(const std::string& options) {
-    EXPECT_TRUE(tools::writeHeights(path("g.tif"), world_).ok());
-    const bool other = options.find("--domain") != std::string::npos;
-    return cli(std::string("encode g.tif -f -o s.tks") + (other ? "" : " --domain cube") + options);
-  }
-  tools::HeightFile decoded(const std::string& options = "") {
-    EXPECT_EQ(cli("decode s.tks -f --height d.tif" + options).code, 0);
-    return *tools::readHeights(path("d.tif"));
-  }
-  int sampleOf(const tools::HeightFile& file, size_t i) {
-    int16_t sample = 0;
-    std::memcpy(&sample, file.data.data() + i * sizeof sample, sizeof sample);
-    return sample;
-  }
-
-  tools::HeightFile world_;
-};
-
-TEST_F(CliCube, GivesTheGridBack) {
-  const Outcome run = encodeCube(" --psnr 60");
-  ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.err.find("cube of depth 5"), std::string::npos) << run.err;
-  const Json heights = Json::parse(cli("info --json s.tks").out)["heights"];
-  EXPECT_EQ(heights["domain"], "forest");
-  EXPECT_EQ(heights["forest"]["depth"], 5);
-  EXPECT_EQ(heights["forest"]["cube"], true);
-  EXPECT_EQ(heights["forest"]["grid_width"], 72);
-  const tools::HeightFile back = decoded();
-  ASSERT_EQ(back.width, 72u);
-  ASSERT_EQ(back.height, 36u);
-  EXPECT_EQ(back.geotransform, world_.geotransform);
-  EXPECT_EQ(back.crs, world_.crs);
-  for (size_t i = 0; i < 72 * 36; ++i) ASSERT_NEAR(sampleOf(back, i), sampleOf(world_, i), 12);
-}
-
-TEST_F(CliCube, GivesWindowsOfTheGrid) {
-  ASSERT_EQ(encodeCube(" --bytes 3000 --depth 4").code, 0);
-  const tools::HeightFile whole = decoded(), part = decoded(" --window 60 30 12 6");
-  ASSERT_EQ(part.width, 12u);
-  EXPECT_EQ(*part.geotransform, (tools::GeoTransform{120, 5, 0, -60, 0, -5}));
-  for (size_t i = 0; i < 12 * 6; ++i)
-    EXPECT_EQ(sampleOf(part, i), sampleOf(whole, (30 + i / 12) * 72 + 60 + i % 12));
-  const tools::HeightFile across = decoded(" --window 60 30 20 6");
-  EXPECT_EQ(*across.geotransform, *part.geotransform);
-  for (size_t i = 0; i < 20 * 6; ++i)
-    EXPECT_EQ(sampleOf(across, i), sampleOf(whole, (30 + i / 20) * 72 + (60 + i % 20) % 72));
-  EXPECT_EQ(cli("decode s.tks -f --height d.tif --window 60 30 73 6").code, 1);
-  for (const char* other : {"--mesh m.glb", "--normal-map n.png", "--height d.r16 --size unity"})
-    EXPECT_EQ(cli(std::string("decode s.tks -f ") + other).code, 1) << other;
-}
-
-TEST_F(CliCube, LevelsAreCoarserGridsOfTheSameGround) {
-  ASSERT_EQ(encodeCube(" --psnr 70").code, 0);
-  const tools::HeightFile half = decoded(" --level 1");
-  ASSERT_EQ(half.width, 36u);
-  ASSERT_EQ(half.height, 18u);
-  EXPECT_EQ(*half.geotransform, (tools::GeoTransform{-180, 10, 0, 90, 0, -10}));
-  for (int i = 0; i < 36 * 18; ++i) {
-    const double south = (i / 36 + 0.5) * 2 * 0.0872664626;
-    const double east = (i % 36 + 0.25) * 2 * 0.0872664626;
-    EXPECT_NEAR(sampleOf(half, static_cast<size_t>(i)),
-                1000 * std::sin(south) * std::cos(east) + 2000, 25);
-  }
-  const tools::HeightFile eighth = decoded(" --level 3");
-  EXPECT_EQ(eighth.width, 9u);
-  EXPECT_EQ(eighth.height, 5u);
-  EXPECT_NEAR((*eighth.geotransform)[5], -36, 1e-9);
-  EXPECT_EQ(cli("decode s.tks -f --height d.tif --level 9").code, 1);
-}
-
-class CliGlobe : public CliCube {
- protected:
-  /// Of an .obj file.
-  checks::WeldedMesh meshOf(const std::string& options) {
-    const Outcome run = cli("decode s.tks -f --mesh m.obj --globe" + options);
-    EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_EQ(run.err, "");
-    points_.clear();
-    std::vector<uint32_t> triangles;
-    std::ifstream file(path("m.obj"));
-    for (std::string line; std::getline(file, line);) {
-      std::istringstream words(line);
-      std::string kind, corner;
-      words >> kind;
-      if (kind == "v") {
-        auto& [x, y, z] = points_.emplace_back();
-        words >> x >> y >> z;
-      }
-      while (kind == "f" && words >> corner)
-        triangles.push_back(static_cast<uint32_t>(std::stoul(corner)) - 1);
-    }
-    return checks::weldedMesh(points_, triangles);
-  }
-  double farthest() const {
-    double most = 0;
-    for (const auto& [x, y, z] : points_) most = std::max(most, std::hypot(x, y, z));
-    return most;
-  }
-
-  std::vector<std::array<double, 3>> points_;
-};
-
-TEST_F(CliGlobe, IsClosedWhetherItIsACylinderOrACube) {
-  for (const char* domain : {"cylinder", "cube", "plane"}) {
-    SCOPED_TRACE(domain);
-    ASSERT_EQ(encodeCube(std::string(" --bytes 4000 --domain ") + domain).code, 0);
-    for (const char* options : {"", " --triangles 500", " --coded-mesh", " --bytes 700"}) {
-      const checks::WeldedMesh mesh = meshOf(options);
-      EXPECT_EQ(mesh.open, 0u) << options;
-      EXPECT_EQ(mesh.euler(), 2) << options;
-      EXPECT_NEAR(farthest(), 6381000, 5000) << options;
-    }
-  }
-}
-
-TEST_F(CliGlobe, LiesOnTheBodyOfItsReferenceSystem) {
-  world_.crs = "ESRI:104903";  // the Moon, a sphere
-  ASSERT_EQ(encodeCube(" --bytes 4000 --domain cylinder").code, 0);
-  meshOf("");
-  const double once = farthest() - 1737400;
-  EXPECT_NEAR(once, 3000, 100);
-  meshOf(" --exaggeration 50");
-  EXPECT_NEAR(farthest() - 1737400, 50 * once, 10);
-}
-
-TEST_F(CliGlobe, RefusesWhatIsNone) {
-  ASSERT_EQ(encode(ground(36, 0, 1, "EPSG:4326")).code, 0);
-  const Outcome run = cli("decode s.tks -f --mesh m.glb --globe");
-  EXPECT_EQ(run.code, 1);
-  EXPECT_NE(run.err.find("round a globe"), std::string::npos) << run.err;
-  EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --exaggeration 3").code, 1);
-  EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --globe --view low").code, 1);
-  EXPECT_EQ(cli("decode s.tks -f --mesh m.glb --globe --exaggeration 0").code, 1);
-}
-
-/// A texture of longitudes and latitudes lies under its own place of a cube, whole or in part, also
-/// where it goes on across 180 degrees and where its rows shrink to the poles.
-TEST_F(CliCube, TexturesLieOverIt) {
-  tools::ImageFile image;
-  image.width = 64;
-  image.height = 32;
-  image.channels = 1;
-  image.data.resize(64 * 32);
-  for (const double west : {-180., 20.}) {
-    image.place.geotransform = tools::GeoTransform{west, 360. / 64, 0, 90, 0, -180. / 32};
-    ASSERT_TRUE(tools::writeImage(path("t.tif"), image).ok());
-    ASSERT_EQ(encodeCube(" --bytes 6000 --texture t.tif").code, 0);
-    EXPECT_EQ(domainOf("texture"), "cylinder");
-    ASSERT_EQ(cli("decode s.tks -f --mesh m.obj --globe --triangles 900").code, 0);
-    std::vector<std::array<double, 3>> points;
-    std::vector<std::array<double, 2>> places;
-    size_t corners = 0;
-    std::ifstream file(path("m.obj"));
-    for (std::string line; std::getline(file, line);) {
-      std::istringstream words(line);
-      std::string kind;
-      words >> kind;
-      if (kind == "v") {
-        auto& p = points.emplace_back();
-        words >> p[0] >> p[1] >> p[2];
-      } else if (kind == "vt") {
-        auto& p = places.emplace_back();
-        words >> p[0] >> p[1];
-      } else if (kind == "f") {
-        std::array<size_t, 3> v;
-        for (size_t& corner : v) {
-          std::string text;
-          words >> text;
-          corner = std::stoul(text) - 1;
-        }
-        double least = HUGE_VAL, most = -HUGE_VAL;
-        for (const size_t corner : v) {
-          ++corners;
-          const auto [x, y, z] = points[corner];
-          const double across = std::hypot(x, z), u = places[corner][0];
-          least = std::min(least, u);
-          most = std::max(most, u);
-          EXPECT_NEAR(places[corner][1], 0.5 + std::atan2(y, across) / std::numbers::pi, 0.003);
-          if (across < 1e3) continue;  // a pole
-          const double east = std::atan2(-z, x) / (2 * std::numbers::pi) - west / 360;
-          EXPECT_NEAR(std::remainder(u - east, 1), 0, 1e-4);
-        }
-        EXPECT_LT(most - least, 0.5);
-      }
-    }
-    EXPECT_GT(corners, 1500u);
-  }
-  // One that covers the whole grid, without a place of its own.
-  image.place = {};
-  ASSERT_TRUE(tools::writeImage(path("whole.png"), image).ok());
-  ASSERT_EQ(encodeCube(" --bytes 6000 --texture whole.png").code, 0);
-  ASSERT_EQ(cli("decode s.tks -f --texture e.tif").code, 0);
-  EXPECT_EQ(*tools::readImage(path("e.tif"))->place.geotransform,
-            (tools::GeoTransform{-180, 360. / 64, 0, 90, 0, -180. / 32}));
-}
-
-TEST_F(CliCube, RefusesWhatDoesNotGoWithIt) {
-  const auto refuses = [&](const std::string& options, const char* word) {
-    const Outcome run = encodeCube(options);
-    EXPECT_EQ(run.code, 1) << options;
-    EXPECT_NE(run.err.find(word), std::string::npos) << run.err;
-  };
-  refuses(" --lossless", "--lossless");
-  refuses(" --max-error 3", "--max-error");
-  refuses(" --bytes 3000 --regions 64", "--regions");
-  refuses(" --bytes 3000 --nodata 2000", "void");
-  refuses(" --bytes 3000 --crs EPSG:3857", "angles");
-  (*world_.geotransform)[1] = 4;
-  refuses(" --bytes 3000", "round");
-  EXPECT_EQ(cli("encode g.tif --depth 4 --bytes 3000 -f -o s.tks").code, 1);
 }
 
 }  // namespace

@@ -74,11 +74,25 @@ tks_screen_camera mapOf(const tks_info& info) {
   return camera;
 }
 
+constexpr tks_globe kMoon = {sizeof kMoon, 1737400, 1737400, 0, 0};
+
+/// From 4 000 km above longitude and latitude 0.
+tks_screen_camera aboveGlobe() {
+  tks_screen_camera camera = tetrakis::makeScreenCamera();
+  camera.width = camera.height = 40;
+  camera.clip[1] = camera.clip[6] = 1;
+  camera.clip[12] = -1;
+  camera.clip[15] = 5737400;
+  camera.globe = &kMoon;
+  return camera;
+}
+
 /// What a viewer asks before it fetches.
 void planAndMeasure(tetrakis::Decoder& decoder) {
   const tks_info& info = decoder.info();
-  const tks_screen_camera camera = mapOf(info);
+  const tks_screen_camera camera = mapOf(info), globe = aboveGlobe();
   static_cast<void>(decoder.plan(info.has_heights ? &camera : nullptr, 1000));
+  static_cast<void>(decoder.plan(&globe, 1000));
   for (const tks_part part : {TKS_PART_HEIGHTS, TKS_PART_TEXTURE, TKS_PART_BUDGET_MESH}) {
     static_cast<void>(decoder.neededRanges(part));
     static_cast<void>(decoder.checkMemory(part));
@@ -87,8 +101,7 @@ void planAndMeasure(tetrakis::Decoder& decoder) {
 
 /// Where the heights lie round a globe.
 void makeGlobes(tetrakis::Decoder& decoder) {
-  const tks_globe moon = {sizeof moon, 1737400, 1737400, 0, 0};
-  const auto coded = decoder.codedGlobe(moon), budget = decoder.budgetGlobe(moon, 100);
+  const auto coded = decoder.codedGlobe(kMoon), budget = decoder.budgetGlobe(kMoon, 100);
   for (const auto* const mesh : {&coded, &budget}) {
     if (!*mesh) continue;
     for (const uint32_t corner : (*mesh)->triangles())

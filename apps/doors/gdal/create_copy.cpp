@@ -2,6 +2,7 @@
 #include "apps/doors/gdal/create_copy.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <new>
@@ -102,8 +103,9 @@ std::optional<Parts> withWhiteLevel(Parts parts, const std::string& name,
 }
 
 /// On the domain that was asked for, or else on that of their columns, a texture without a place on
-/// that of the heights.
+/// that of the heights. What goes to a cube lies on a grid here.
 Parts onDomain(Parts parts, const CopySettings& settings) {
+  if (settings.domain == TKS_DOMAIN_FOREST) return parts;
   if (parts.heights) {
     tks_heights& heights = parts.heights->heights;
     heights.domain = settings.domain.value_or(heights.domain);
@@ -145,10 +147,27 @@ std::optional<Parts> readParts(const std::string& name, GDALDataset& source, boo
   return withWhiteLevel(onDomain(std::move(parts), settings), name, settings);
 }
 
+/// A texture without a place of its own has that of the grid, edge to edge, before this goes to a
+/// cube.
+void placeOver(const CopiedHeights& grid, CopiedTexture& texture) {
+  tks_image& image = texture.image;
+  if (image.has_geotransform || !grid.heights.has_geotransform) return;
+  const double across = static_cast<double>(grid.heights.width) / image.width,
+               down = static_cast<double>(grid.heights.height) / image.height;
+  const double* const t = grid.heights.geotransform;
+  const std::array transform = {t[0], t[1] * across, t[2] * down, t[3], t[4] * across, t[5] * down};
+  std::copy(transform.begin(), transform.end(), image.geotransform);
+  image.has_geotransform = 1;
+  image.domain = grid.heights.domain;
+  texture.crs = grid.crs;
+  image.crs = texture.crs.crs.c_str();
+}
+
 /// On a cube, if one is asked for. False after a reported error.
 bool resampled(const std::string& name, GDALDataset& source, const CopySettings& settings,
                Parts& parts) {
   if (settings.domain != TKS_DOMAIN_FOREST) return true;
+  if (parts.texture) placeOver(*parts.heights, *parts.texture);
   const double degrees = degreesOf(source.GetSpatialRef());
   return resampleOnCube(name, {settings.depth, settings.encode.threads, degrees}, *parts.heights);
 }

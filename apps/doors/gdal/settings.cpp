@@ -179,10 +179,8 @@ void checkCube(Options& options, const CopySettings& settings) {
     options.refuse(
         "DOMAIN=CUBE resamples heights, so that nothing is lossless or within MAX_Z_ERROR: give "
         "BYTES or PSNR.");
-  const bool regions = settings.encode.regions > kNoRegions;
-  if (regions || !settings.texture.empty())
-    options.refuse(std::string("DOMAIN=CUBE resamples heights, so that ") +
-                   (regions ? "BLOCKSIZE" : "TEXTURE") + " does not go with it.");
+  if (settings.encode.regions > kNoRegions && settings.texture.empty())
+    options.refuse("DOMAIN=CUBE resamples heights, so that BLOCKSIZE does not go with it.");
 }
 
 /// What is to be kept of the samples.

@@ -92,7 +92,7 @@ Result<Reference> readInputs(const EncodeArguments& arguments, bool quiet) {
     tellNotes(guesses(arguments, *heights, notes), arguments, quiet);
     tellNote(voidNote(*heights), quiet);
     heights->domain = domainOf(arguments, *heights, heights->width);
-    if (arguments.domain == "auto") tellNote(repeatNote(arguments.height, *heights), quiet);
+    if (arguments.domain == "auto") tellNote(roundNote(arguments.height, *heights), quiet);
     inputs.heights = std::move(*heights);
   }
   if (!arguments.texture.empty()) {

@@ -8,6 +8,7 @@
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/commands/options.hpp"
 #include "apps/tools/commands/receiver_plan.hpp"
+#include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/positive.hpp"
 #include "apps/tools/output/json.hpp"
 #include "apps/tools/report/comparison.hpp"
@@ -45,6 +46,12 @@ Result<std::optional<double>> expectedPsnr(OpenStream& stream, const ReceiverPla
                                            const CameraChoice& cameras, bool quiet) {
   Reference whole;
   const tks_info& info = stream.decoder.info();
+  if (isGridOnCube(info)) {
+    if (!cameras.isDefault())
+      return Status(TKS_USAGE, "a mesh of heights on a cube is a globe, which no camera looks at");
+    tellNote("no screen figures: the heights lie on a cube", quiet);
+    return std::optional<double>();
+  }
   if (info.has_heights) {
     Result<HeightFile> heights = decodeHeights(stream.decoder);
     if (!heights.ok()) return heights.status();

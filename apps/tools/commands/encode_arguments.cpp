@@ -175,15 +175,21 @@ Status checkCube(const EncodeArguments& arguments) {
     if (arguments.depth == 0) return Status();
     return Status(TKS_USAGE, "--depth is about a cube: give --domain cube");
   }
+  const bool regions = arguments.regions != "auto" && arguments.regions != "off";
   const std::pair<const char*, bool> others[] = {
       {"--lossless", arguments.lossless},
       {"--max-error", !arguments.max_error.empty()},
       {"--report", !arguments.report.empty()},
-      {"--regions", arguments.regions != "auto" && arguments.regions != "off"}};
+      {"--regions without a --texture", regions && arguments.texture.empty()},
+      {"--triangles", arguments.triangles > 0},
+      {"--cameras", !arguments.cameras.file.empty()},
+      {"--view", !arguments.cameras.view.empty()},
+      {"--engine rendered", arguments.engine == "rendered"}};
   for (const auto& [name, given] : others) {
     if (given)
-      return Status(TKS_USAGE, "--domain cube resamples heights, so that " + std::string(name) +
-                                   " does not go with it");
+      return Status(TKS_USAGE, std::string(name) +
+                                   " does not go with --domain cube, whose heights are resampled "
+                                   "and lie round a globe");
   }
   return Status();
 }

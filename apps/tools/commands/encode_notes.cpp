@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 
 #include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/place/crs_units.hpp"
@@ -60,8 +61,31 @@ Notes guesses(const EncodeArguments& arguments, const HeightFile& heights, const
   return notes;
 }
 
-std::string repeatNote(const std::string& name, const HeightFile& heights) {
-  if (columnsRound(heights, heights.width) != ColumnsRound::kRepeating) return "";
+namespace {
+
+/// Degrees that the columns take; nothing where that is not a turn but for a part of a column.
+std::optional<double> nearlyATurn(const HeightFile& heights) {
+  constexpr double kTurn = 360, kPart = 0.99;  // of a column: without one there is a gap
+  if (!heights.geotransform) return {};
+  const GeoTransform& t = *heights.geotransform;
+  const double column = std::abs(t[1]) * gridUnitOf(heights.geo_keys, heights.crs).degrees;
+  const double all = heights.width * column;
+  if (t[2] != 0 || t[4] != 0 || !(std::abs(all - kTurn) < kPart * column)) return {};
+  return all;
+}
+
+}  // namespace
+
+std::string roundNote(const std::string& name, const HeightFile& heights) {
+  const ColumnsRound round = columnsRound(heights, heights.width);
+  if (round == ColumnsRound::kOnce) return "";
+  if (round == ColumnsRound::kNo) {
+    const std::optional<double> degrees = nearlyATurn(heights);
+    if (!degrees) return "";
+    return quoted(name) + " goes round the Earth but for a part of a column: its columns take " +
+           shortest(*degrees) +
+           " degrees, so it is coded as a plane, with a seam; --domain cylinder closes it";
+  }
   return quoted(name) +
          " goes round the Earth to its first column, which is there again as the last one, so it "
          "is coded as a plane, with a seam; without that column (gdal_translate -srcwin 0 0 " +

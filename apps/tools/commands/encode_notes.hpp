@@ -18,8 +18,8 @@ std::string voidNote(const HeightFile& heights);
 /// told has asked for it.
 Notes guesses(const EncodeArguments& arguments, const HeightFile& heights, const Notes& told);
 
-/// That columns go round the Earth, and one of them is there twice.
-std::string repeatNote(const std::string& name, const HeightFile& heights);
+/// That columns go round the Earth, and one of them is there twice, or a part of one is, or lacks.
+std::string roundNote(const std::string& name, const HeightFile& heights);
 
 /// How large a cube is, and how far it is from the heights that it was made of.
 std::string cubeNote(const HeightFile& cube, const CubeErrors& errors);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/place/ground_spacing.hpp"
 #include "apps/tools/files/plain_heights.hpp"
 #include "apps/tools/files/stream.hpp"
@@ -72,14 +73,15 @@ std::string shape(uint32_t width, uint32_t height) {
 
 Status checkHeights(const HeightFile& heights, const tks_info& header) {
   if (!header.has_heights) return Status(TKS_USAGE, "the stream has no heights to compare");
-  if (heights.width == header.width && heights.height == header.height &&
+  const Extent shown = shownHeights(header);
+  if (heights.width == shown.width && heights.height == shown.height &&
       heights.sample == header.sample)
     return Status();
   const auto describe = [](uint32_t width, uint32_t height, tks_sample sample) {
     return shape(width, height) + " heights of " + sampleName(sample);
   };
   return Status(TKS_MISMATCH,
-                "the stream has " + describe(header.width, header.height, header.sample) +
+                "the stream has " + describe(shown.width, shown.height, header.sample) +
                     ", the reference " + describe(heights.width, heights.height, heights.sample));
 }
 
@@ -104,17 +106,20 @@ Status checkImage(const ImageFile& image, const tks_info& header) {
 /// Bytes of what is made of heights: of a sample two surfaces of doubles, a grid of triangles, the
 /// reference.
 uint64_t copiesOf(const tks_info& info) {
-  return uint64_t{72} * info.width * info.height;
+  return 72 * shownHeights(info).samples();
 }
 
-/// The reference with the metadata that the encoder was told.
+/// The reference with the metadata that the encoder was told. Of heights on a cube the spacing is
+/// that of the grid that they were made of.
 HeightFile asEncoded(const HeightFile& heights, const tks_info& header) {
   HeightFile result = heights;
   result.scale = header.scale;
   result.offset = header.offset;
-  const auto [spacing_x, spacing_y] = spacingOf(header);
-  result.spacing_x = spacing_x;
-  result.spacing_y = spacing_y;
+  if (!isGridOnCube(header)) {
+    const auto [spacing_x, spacing_y] = spacingOf(header);
+    result.spacing_x = spacing_x;
+    result.spacing_y = spacing_y;
+  }
   result.unit = header.unit;
   if (header.has_nodata) result.nodata = header.nodata;
   return result;
@@ -170,6 +175,8 @@ Result<MeshFile> Comparer::measureSurface(Decoder& decoder, Measurement& result)
 
 Result<MeshFile> Comparer::measureMesh(Decoder& decoder, uint32_t triangles,
                                        const ImageFile* texture, Measurement& result) const {
+  if (isGridOnCube(decoder.info()))
+    return Status(TKS_USAGE, "a mesh of heights on a cube is a globe, which is not compared");
   const Result<uint64_t> fits =
       decoder.checkMemory(TKS_PART_BUDGET_MESH, nullptr, triangles, copiesOf(decoder.info()));
   if (!fits) return fits.status();

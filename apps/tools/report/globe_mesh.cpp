@@ -13,15 +13,18 @@
 #include "apps/tools/report/surface_normals.hpp"
 
 namespace tetrakis::tools {
+
+Result<tks_globe> globeOf(const tks_info& info, double exaggeration) {
+  const GridUnit unit = gridUnitOf(info.geo_keys, info.crs);
+  if (unit.degrees == 0 && *info.crs)
+    return Status(TKS_USAGE, "the coordinates of the heights are no angles: they lie on no globe");
+  const double minor = unit.ellipsoid.semi_major * (1 - unit.ellipsoid.flattening);
+  return tks_globe{sizeof(tks_globe), unit.ellipsoid.semi_major, minor, unit.degrees, exaggeration};
+}
+
 namespace {
 
 using Vector = std::array<double, 3>;
-
-tks_globe bodyOf(const tks_info& info, double exaggeration) {
-  const GridUnit unit = gridUnitOf(info.geo_keys, info.crs);
-  const double minor = unit.ellipsoid.semi_major * (1 - unit.ellipsoid.flattening);
-  return {sizeof(tks_globe), unit.ellipsoid.semi_major, minor, unit.degrees, exaggeration};
-}
 
 /// From x to longitude 0 and z north to the axes of glTF.
 Vector upright(std::span<const double> p) {
@@ -82,9 +85,10 @@ std::vector<float> textureCoordinates(const tks_info& info, const GlobeMesh& mes
 
 Result<MeshFile> globeMesh(Decoder& decoder, const GlobeRequest& request) {
   const tks_info& info = decoder.info();
-  const tks_globe body = bodyOf(info, request.exaggeration);
+  const Result<tks_globe> body = globeOf(info, request.exaggeration);
+  if (!body.ok()) return body.status();
   const Result<GlobeMesh> mesh =
-      request.coded ? decoder.codedGlobe(body) : decoder.budgetGlobe(body, request.max_triangles);
+      request.coded ? decoder.codedGlobe(*body) : decoder.budgetGlobe(*body, request.max_triangles);
   if (!mesh.ok()) return mesh.status();
   MeshFile file;
   for (uint32_t v = 0; v < mesh->vertexCount(); ++v)
@@ -94,7 +98,7 @@ Result<MeshFile> globeMesh(Decoder& decoder, const GlobeRequest& request) {
   file.normals = uprightNormals(*mesh);
   if (!info.has_texture) return file;
   if (isGridOnCube(info) && info.texture_domain != TKS_DOMAIN_FOREST)
-    layOnCube(info, body, *mesh, file);
+    layOnCube(info, *body, *mesh, file);
   else
     file.texcoords = textureCoordinates(info, *mesh);
   return file;

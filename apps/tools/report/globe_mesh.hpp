@@ -17,8 +17,12 @@ struct GlobeRequest {
   double exaggeration = 1;     ///< what heights are multiplied by
 };
 
+/// The ellipsoid of the CRS, else WGS 84. Without a CRS coordinates are degrees. TKS_USAGE: they
+/// are no angles.
+Result<tks_globe> globeOf(const tks_info& info, double exaggeration);
+
 /// Positions in metres from the centre: x towards longitude 0, y to the north pole, z towards 90
-/// degrees west. The ellipsoid is that of the CRS, else WGS 84. Normals are those of the mesh, the
+/// degrees west. The ellipsoid is that of globeOf(). Normals are those of the mesh, the
 /// same on both sides of a seam. Texture coordinates are there if the stream has a texture. The
 /// errors of tks_decode_globe.
 Result<MeshFile> globeMesh(Decoder& decoder, const GlobeRequest& request);

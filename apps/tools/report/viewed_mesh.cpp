@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,13 +44,22 @@ Status checkSight(Decoder& decoder, const std::vector<Camera>& cameras) {
 
 }  // namespace
 
-std::array<double, 16> clipOf(const Camera& camera, const PlacedFrame& frame) {
+namespace {
+
+/// Of clip coordinates, by which each takes a way from the eye.
+std::array<Vec3, 4> rowsOf(const Camera& camera) {
   const ViewAxes axes = viewAxes(camera.eye, camera.target, camera.up);
   const double tan_y = std::tan(camera.fov_y * std::numbers::pi / 360);
   const double tan_x = tan_y * camera.width / camera.height;
+  return {scale(axes.right, 1 / tan_x), scale(axes.up, 1 / tan_y), {}, axes.forward};
+}
+
+}  // namespace
+
+std::array<double, 16> clipOf(const Camera& camera, const PlacedFrame& frame) {
   const double left = (frame.width - 1.0) / 2 * frame.spacing_x;
   const double back = (frame.height - 1.0) / 2 * frame.spacing_y;
-  const Vec3 rows[4] = {scale(axes.right, 1 / tan_x), scale(axes.up, 1 / tan_y), {}, axes.forward};
+  const std::array<Vec3, 4> rows = rowsOf(camera);
   std::array<double, 16> clip;
   for (size_t i = 0; i < 4; ++i) {
     const auto& [east, y, south] = rows[i];
@@ -77,14 +88,71 @@ Result<Mesh> viewedMesh(Decoder& decoder, bool coded, const CameraChoice& choice
   return std::move(*mesh);
 }
 
-tks_screen_camera meshCamera(const Camera& camera, const PlacedFrame& frame) {
+namespace {
+
+tks_screen_camera screenCamera(const Camera& camera, const std::array<double, 16>& clip) {
   tks_screen_camera result = makeScreenCamera();
   result.width = camera.width;
   result.height = camera.height;
   result.weight = camera.weight;
-  const std::array<double, 16> clip = clipOf(camera, frame);
   std::copy(clip.begin(), clip.end(), result.clip);
   return result;
+}
+
+/// From metres whose z points to the north pole, where those of the camera have y.
+std::array<double, 16> globeClipOf(const Camera& camera) {
+  const std::array<Vec3, 4> rows = rowsOf(camera);
+  std::array<double, 16> clip;
+  for (size_t i = 0; i < 4; ++i) {
+    const auto& [x, y, z] = rows[i];
+    const Vec3 row = {x, -z, y};
+    std::copy(row.begin(), row.end(), clip.begin() + 4 * static_cast<std::ptrdiff_t>(i));
+    clip[4 * i + 3] = -dot(rows[i], camera.eye);
+  }
+  return clip;
+}
+
+/// Whether a vertex of a globe is in the picture, on the side that faces the camera.
+bool seesAny(const Camera& camera, const GlobeMesh& mesh) {
+  const std::array<Vec3, 4> rows = rowsOf(camera);
+  const std::span<const double> at = mesh.positions();
+  for (size_t i = 0; i < at.size(); i += 3) {
+    const Vec3 place = {at[i], at[i + 2], -at[i + 1]}, way = subtract(place, camera.eye);
+    const double w = dot(rows[3], way);
+    if (std::abs(dot(rows[0], way)) <= w && std::abs(dot(rows[1], way)) <= w && dot(place, way) < 0)
+      return true;
+  }
+  return false;
+}
+
+Result<std::vector<tks_screen_camera>> weighted(std::vector<tks_screen_camera> cameras) {
+  std::erase_if(cameras, [](const tks_screen_camera& camera) { return !(camera.weight > 0); });
+  if (cameras.empty()) return Status(TKS_USAGE, "no camera has a weight above 0");
+  return cameras;
+}
+
+}  // namespace
+
+tks_screen_camera meshCamera(const Camera& camera, const PlacedFrame& frame) {
+  return screenCamera(camera, clipOf(camera, frame));
+}
+
+Result<std::vector<tks_screen_camera>> globeCameras(Decoder& decoder, const CameraChoice& choice,
+                                                    const tks_globe& globe) {
+  constexpr uint32_t kTriangles = 10'000;
+  if (choice.file.empty())
+    return Status(TKS_USAGE, "presets look at flat ground: give the --cameras of a globe");
+  const Result<std::vector<Camera>> chosen = readCameras(choice.file);
+  if (!chosen.ok()) return chosen.status();
+  const Result<GlobeMesh> mesh = decoder.budgetGlobe(globe, kTriangles);
+  if (!mesh) return mesh.status();
+  std::vector<tks_screen_camera> cameras;
+  for (const Camera& camera : *chosen) {
+    if (!seesAny(camera, *mesh)) return seesNothing(camera);
+    cameras.push_back(screenCamera(camera, globeClipOf(camera)));
+    cameras.back().globe = &globe;
+  }
+  return weighted(std::move(cameras));
 }
 
 Result<std::vector<tks_screen_camera>> meshCameras(Decoder& decoder, const CameraChoice& choice) {
@@ -94,9 +162,8 @@ Result<std::vector<tks_screen_camera>> meshCameras(Decoder& decoder, const Camer
   if (const Status seen = placed ? checkSight(decoder, *chosen) : Status(); !seen.ok()) return seen;
   std::vector<tks_screen_camera> cameras;
   for (const Camera& camera : *chosen)
-    if (camera.weight > 0) cameras.push_back(meshCamera(camera, frameOf(decoder.info())));
-  if (cameras.empty()) return Status(TKS_USAGE, "no camera has a weight above 0");
-  return cameras;
+    cameras.push_back(meshCamera(camera, frameOf(decoder.info())));
+  return weighted(std::move(cameras));
 }
 
 Result<Mesh> meshForCameras(Decoder& decoder, uint32_t triangles, const CameraChoice& choice,

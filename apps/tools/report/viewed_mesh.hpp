@@ -29,6 +29,12 @@ tks_screen_camera meshCamera(const Camera& camera, const PlacedFrame& frame);
 /// ground in view, or if none has a weight.
 Result<std::vector<tks_screen_camera>> meshCameras(Decoder& decoder, const CameraChoice& choice);
 
+/// The same of cameras of a file that look at a globe, which outlives them. Their places are those
+/// of globeMesh(): metres from the centre, with the north pole at y. TKS_USAGE also: presets, or
+/// heights that go round no globe.
+Result<std::vector<tks_screen_camera>> globeCameras(Decoder& decoder, const CameraChoice& choice,
+                                                    const tks_globe& globe);
+
 /// The mesh of at most `triangles` > 0 triangles that is best for the chosen cameras; nothing
 /// chosen: for a map. texture: what covers the ground, or null. TKS_USAGE with the name of a camera
 /// that has no ground in view.

@@ -170,14 +170,15 @@ static tks_status give(tks_status status, tks_ranges* ranges, web_ranges* out) {
 }
 
 /// tks_plan. limits: those of tks_fetch in the order in which it has them; view: width and height
-/// of the picture and 16 numbers.
+/// of the picture and 16 numbers; globe: what the view looks at; null: flat ground.
 tks_status web_plan(tks_decoder* decoder, const double* limits, const double* view,
-                    web_ranges* out) {
+                    const tks_globe* globe, web_ranges* out) {
   tks_screen_camera camera{};
   camera.size = sizeof camera;
   camera.width = static_cast<uint32_t>(view[0]);
   camera.height = static_cast<uint32_t>(view[1]);
   std::copy_n(view + 2, 16, camera.clip);
+  camera.globe = globe;
   const tks_fetch fetch = {sizeof fetch, static_cast<uint64_t>(limits[0]),
                            static_cast<uint32_t>(limits[1]), static_cast<uint64_t>(limits[2])};
   tks_ranges ranges{};

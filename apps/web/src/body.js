@@ -41,5 +41,12 @@ export function bodyOf({crs = '', geoKeys = ''}) {
   return NAMED.find(([name]) => name.test(crs))?.[1] ?? EARTH;
 }
 
+/** A globe of that kind, on the ellipsoid of the stream unless the caller gives another. */
+export function globeOn(globe, info) {
+  const body = bodyOf(info);
+  const {exaggeration = 1, semiMajor = body.semiMajor, semiMinor = body.semiMinor} = globe;
+  return {exaggeration, semiMajor, semiMinor};
+}
+
 /** The square of its eccentricity. */
 export const eccentricityOf = ({semiMajor, semiMinor}) => 1 - (semiMinor / semiMajor) ** 2;

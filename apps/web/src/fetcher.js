@@ -59,8 +59,8 @@ export class Fetcher {
   }
 
   /**
-   * Resolves to how many of `bytes` bytes are here. `asked`: {signal, view, triangles}, the last
-   * two as plannedView() and trianglesOf() give them.
+   * Resolves to how many of `bytes` bytes are here. `asked`: {signal, view, triangles}: as
+   * plannedView(), with a globe where there is one, and trianglesOf() give them.
    */
   async load(bytes, asked) {
     if (this.#held.bytes < bytes) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a frame is made of: a mesh with normals, a surface, a texture, each at the level that suits.
-import {bodyOf} from './body.js';
+import {globeOn} from './body.js';
 import {isForest} from './domains.js';
 import {groundScale} from './ground.js';
 import {joinedNormals} from './joined_normals.js';
@@ -47,20 +47,13 @@ function trianglesFor({triangles}, opened, info) {
     : Math.min(triangles, Math.max(2, TRIANGLES_OF_BYTE * info.geometryBytes));
 }
 
-/** What was asked for, on the ellipsoid of the stream unless the caller gives another. */
-function globeOf({globe}, info) {
-  const body = bodyOf(info);
-  const {exaggeration = 1, semiMajor = body.semiMajor, semiMinor = body.semiMinor} = globe;
-  return {exaggeration, semiMajor, semiMinor};
-}
-
 /** Makes the parts of a frame that `request` asks for, one at each step; returns them all. `centre`
  * of a request: that of the object in the frames before, if there is one. */
 export function* partsOf(opened, info, request) {
   const parts = {}, {textureLevel, surfaceLevel} = levelsOf(opened, info, request);
   const atlas = atlasOf(info, request.texels);
   if (request.mesh && request.globe && (info.hasHeights || info.isObject)) {
-    parts.globe = opened.globe(trianglesFor(request, opened, info), globeOf(request, info));
+    parts.globe = opened.globe(trianglesFor(request, opened, info), globeOn(request.globe, info));
     yield;
     if (request.normals) parts.globe.normals = joinedNormals(parts.globe);
     yield;

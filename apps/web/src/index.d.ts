@@ -37,7 +37,8 @@ export interface OpenOptions {
 }
 
 export interface View {
-  /** 16 numbers, row by row, from (column, row, height, 1) to clip coordinates. */
+  /** 16 numbers, row by row, from (column, row, height, 1) to clip coordinates; with `globe` from
+   * the positions of its mesh. */
   clip: ArrayLike<number>;
   /** Of the picture, in pixels. */
   width: number;
@@ -64,7 +65,8 @@ export interface FrameOptions {
   view?: ArrayLike<number> | View | null;
   mesh?: boolean;
   /** A mesh round a globe in the place of the flat one, of heights that go round it (goesRound()).
-   * The view of a picture still says which bytes are fetched, but cuts nothing off. */
+   * The view of a picture then looks at the globe, whose far side it does not ask for, and cuts
+   * nothing off. */
   globe?: GlobeOptions | null;
   /** Unit normals for the vertices of the mesh; where `mesh` is false, for the samples of the
    * surface. Default false. */
@@ -305,7 +307,8 @@ export interface Terrain {
    * that help a view most. Resolves to how many there are. Fewer: the file ends, no other byte
    * helps the view, or what is left of `bytes` is worth no request (`requestBytes`). Where nothing
    * came, another call with this view brings nothing either. */
-  load(bytes: number, options?: Pick<FrameOptions, 'signal' | 'view' | 'triangles' | 'frame'>):
+  load(bytes: number,
+    options?: Pick<FrameOptions, 'signal' | 'view' | 'globe' | 'triangles' | 'frame'>):
     Promise<number>;
   /** One frame of `bytes` bytes; fetches those that are missing, as load(). */
   decode(options?: FrameOptions): Promise<Frame>;

@@ -76,15 +76,23 @@ export class Opened {
       });
     });
   }
-  /** What to fetch next for a view {clip, width, height}. */
+  /** What to fetch next for a view {clip, width, height, globe}; without a globe of flat ground. */
   plan({view, bytes, triangles, requestBytes}) {
     const {instance} = this;
-    return instance.with(21 * 8, (limits) => {
+    return instance.with(21 * 8 + GLOBE_BYTES, (limits) => {
       instance.view(Float64Array, limits, 21)
         .set([bytes, triangles, requestBytes, view.width, view.height, ...view.clip]);
+      const globe = view.globe ? limits + 21 * 8 : 0;
+      if (globe) this.#putGlobe(globe, view.globe);
       return this.#ranges((out) =>
-        instance.calls.web_plan(this.decoder, limits, limits + 3 * 8, out));
+        instance.calls.web_plan(this.decoder, limits, limits + 3 * 8, globe, out));
     });
+  }
+  /** tks_globe at an address. */
+  #putGlobe(address, {exaggeration, semiMajor, semiMinor}) {
+    const {instance} = this;
+    instance.view(Uint32Array, address, 1)[0] = GLOBE_BYTES;
+    instance.view(Float64Array, address + 8, 4).set([semiMajor, semiMinor, 1, exaggeration]);
   }
   /** What a window {x, y, width, height} of a part of tks_part takes. */
   needed(part, {x, y, width, height}) {
@@ -198,13 +206,12 @@ export class Opened {
   }
 
   /** A mesh round a globe {exaggeration, semiMajor, semiMinor}. */
-  globe(triangles, {exaggeration, semiMajor, semiMinor}) {
+  globe(triangles, on) {
     const {instance, decoder} = this, {calls} = instance;
     if (!calls.tks_decode_globe) throw new TksError('usage', 'This module makes no meshes.');
     return instance.with(GLOBE_BYTES + 24, (globe) => {
       const out = globe + GLOBE_BYTES;
-      instance.view(Uint32Array, globe, 1)[0] = GLOBE_BYTES;
-      instance.view(Float64Array, globe + 8, 4).set([semiMajor, semiMinor, 1, exaggeration]);
+      this.#putGlobe(globe, on);
       this.check(calls.tks_decode_globe(decoder, BUDGET_MESH, triangles, globe, out));
       return this.#globeAt(out);
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stream that is open, as users have it: frames of its bytes, one or a series that refines.
 import {abortable} from './abort.js';
+import {globeOn} from './body.js';
 import {askDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {Fetcher} from './fetcher.js';
@@ -71,21 +72,25 @@ export class Terrain {
     return {firstFrame: 0, endFrame: this.frames, bytes: this.info.streamBytes};
   }
 
-  async load(bytes, {signal, view, triangles = DEFAULTS.triangles} = {}) {
+  async load(bytes, {signal, view, globe, triangles = DEFAULTS.triangles} = {}) {
     signal?.throwIfAborted();
     checkBytes(bytes);
-    // Views are of ground.
-    const planned = this.info?.isObject ? null : plannedView(view);
+    const planned = this.#plannedView(view, globe);
     const asked = {signal, view: planned, triangles: trianglesOf(triangles)};
     return this.#fetcher.load(bytes, asked);
+  }
+  /** Views are of ground, which lies round a globe where one is asked for. */
+  #plannedView(view, globe) {
+    const planned = this.info?.isObject ? null : plannedView(view);
+    return planned && this.info && globe ? {...planned, globe: globeOn(globe, this.info)} : planned;
   }
 
   async decode({bytes = Infinity, signal, ...options} = {}) {
     checkBytes(bytes);
     const {headerBytes = 0, streamBytes = bytes} = this.info ?? {};
     const wanted = Math.min(Math.max(bytes, headerBytes), streamBytes);
-    const {view, triangles} = {...DEFAULTS, ...options};
-    const have = await this.load(wanted, {signal, view, triangles});
+    const {view, globe, triangles} = {...DEFAULTS, ...options};
+    const have = await this.load(wanted, {signal, view, globe, triangles});
     return this.#frame(have, {...options, signal});
   }
   /** Of the first so many bytes, which are here. */

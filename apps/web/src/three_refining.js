@@ -24,6 +24,18 @@ const STEADY = 100, SLOW = 1000;
 /** So long behind a frame that was played update() takes it that no other follows. */
 const PLAYED = 300;
 
+/** What a camera sees of a mesh: its picture, and from coordinates that `own` takes to those of the
+ * mesh, by default these themselves, to those of the picture. */
+export function viewThrough(camera, viewportHeight, mesh, own = new Matrix4()) {
+  camera.updateMatrixWorld();
+  mesh.updateWorldMatrix(true, false);
+  const clip = own.premultiply(mesh.matrixWorld).premultiply(camera.matrixWorldInverse)
+    .premultiply(camera.projectionMatrix).transpose().toArray();
+  const {elements} = camera.projectionMatrix;
+  const across = Math.max(1, (viewportHeight * elements[5]) / elements[0]);
+  return {clip, width: across, height: viewportHeight};
+}
+
 /**
  * Those that extend it have draw(frame, {glide}), which shows the parts of a frame, and
  * needs(camera, viewportHeight, texels), which says of the frame that is shown whether this camera
@@ -150,16 +162,9 @@ export class RefiningMesh extends Mesh {
     return (scale * focal * camera.zoom) / Math.max(distance, camera.near);
   }
 
-  /** What this camera looks at: its picture, and from coordinates that `own` takes to those of this
-   * mesh, by default these themselves, to those of the picture. */
-  viewOf(camera, viewportHeight, own = new Matrix4()) {
-    camera.updateMatrixWorld();
-    this.updateWorldMatrix(true, false);
-    const clip = own.premultiply(this.matrixWorld).premultiply(camera.matrixWorldInverse)
-      .premultiply(camera.projectionMatrix).transpose().toArray();
-    const {elements} = camera.projectionMatrix;
-    const across = Math.max(1, (viewportHeight * elements[5]) / elements[0]);
-    return {clip, width: across, height: viewportHeight};
+  /** What this camera looks at. */
+  viewOf(camera, viewportHeight, own) {
+    return viewThrough(camera, viewportHeight, this, own);
   }
 
   /** Of the first frame: what opening brought. */

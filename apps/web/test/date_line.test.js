@@ -12,12 +12,18 @@ import {TksProtocol} from '../src/maplibre.js';
 
 const WIDTH = 360, HEIGHT = 180, TIMEOUT = {timeout: 60000};
 
+/** At so many degrees east, and rows from the north. */
+function waveAt(east, row) {
+  const turn = (east * Math.PI) / 180;
+  return 1000 * Math.sin(turn + 0.7) + 300 * Math.cos(3 * turn) + row;
+}
+
 /** Waves of a given height, in metres, that go on behind the last column. */
 function around(west, domain, crs = 'EPSG:4326') {
   const data = new Float32Array(WIDTH * HEIGHT), texels = new Uint8Array(3 * WIDTH * HEIGHT);
   for (let i = 0; i < data.length; ++i) {
-    const turn = (2 * Math.PI * ((i % WIDTH) + 0.5)) / WIDTH + (west * Math.PI) / 180;
-    data[i] = 1000 * Math.sin(turn + 0.7) + 300 * Math.cos(3 * turn) + Math.floor(i / WIDTH);
+    const east = (360 * ((i % WIDTH) + 0.5)) / WIDTH + west, turn = (east * Math.PI) / 180;
+    data[i] = waveAt(east, Math.floor(i / WIDTH));
     texels.fill(128 + 100 * Math.sin(turn + 0.7), 3 * i, 3 * i + 3);
   }
   // Files often round the width of a column.
@@ -96,6 +102,29 @@ test('tiles of MapLibre go on behind the date line as they do elsewhere', TIMEOU
       last.forEach((height, i) => assert.ok(
         Math.abs(height - first[i]) < (STEEPEST * 10 * 360) / 256 / 2 ** z, `${west} ${z}`));
       assert.ok((await source.render('texture', {z, x: 0, y}))[3] === 255);
+    }
+    protocol.remove('earth');
+  }
+});
+
+/** No pixel is off by a part of a sample, neither elsewhere nor beside the date line. */
+test('tiles of MapLibre have the heights at the middles of their pixels', TIMEOUT, async () => {
+  const protocol = new TksProtocol();
+  for (const [west, domain] of STREAMS) {
+    const source = await protocol.add('earth', await around(west, domain));
+    for (const z of [1, 3, 6]) {
+      const y = 2 ** z >> 1, row = 77;
+      const north = Math.atan(Math.sinh(Math.PI * (1 - (2 * (y + (row + 0.5) / 256)) / 2 ** z)));
+      for (const x of [0, 2 ** z >> 1, 2 ** z - 1]) {
+        const rgba = await source.render('heights', {z, x, y});
+        for (let column = 0; column < 256; ++column) {
+          const [r, g, b] = rgba.subarray(4 * (256 * row + column));
+          const east = ((x + (column + 0.5) / 256) / 2 ** z) * 360 - 180;
+          const wave = waveAt(east, 89.5 - (north * 180) / Math.PI);
+          const off = Math.abs(r * 256 + g + b / 256 - 32768 - wave);
+          assert.ok(off < 0.7, `${west} ${domain}, ${east}: ${off}`);  // a tenth of a sample: 2
+        }
+      }
     }
     protocol.remove('earth');
   }

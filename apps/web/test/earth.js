@@ -40,6 +40,19 @@ export function earth() {
   return {heights: {...place, data: heights, unit: 'm'}, texture: {...place, data: texels}};
 }
 
+/** The same, rough up to its last detail. */
+export function roughEarth() {
+  const {heights, texture} = earth();
+  let state = 1;
+  const noise = () => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return state / 2 ** 32 - 0.5;
+  };
+  texture.data.forEach((value, i, all) => (all[i] = Math.min(value + 30 + 60 * noise(), 255)));
+  heights.data.forEach((value, i, all) => (all[i] = value + 300 * noise()));
+  return {heights, texture};
+}
+
 /** Of a sample of a patch, `a` to the east and `b` to the north of its middle, from -1 to 1. */
 function pointOnCube(patch, a, b) {
   const [x, y, z] = [

@@ -6,7 +6,9 @@ import {before, test} from 'node:test';
 import {drapeOf} from '../src/drape.js';
 import {encode} from '../src/encode.js';
 import {goesRound, open} from '../src/index.js';
-import {earth, colourAt, earthOnCube, pointOfSample} from './earth.js';
+import {
+  WIDTH, colourAt, earth, earthOnCube, pointOfSample, roughEarth,
+} from './earth.js';
 import {terrainOf} from './terrain.js';
 
 const TIMEOUT = {timeout: 60000};
@@ -127,4 +129,40 @@ test('heights that go round no globe say so', TIMEOUT, async () => {
     {geotransform: heights.geotransform.map((v, i) => (i === 3 ? v + 10 : v))}]) {
     assert.equal(goesRound({...info, ...change}), false, JSON.stringify(change));
   }
+});
+
+/** From 10 000 km above the equator, at longitude 0 or, `side` -1, at 180. */
+function viewFrom(side) {
+  const wide = 1 / Math.tan(Math.PI / 8);
+  return {
+    clip: [0, 0.6 * side * wide, 0, 0, 0, 0, wide, 0, 0, 0, 0, 0, -side, 0, 0, 1e7],
+    width: 1000, height: 600,
+  };
+}
+
+test('of a globe bytes come for the side that a view sees', TIMEOUT, async () => {
+  const rough = roughEarth(), {data} = rough.texture;
+  const indexed = await encode({...rough, bytes: 800000, regions: 128, index: true});
+  const terrain = await open(indexed, {requestBytes: 0});
+  /** Root of the mean square of texels about a column, by the equator. */
+  const errorAt = ({texture}, column) => {
+    let sum = 0;
+    for (let i = 0; i < 60 * 140; ++i) {
+      const x = (column - 30 + (i % 60) + WIDTH) % WIDTH, y = 200 + Math.floor(i / 60);
+      const at = y * WIDTH + x;
+      for (let c = 0; c < 3; ++c) sum += (texture.data[4 * at + c] - data[3 * at + c]) ** 2;
+    }
+    return Math.sqrt(sum / (3 * 60 * 140));
+  };
+  let before = 0;
+  for (const [side, middle, other] of [[-1, 0, WIDTH / 2], [1, WIDTH / 2, 0]]) {
+    const bytes = await terrain.load(Infinity, {view: viewFrom(side), globe: {exaggeration: 15}});
+    assert.ok(bytes > before + 0.05 * indexed.length, `${before} bytes, then ${bytes}`);
+    assert.ok(bytes < 0.5 * indexed.length, `${bytes} of ${indexed.length} bytes`);
+    const frame = await terrain.decode({bytes, mesh: false});
+    assert.ok(errorAt(frame, middle) < 7, `${errorAt(frame, middle)} where it is seen`);
+    if (side < 0) assert.ok(errorAt(frame, other) > 14, `${errorAt(frame, other)} behind`);
+    before = bytes;
+  }
+  terrain.dispose();
 });

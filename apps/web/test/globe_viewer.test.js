@@ -6,7 +6,7 @@ import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 
 import {encode} from '../src/encode.js';
-import {earth, earthOnCube} from './earth.js';
+import {earth, earthOnCube, roughEarth} from './earth.js';
 import {MIDDLE, drawn, viewerSite} from './viewer_site.js';
 
 const TIMEOUT = {timeout: 120000};
@@ -14,15 +14,19 @@ const TIMEOUT = {timeout: 120000};
 const PLACES = {
   north: '0,1.6e7,0', south: '0,-1.6e7,0', date: '-1.6e7,0,0', greenwich: '1.6e7,0,0',
 };
-let site, stream;
+let site, stream, indexed;
 
 before(async () => {
   stream = await encode({heights: earth().heights, bytes: 80000});
+  const rough = {...roughEarth(), bytes: 800000, regions: 128};
+  indexed = await encode({...rough, index: true});
   const onCube = earthOnCube();
   const moon = {...earth().heights, crs: 'Moon', geoKeys: '1024=2 2057=1737400 2058=1737400'};
   site = await viewerSite({
     'earth.tks': stream,
     'textured.tks': await encode({...earth(), bytes: 120000}),
+    'whole.tks': await encode(rough),
+    'indexed.tks': indexed,
     'cube.tks': await encode({...onCube, bytes: 120000}),
     'bare_cube.tks': await encode({heights: onCube.heights, bytes: 80000}),
     'moon.tks': await encode({heights: moon, bytes: 40000}),
@@ -98,6 +102,40 @@ for (const [stream, bytes] of [['textured', '4kB'], ['textured', 'all'], ['cube'
     }, bytes === '4kB');
   });
 }
+
+/** The root of the mean square by which two pictures differ within so many pixels of the middle. */
+function differenceOf(page, pictures, radius) {
+  return page.evaluate(async ({files, middle, radius}) => {
+    const [a, b] = await Promise.all(files.map(async (base64) => {
+      const blob = await (await fetch('data:image/png;base64,' + base64)).blob();
+      const image = await createImageBitmap(blob);
+      const context = new OffscreenCanvas(2 * radius, 2 * radius).getContext('2d');
+      context.drawImage(image, radius - middle.x, radius - middle.y);
+      return context.getImageData(0, 0, 2 * radius, 2 * radius).data;
+    }));
+    return Math.sqrt(a.reduce((sum, value, i) => sum + (value - b[i]) ** 2, 0) / a.length);
+  }, {files: pictures.map((file) => file.toString('base64')), middle: MIDDLE, radius});
+}
+
+test('a globe with an index takes the bytes of the side that is seen', TIMEOUT, async () => {
+  const pictures = [];
+  for (const name of ['whole', 'indexed']) {
+    await site.withPage(`tks=${name}.tks#eye=-7e6,0,0&target=0,0,0`, async (page) => {
+      const bytesOf = async () => Number(await page.locator('body').getAttribute('data-bytes'));
+      const fetched = await bytesOf();
+      pictures.push(await page.locator('#picture').screenshot());
+      if (name === 'whole') return;
+      assert.ok(fetched < 0.6 * indexed.length, `${fetched} of ${indexed.length} bytes`);
+      const difference = await differenceOf(page, pictures, 180);
+      assert.ok(difference < 3, `the picture differs by ${difference}`);
+      await page.evaluate(() => (location.hash = 'eye=7e6,0,0&target=0,0,0'));
+      await page.waitForFunction((before) => Number(document.body.dataset.bytes) > before, fetched);
+      await drawn(page);
+      const both = await bytesOf();
+      assert.ok(both > fetched + 0.05 * indexed.length, `${fetched} bytes, then ${both}`);
+    });
+  }
+});
 
 test('the wheel comes nearer, and the camera stays above the ground', TIMEOUT, async () => {
   await site.withPage('tks=earth.tks', async (page) => {

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // A globe in the viewer's scene, with what the viewer asks of a terrain. Metres from the centre:
 // the north pole is up (y), longitude 0 at x.
-import {BufferAttribute, BufferGeometry, Mesh, RepeatWrapping} from 'three';
+import {BufferAttribute, BufferGeometry, Matrix4, Mesh, RepeatWrapping} from 'three';
 
 import {isForest} from '../src/domains.js';
 import {drapeOf} from '../src/drape.js';
 import {textureOf} from '../src/three.js';
+import {viewThrough} from '../src/three_refining.js';
 import {PATCHES, groupByPatches, texturesOfPatches} from './cube.js';
 import {draped, liesOnDegrees} from './globe_drape.js';
 
-/** Of vectors whose z points to the north pole. */
+/** From metres whose z points to the north pole to those of the mesh. */
+const UPRIGHT = [1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1];
+
+/** The same of vectors. */
 function upright(vectors) {
   const turned = new Float32Array(vectors.length);
   for (let i = 0; i < vectors.length; i += 3) {
@@ -79,6 +83,11 @@ export class Globe extends Mesh {
     for (let i = 0; i < array.length; i += 3)
       most = Math.max(most, Math.hypot(array[i], array[i + 1], array[i + 2]));
     this.radius = most || 1;
+  }
+
+  /** What this camera looks at. */
+  viewOf(camera, viewportHeight) {
+    return viewThrough(camera, viewportHeight, this, new Matrix4().set(...UPRIGHT));
   }
 
   get #materials() {

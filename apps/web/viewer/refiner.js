@@ -65,10 +65,10 @@ export class Refiner {
     this.shown.bytes = bytes;
     this.pump();
   }
-  /** Of streams with an index bytes come for what is looked at, on flat ground. */
+  /** Of ground with an index bytes come for what is looked at. */
   get #isPlanned() {
-    const {frame, isGlobe, isObject} = this.#object;
-    return this.#terrain.info.hasIndex && frame !== null && !isGlobe && !isObject;
+    const {frame, isObject} = this.#object;
+    return this.#terrain.info.hasIndex && frame !== null && !isObject;
   }
   get #isSameFrame() {
     return this.#wanted.frame === this.shown.frame;

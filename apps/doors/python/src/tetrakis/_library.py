@@ -455,6 +455,7 @@ class ScreenCamera(ctypes.Structure):
         ("height", c_uint32),
         ("clip", c_double * 16),
         ("weight", c_double),
+        ("globe", POINTER(Globe)),
     ]
 
 
