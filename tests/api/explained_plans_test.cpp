@@ -80,15 +80,15 @@ struct Terrain {
 };
 
 std::vector<Terrain> terrains() {
-  const Raster ridges = make({Pattern::kRidges, 97, 81, 1, TKS_U8, 3});
-  std::vector<Terrain> all = {{"ridges", make({Pattern::kRidges, 97, 81, 1, TKS_I16, 3})},
-                              {"floats", make({Pattern::kRidges, 97, 81, 1, TKS_F32, 3})},
-                              {"plain", make({Pattern::kFlat, 97, 81, 1, TKS_U8, 1})},
-                              {"terraces", make({Pattern::kSteps, 97, 81, 1, TKS_U16, 5})},
-                              {"noise", make({Pattern::kNoise, 97, 81, 1, TKS_U16, 5})},
+  const Raster ridges = make({Pattern::kRidges, 71, 59, 1, TKS_U8, 3});
+  std::vector<Terrain> all = {{"ridges", make({Pattern::kRidges, 71, 59, 1, TKS_I16, 3})},
+                              {"floats", make({Pattern::kRidges, 71, 59, 1, TKS_F32, 3})},
+                              {"plain", make({Pattern::kFlat, 71, 59, 1, TKS_U8, 1})},
+                              {"terraces", make({Pattern::kSteps, 71, 59, 1, TKS_U16, 5})},
+                              {"noise", make({Pattern::kNoise, 71, 59, 1, TKS_U16, 5})},
                               {"point", make({Pattern::kRidges, 1, 1, 1, TKS_I16, 1})},
-                              {"facets", samples::facets(160, 120, 20.7)},
-                              {"patches", samples::patches(160, 120)},
+                              {"facets", samples::facets(120, 90, 20.7)},
+                              {"patches", samples::patches(120, 90)},
                               {"feet", samples::withFewValues(ridges, samples::FewValues::kFeet)},
                               {"geoid", samples::withOffsets(ridges, samples::OffsetKind::kGeoid)}};
   return all;

@@ -163,11 +163,12 @@ TEST(FewValues, PrefixesKeepGroundApartFromHoles) {
 }
 
 TEST(FewValues, DecodeAsTheReferenceDoesInAllPrefixesAndLevels) {
-  const Raster whole = make({Pattern::kRidges, 61, 50, 1, TKS_U8, 3});
+  constexpr uint32_t kWidth = 53, kHeight = 43;
+  const Raster whole = make({Pattern::kRidges, kWidth, kHeight, 1, TKS_U8, 3});
   tks_encode_options regions = lossless();
   regions.regions = 16;
   for (const Raster& heights :
-       {samples::withFewValues(whole, FewValues::kFeet), squareRoots(61, 50),
+       {samples::withFewValues(whole, FewValues::kFeet), squareRoots(kWidth, kHeight),
         samples::withFewValues(whole, FewValues::kRare)}) {
     for (const tks_encode_options& options : {lossless(), regions}) {
       const Bytes stream = encode(&heights, nullptr, options);
@@ -178,7 +179,8 @@ TEST(FewValues, DecodeAsTheReferenceDoesInAllPrefixesAndLevels) {
         for (const uint32_t level : {0u, 2u}) {
           Stream decoded(prefix);
           ASSERT_EQ(tks_set_levels(decoded.get(), level, 0), TKS_OK);
-          const size_t samples = size_t{(60u >> level) + 1} * ((49u >> level) + 1);
+          const size_t samples =
+              size_t{((kWidth - 1) >> level) + 1} * (((kHeight - 1) >> level) + 1);
           std::vector<uint8_t> shown(samples * tks_sample_bytes(heights.sample));
           ASSERT_EQ(tks_decode_heights(decoded.get(), shown.data(), shown.size()), TKS_OK);
           ASSERT_EQ(shown, reference::decode(prefix, 1 << 20, {static_cast<int>(level), 0}).heights)

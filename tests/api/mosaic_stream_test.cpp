@@ -165,7 +165,7 @@ void dig(Source& source, samples::VoidShape shape) {
 TEST(MosaicStream, RestoresSamplesOfEveryType) {
   for (const tks_sample sample : {TKS_U8, TKS_I8, TKS_U16, TKS_I16, TKS_U32, TKS_I32}) {
     for (const bool voids : {false, true}) {
-      Source source(hills(sample));
+      Source source(hills(sample, 200, 150));
       if (voids) dig(source, samples::VoidShape::kCoast);
       tks_mosaic_options options = mosaicOptions();
       options.lossless = 1;

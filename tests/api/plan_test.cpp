@@ -261,8 +261,8 @@ TEST(Plan, ATurnBringsWhatLiesBehindIntoThePicture) {
 
 /// With the checksum repaired.
 TEST(Plan, SurvivesEveryDamagedByte) {
-  const Raster heights = make({Pattern::kRidges, 26, 19, 1, TKS_I16});
-  const Raster image = make({Pattern::kSteps, 24, 9, 1, TKS_U8});
+  const Raster heights = make({Pattern::kRidges, 26, 9, 1, TKS_I16});
+  const Raster image = make({Pattern::kSteps, 24, 5, 1, TKS_U8});
   const Bytes bytes = encodeRegions(&heights, &image, lossless());
   const tks_limits limits = smallLimits();
   const tks_screen_camera view = alongRows(13, -5, 90);

@@ -314,11 +314,11 @@ TEST(ToldStreams, TakeOddTerrain) {
 
 /// Decoders that remember tracks show what others show.
 TEST(ToldStreams, GrowByteByByte) {
-  const Raster surface = make({Pattern::kRidges, 50, 45, 1, TKS_U8});
-  const Raster picture = make({Pattern::kRidges, 40, 50, 3, TKS_U8});
+  const Raster surface = make({Pattern::kRidges, 33, 28, 1, TKS_U8});
+  const Raster picture = make({Pattern::kRidges, 26, 31, 3, TKS_U8});
   const tks_camera corner = {nullptr, {-300, 3000, -200}, {-300, 0, -200}, {0, 0, -1}, 10, 128, 128,
                              1};
-  tks_encode_options options = budget(1500);
+  tks_encode_options options = budget(700);
   options.cameras = &corner;
   options.camera_count = 1;
   const Bytes bytes = encode(&surface, &picture, options);

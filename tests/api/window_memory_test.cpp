@@ -134,10 +134,10 @@ TEST(WindowMemory, GrowsWithTheBytes) {
     size_t end = static_cast<size_t>(Stream(bytes).info().header_bytes);
     const Stream lasting(Prefix(bytes).first(end));
     while (end < bytes.size()) {
-      const size_t more = std::min(1 + size_t{below(bytes.size() / 9, random)}, bytes.size() - end);
+      const size_t more = std::min(1 + size_t{below(bytes.size() / 6, random)}, bytes.size() - end);
       ASSERT_EQ(tks_append(lasting.get(), bytes.data() + end, more), TKS_OK);
       end += more;
-      for (int i = 0; i < 3; ++i) {
+      for (int i = 0; i < 2; ++i) {
         const Question question = anyQuestion(lasting.info(), random);
         const Stream fresh(Prefix(bytes).first(end));
         ASSERT_TRUE(answer(lasting, question) == answer(fresh, question)) << name << ", " << end;
@@ -157,7 +157,7 @@ TEST(WindowMemory, GrowsAroundGaps) {
     const Stream lasting(Prefix(bytes).first(header));
     std::vector<tks_range> pieces;
     for (size_t at = header; at < bytes.size();) {
-      const size_t size = std::min(1 + size_t{below(bytes.size() / 8, random)}, bytes.size() - at);
+      const size_t size = std::min(1 + size_t{below(bytes.size() / 5, random)}, bytes.size() - at);
       pieces.push_back({at, size, 0});
       at += size;
     }
@@ -169,7 +169,7 @@ TEST(WindowMemory, GrowsAroundGaps) {
                   TKS_OK);
       };
       put(lasting, pieces[count - 1]);
-      for (int i = 0; i < 3; ++i) {
+      for (int i = 0; i < 2; ++i) {
         const Question question = anyQuestion(lasting.info(), random);
         const Stream fresh(Prefix(bytes).first(header));
         for (size_t k = 0; k < count; ++k) put(fresh, pieces[k]);

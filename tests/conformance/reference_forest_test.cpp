@@ -59,8 +59,8 @@ Sides shuffled(uint32_t patches, uint32_t seed) {
 TEST(ReferenceForest, AgreesOnEveryByteOfSmallStreams) {
   for (const Sides& sides : kForests) {
     SCOPED_TRACE(&sides - kForests);
-    const ForestRaster surface(Forest(3, sides), {Pattern::kRidges, 0, 0, 1, TKS_I16, 3});
-    for (const tks_encode_options& options : {lossless(), budget(200), within(9)}) {
+    const ForestRaster surface(Forest(2, sides), {Pattern::kRidges, 0, 0, 1, TKS_I16, 3});
+    for (const tks_encode_options& options : {lossless(), budget(100), within(9)}) {
       const Bytes stream = surface.encoded(options);
       expectAgreementOnPrefixes(stream, stream.size());
       if (HasFatalFailure()) return;

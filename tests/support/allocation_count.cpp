@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/allocation_count.hpp"
 
+#include <execinfo.h>
 #include <malloc.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdlib>
 #include <new>
@@ -12,6 +14,22 @@ namespace {
 
 std::atomic<int64_t> now = 0, peak = 0, blocks = 0;
 std::atomic<uint64_t> left = 0;  // allocations until the one that fails; 0: none will
+
+constexpr size_t kMostNoted = 1 << 17;  // encoders make many thousands
+std::array<uint64_t, kMostNoted> places;
+std::atomic<size_t> noted = kMostNoted;  // so many: nobody takes notes
+
+/// FNV-1a of the calls that lead to an allocation.
+void notePlace() {
+  if (noted >= kMostNoted) return;
+  std::array<void*, 12> calls;  // some are of the standard library
+  const int depth = backtrace(calls.data(), static_cast<int>(calls.size()));
+  uint64_t hash = 0xcbf29ce484222325;
+  for (int i = 0; i < depth; ++i)
+    hash = (hash ^ reinterpret_cast<uintptr_t>(calls[static_cast<size_t>(i)])) * 0x100000001b3;
+  const size_t number = noted++;
+  if (number < kMostNoted) places[number] = hash;
+}
 
 void count(int64_t bytes) {
   const int64_t sum = now += bytes;
@@ -31,6 +49,7 @@ void* counted(void* memory) {
 }
 
 bool fails() {
+  notePlace();
   uint64_t before = left;
   while (before > 0 && !left.compare_exchange_weak(before, before - 1)) {
   }
@@ -88,6 +107,16 @@ int64_t liveBlocks() {
 
 void failAllocation(uint64_t number) {
   left = number;
+}
+
+void startNotingPlaces() {
+  void* loads_the_unwinder;
+  backtrace(&loads_the_unwinder, 1);
+  noted = 0;
+}
+
+std::span<const uint64_t> notedPlaces() {
+  return std::span(places).first(std::min(noted.exchange(kMostNoted), kMostNoted));
 }
 
 bool allocationHasFailed() {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 namespace tetrakis::test {
 
@@ -19,6 +20,13 @@ int64_t liveBlocks();
 
 /// The allocation of this number from now on fails, counted from 1; 0: none.
 void failAllocation(uint64_t number);
+
+/// Begins to note from which place in the code each allocation comes: a hash of the calls that lead
+/// to it.
+void startNotingPlaces();
+
+/// Ends that, and returns the places of all allocations since, until the next start.
+std::span<const uint64_t> notedPlaces();
 
 /// Whether there was one of the number that failAllocation() was told.
 bool allocationHasFailed();

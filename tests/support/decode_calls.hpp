@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -152,13 +153,18 @@ inline DecodeCall treeOf(tks_mesh_kind kind, uint32_t triangles) {
   return call;
 }
 
+/// The first three levels and the last one, each once.
+inline std::set<uint32_t> levelsUpTo(uint32_t coarsest) {
+  return {0, std::min(1u, coarsest), std::min(2u, coarsest), coarsest};
+}
+
 /// All that can be asked of a stream with such heights and such a texture.
 inline std::vector<DecodeCall> callsOn(const tks_info& info) {
   std::vector<DecodeCall> calls;
   if (info.has_heights) {
     const uint32_t w = info.width, h = info.height;
-    for (const uint32_t level : {0u, 1u, 2u, info.coarsest_level})
-      calls.push_back(heightsOf(info, std::min(level, info.coarsest_level)));
+    for (const uint32_t level : levelsUpTo(info.coarsest_level))
+      calls.push_back(heightsOf(info, level));
     calls.push_back(validityOf(info));
     for (const tks_window& window :
          {tks_window{0, 0, w, h}, {w / 3, h / 4, w / 5 + 1, h / 6 + 1}, {w - 1, h - 1, 1, 1}})
@@ -174,8 +180,8 @@ inline std::vector<DecodeCall> callsOn(const tks_info& info) {
   }
   if (info.has_texture) {
     const uint32_t w = info.texture_width, h = info.texture_height;
-    for (const uint32_t level : {0u, 1u, 2u, info.texture_coarsest_level})
-      calls.push_back(textureOf(info, std::min(level, info.texture_coarsest_level)));
+    for (const uint32_t level : levelsUpTo(info.texture_coarsest_level))
+      calls.push_back(textureOf(info, level));
     for (const tks_window& window :
          {tks_window{0, 0, w, h}, {w / 3, h / 4, w / 5 + 1, h / 6 + 1}, {w - 1, h - 1, 1, 1}})
       calls.push_back(textureOf(info, window));

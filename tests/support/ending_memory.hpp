@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of the library while memory ends at their first allocation, at their second, and so on
-// until they meet none.
+// Calls of the library while memory ends at an allocation of theirs: at the first and at the last one
+// of each place in the code.
 #pragma once
 
 #include <functional>
+#include <map>
+#include <set>
 #include <string>
 
 #include "tests/support/allocation_count.hpp"
@@ -116,8 +118,8 @@ inline void expectGoesOn(const Called& called, Desk& desk, const Bytes& wanted) 
   EXPECT_EQ(desk.given(), wanted);
 }
 
-/// The call whose allocation of that number fails. Whether there was one.
-inline bool failsAt(uint64_t number, const Called& called, Prefix stream, const Bytes& wanted) {
+/// The call whose allocation of that number fails.
+inline void failsAt(uint64_t number, const Called& called, Prefix stream, const Bytes& wanted) {
   Desk desk(stream);
   called.before(desk);
   const Bytes blank = desk.given();
@@ -129,7 +131,7 @@ inline bool failsAt(uint64_t number, const Called& called, Prefix stream, const 
     EXPECT_EQ(status, TKS_OK) << sentenceOf(desk);
     called.after(desk);
     EXPECT_EQ(desk.given(), wanted);
-    return met;
+    return;
   }
   EXPECT_EQ(status, TKS_NO_MEMORY);
   if (called.has_sentence) {
@@ -139,11 +141,24 @@ inline bool failsAt(uint64_t number, const Called& called, Prefix stream, const 
   // Whole calls take most of the time, and those of encoders start from nothing.
   constexpr uint64_t kSometimes = 25;
   if (called.remembers || number % kSometimes == 0) expectGoesOn(called, desk, wanted);
-  return true;
 }
 
-/// Every one of the first two hundred allocations, then ever fewer: encoders make many thousands,
-/// in loops.
+/// The number of each place's first allocation and of its last one, counted from 1, in order.
+inline std::vector<uint64_t> endsOfPlaces(std::span<const uint64_t> places) {
+  std::set<uint64_t> numbers;
+  std::map<uint64_t, uint64_t> last;
+  for (size_t i = 0; i < places.size(); ++i) {
+    const uint64_t number = i + 1;
+    if (!last.contains(places[i])) numbers.insert(number);
+    last[places[i]] = number;
+  }
+  for (const auto& [place, number] : last) numbers.insert(number);
+  return {numbers.begin(), numbers.end()};
+}
+
+/// In loops calls make many thousands of allocations, of which those between the first and the last
+/// one of a place in the code find the state that these two find. Encoders have thousands of
+/// places: some of them.
 inline void exhaust(const Called& called, Prefix stream) {
   SCOPED_TRACE(called.name);
   Bytes wanted;
@@ -154,12 +169,18 @@ inline void exhaust(const Called& called, Prefix stream) {
     called.after(desk);
     wanted = desk.given();
   }
-  for (uint64_t number = 1;; number += 1 + number / 200) {
-    SCOPED_TRACE("allocation " + std::to_string(number));
+  Desk noting(stream);
+  called.before(noting);
+  startNotingPlaces();
+  called.run(noting);
+  const std::vector<uint64_t> numbers = endsOfPlaces(notedPlaces());
+  constexpr size_t kMost = 240;
+  for (size_t i = 0; i < numbers.size(); i += 1 + numbers.size() / kMost) {
+    SCOPED_TRACE("allocation " + std::to_string(numbers[i]));
     const int64_t before = liveBlocks();
-    const bool met = failsAt(number, called, stream, wanted);
+    failsAt(numbers[i], called, stream, wanted);
     EXPECT_EQ(liveBlocks(), before);
-    if (!met || ::testing::Test::HasFailure()) return;
+    if (::testing::Test::HasFailure()) return;
   }
 }
 

@@ -157,7 +157,7 @@ TEST(Overlay, PrefixesThatGrowInOneMemoryDecodeAsAlone) {
     ASSERT_GT(opening, 0u);
     const std::span<const uint8_t> codeword = encoded.tracks.front().codeword;
     TextureMemory memory;
-    for (size_t bytes = 0; bytes <= codeword.size(); bytes += bytes < opening + 9 ? 3 : 401) {
+    for (size_t bytes = 0; bytes <= codeword.size(); bytes += bytes < opening + 9 ? 7 : 401) {
       const Codewords cut = {codeword.first(bytes)};
       ASSERT_EQ(decodeTexture(encoded.header, cut, {}, {1, &memory}).samples,
                 decodeTexture(encoded.header, cut).samples)
