@@ -104,44 +104,49 @@ void decodeAll(const TaskInputs& inputs, const BlockLayout& layout,
   });
 }
 
+/// The mask of the block; empty: all samples exist.
+Result<PartMask> maskOf(const TaskInputs& inputs, const Window& block) {
+  if (!inputs.plan.hasVoids()) return PartMask();
+  Result<Block> original = readBlock(inputs, block);
+  if (!original.ok()) return original.status();
+  return std::move(original->valid);
+}
+
+/// The low band above the block; nothing above the base.
+Result<LowPart> lowAbove(const TaskInputs& inputs, const Window& block) {
+  const int group = inputs.grid.planeGroup(inputs.tile);
+  if (group == inputs.grid.groups()) return LowPart{{0, 0}, {}, {}};
+  return restoredLow(inputs, inputs.grid.coarser(group, block));
+}
+
 }  // namespace
 
 Result<DecodedGeometry> restorePlane(const TaskInputs& inputs) {
-  const MosaicGrid& grid = inputs.grid;
-  const Window block = grid.block(inputs.tile), samples = grid.samples(inputs.tile);
-  PartMask valid;
-  if (inputs.plan.hasVoids()) {
-    Result<Block> original = readBlock(inputs, block);
-    if (!original.ok()) return original.status();
-    valid = std::move(original->valid);
-  }
+  const Window block = inputs.grid.block(inputs.tile), samples = inputs.grid.samples(inputs.tile);
+  const Window inner{samples.x - block.x, samples.y - block.y, samples.width, samples.height};
+  const Result<PartMask> valid = maskOf(inputs, block);
+  if (!valid.ok()) return valid.status();
   const Result<std::vector<RegionCodeword>> codewords = readCodewords(inputs, block);
   if (!codewords.ok()) return codewords.status();
-  const BlockLayout layout(inputs, block, valid);
+  const Result<LowPart> low = lowAbove(inputs, block);
+  if (!low.ok()) return low.status();
+  const BlockLayout layout(inputs, block, *valid);
   const Pyramid& pyramid = layout.local().pyramid();
-  const Window inner{samples.x - block.x, samples.y - block.y, samples.width, samples.height};
+  const Subband& ll = pyramid.subbands().front();
   const View view{0, inner};
   ViewSynthesis synthesis(layout.spec(), pyramid, view);
   synthesis.allocate();
+  if (!low->values.empty()) putLow(*low, ll, synthesis);
   ShownSignificance significance(pyramid, view, codewords->size());
-  DecodedGeometry out;
-  const bool is_base = grid.planeGroup(inputs.tile) == grid.groups();
-  LowPart low{{0, 0}, {}, {}};
-  if (!is_base) {
-    Result<LowPart> restored =
-        restoredLow(inputs, grid.coarser(grid.planeGroup(inputs.tile), block));
-    if (!restored.ok()) return restored.status();
-    low = *std::move(restored);
-    putLow(low, pyramid.subbands().front(), synthesis);
-  }
   decodeAll(inputs, layout, *codewords, synthesis, significance);
+  DecodedGeometry out;
   out.width = samples.width;
   out.height = samples.height;
   out.fraction_bits = inputs.plan.geometry().wavelet.fraction_bits;
   out.heights = synthesis.run(inputs.threads);
   significance.giveTo(out);
-  addMarks(low, pyramid.subbands().front(), inner, out.significant);
-  out.valid = slice(std::span<const uint8_t>(valid), block.extent(), view);
+  addMarks(*low, ll, inner, out.significant);
+  out.valid = slice(std::span<const uint8_t>(*valid), block.extent(), view);
   clearUnmarked(std::span(out.heights), out.valid);
   clearUnmarked(std::span(out.significant), out.valid);
   return out;

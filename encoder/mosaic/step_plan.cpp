@@ -294,13 +294,18 @@ Status keepWithin(double error, const Survey& survey, const ReadSamples& read, M
           "give a larger one."};
 }
 
+/// The step of heights that a target of bytes or of a PSNR cuts.
+double lossyStep(const MosaicOptions& options, const Survey& survey) {
+  if (options.step > 0) return options.step;
+  const double exact = survey.exactStep();
+  if (exact > 0 && survey.range() / exact <= kLossySteps) return exact;
+  return portable::exp2(std::ceil(portable::log2(survey.range() / kLossySteps)));
+}
+
 /// Plans coefficients that a target of bytes or of a PSNR cuts.
 Status keepMost(const MosaicOptions& options, const Survey& survey, const ReadSamples& read,
                 MosaicPlan& plan) {
-  const double exact = survey.exactStep();
-  const bool is_exact = exact > 0 && survey.range() / exact <= kLossySteps;
-  const double usual = portable::exp2(std::ceil(portable::log2(survey.range() / kLossySteps)));
-  const double step = options.step > 0 ? options.step : is_exact ? exact : usual;
+  const double step = lossyStep(options, survey);
   setStep(survey, step, plan);
   const Result<Fields> fields = readFields(plan, kUsualSide, read);
   if (!fields.ok()) return fields.status();
