@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/lattice/validity.hpp"
 #include "codec/lines/shown_lines.hpp"
@@ -243,6 +244,24 @@ VectorCase correctionsInRegions(const std::string& name, const std::string& purp
   return crafted(name, "noise: " + purpose, streamOf(header, tracks));
 }
 
+/// Every error of 2^15 stands behind one of 1, and adds 2^17 to the same factor of the forecast.
+VectorCase largestFactor() {
+  constexpr uint32_t kWidth = 36, kHeight = 25;
+  StreamHeader header = heightsHeader(kWidth, kHeight, TKS_I32, 0);
+  header.layers.corrections = CorrectionKind::kSteps;
+  header.layers.correction_step = 1;
+  const std::vector<int32_t> flat(kWidth * kHeight);
+  std::vector<int32_t> steps = flat;
+  for (size_t y = 2; y < kHeight; y += 5) {
+    for (size_t x = 2; x + 1 < kWidth; x += 6) {
+      steps[y * kWidth + x] = 1;
+      steps[y * kWidth + x + 1] = 1 << 15;
+    }
+  }
+  return crafted("factors_36x25", "the largest factor of a forecast",
+                 streamOf(header, encodeExactSteps(steps, {flat, {kWidth, kHeight}}, 0)));
+}
+
 std::vector<VectorCase> correctionCases() {
   StreamHeader steps = heightsHeader(33, 21, TKS_I32, 12);
   steps.layers.corrections = CorrectionKind::kSteps;
@@ -253,6 +272,7 @@ std::vector<VectorCase> correctionCases() {
   StreamHeader exact = steps;
   exact.layers.correction_step = 1;
   return {
+      largestFactor(),
       crafted("noise_exact_i32_33x21", "noise: exact corrections of all classes",
               streamOf(exact, codeword)),
       crafted("noise_steps_i32_33x21", "noise: corrections of 32 digits wrap",
@@ -285,7 +305,9 @@ std::vector<VectorCase> correctionCases() {
       correctionsOfNoise("noise_facets_least_30x20", "facets in the smallest unit",
                          facetCorrections(1e-41, 1), 112),
       correctionsOfNoise("noise_facets_most_30x20", "facets in the largest unit",
-                         facetCorrections(1e30, 254), 114)};
+                         facetCorrections(1e30, 254), 114),
+      correctionsOfNoise("noise_facets_largest_30x20", "facets about the largest floats",
+                         facetCorrections(1e36, 254), 118)};
 }
 
 /// base + q · step for few q, of which some are the declared nodata value.

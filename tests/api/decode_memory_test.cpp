@@ -26,9 +26,9 @@ using samples::patches;
 using samples::Pattern;
 using samples::Raster;
 
-/// The whole of a stream, a part of it, and next to nothing, of which threads and every third budget
-/// of triangles would take no other ways. may_refuse: budget meshes, for triangles in voids that are
-/// not known before.
+/// The whole of a stream, a part of it, and next to nothing. Parts are asked by one thread, and for
+/// every third budget of triangles: the whole is what takes most. may_refuse: budget meshes, for
+/// triangles in voids that are not known before.
 void expectWithinBounds(const Bytes& bytes, const std::string& what, bool may_refuse = false) {
   for (const size_t size : {bytes.size(), bytes.size() / 3, size_t{0}}) {
     const size_t header = static_cast<size_t>(Stream(bytes).info().header_bytes);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every function of tetrakis.h, sequence.h and transmit.h while memory ends at its first
-// allocation, at its second, and so on until it meets none: it says so in its sentence, writes
-// nothing, leaks nothing, and its decoder goes on, or says that it does not.
+// Every function of tetrakis.h, sequence.h and transmit.h while memory ends at each place where it
+// allocates: it says so in its sentence, writes nothing, leaks nothing, and its decoder goes on, or
+// says that it does not.
 #include <gtest/gtest.h>
 
 #include <fstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Calls of the library while memory ends at an allocation of theirs: at the first and at the last one
-// of each place in the code.
+// Calls of the library while memory ends at an allocation of theirs: at the first one and at the
+// last one of each place in the code.
 #pragma once
 
 #include <functional>
