@@ -18,8 +18,8 @@ struct CodedTile {
   LowPart low;  ///< where MosaicGrid::leavesLow()
 };
 
-/// read: samples of the source; asked where MosaicGrid::readsSource(). files: what the tiles that it
-/// needs have left. threads: nothing depends on them. Errors as of readBlock(); TKS_MISMATCH: a
+/// read: samples of the source; asked where MosaicGrid::readsSource(). files: what the tiles that
+/// it needs have left. threads: nothing depends on them. Errors as of readBlock(); TKS_MISMATCH: a
 /// fault of the encoder.
 Result<CodedTile> codeTile(const MosaicPlan& plan, const Tile& tile, const ReadSamples& read,
                            const MosaicFiles& files, uint32_t threads);
