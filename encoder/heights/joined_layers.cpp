@@ -28,15 +28,7 @@ double squaresOf(const FlatLayer& flat) {
 /// Bytes of coefficients that are to come before a table of `bytes` bytes: all coefficients that
 /// take off more error a byte than the table does. error: squared error while the table is missing.
 uint64_t bytesBeforeTable(const EncodedTrack& coefficients, size_t bytes, double error) {
-  const double slope = error / static_cast<double>(bytes);
-  const std::vector<RatePoint> hull = lowerHull(coefficients.points, 0);
-  uint64_t before = 0;
-  for (size_t i = 1; i < hull.size(); ++i) {
-    const RatePoint &a = hull[i - 1], &b = hull[i];
-    if (a.distortion - b.distortion < slope * static_cast<double>(b.bytes - a.bytes)) break;
-    before = b.bytes;
-  }
-  return before;
+  return bytesWorth(coefficients.points, error / static_cast<double>(bytes));
 }
 
 /// A layer that lies among the coefficients of the first track.

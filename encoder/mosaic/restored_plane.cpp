@@ -55,6 +55,8 @@ Result<LowPart> restoredLow(const TaskInputs& inputs, const Window& window) {
   for (const Tile& other : inputs.grid.lowNeeds(inputs.tile)) {
     const Result<LowPart> part = readLowOf(inputs, other);
     if (!part.ok()) return part.status();
+    if (part->marks.empty())
+      return Status(TKS_IO, "The part " + lowName(other) + " of the mosaic has no marks.");
     const Window from = inputs.grid.low(other);
     copyShared<int32_t>(from, part->values, window, low.values);
     copyShared<uint8_t>(from, part->marks, window, low.marks);

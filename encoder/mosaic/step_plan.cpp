@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "encoder/mosaic/step_plan.hpp"
-
+// chooseSteps() chooses base, step, filters and the cut of a mosaic by nine fields of its source,
+// which stand for all of it.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -20,6 +20,7 @@
 #include "codec/wavelet/choice/filter_choice.hpp"
 #include "codec/wavelet/choice/typical_plane.hpp"
 #include "encoder/mosaic/block.hpp"
+#include "encoder/mosaic/survey.hpp"
 #include "ratecontrol/curves/component_curve.hpp"
 
 namespace tetrakis::inline mosaic {
@@ -249,6 +250,14 @@ double roundingOf(const Survey& survey) {
   return std::ldexp(1.0, std::ilogb(std::max(largest, 1e-30)) - 22);
 }
 
+/// By how much decoders move a height that would be the nodata value; 0: none can be.
+double besideNodata(const Survey& survey, const MosaicPlan& plan, double error) {
+  const double nodata = plan.header.layers.nodata;
+  const bool is_near = nodata >= survey.low() - error && nodata <= survey.high() + error;
+  if (!plan.header.layers.has_nodata || !is_near) return 0;
+  return survey.floats() ? roundingOf(survey) : 1;
+}
+
 /// The step of corrected heights: the exact one, or one that a largest error has many of.
 double fineStep(const Survey& survey, double error) {
   if (const double exact = survey.exactStep(); exact > 0) return exact;
@@ -267,14 +276,20 @@ double roundedStep(const Survey& survey, double error) {
   return step > 0 && survey.range() / step < kMostSteps ? step : 0;
 }
 
+/// The largest error in steps of fineStep() that corrections may leave; 0: none, or nobody corrects.
+double roomFor(double error, double fine, const Survey& survey, const MosaicPlan& plan) {
+  if (!hasRegions(plan)) return 0;
+  const double own = survey.exactStep() > 0 ? 0 : fine / 2 + roundingOf(survey);
+  return std::min(std::floor((error - own) / fine + kSlack), kMostLargest);
+}
+
 /// Plans a largest error, in sample units: heights are rounded and then kept, or cut and corrected.
 Status keepWithin(double error, const Survey& survey, const ReadSamples& read, MosaicPlan& plan) {
   const double rounded = roundedStep(survey, error);
-  const double fine = survey.range() > 0 ? fineStep(survey, error) : 1;
-  const double own = survey.exactStep() > 0 ? 0 : fine / 2 + roundingOf(survey);
-  const double room = std::floor((error - own) / fine + kSlack);
-  if (hasRegions(plan) && survey.range() > 0 && room >= 1) {
-    const auto largest = static_cast<int32_t>(std::min(room, kMostLargest));
+  const double fine = survey.range() > 0 && error > 0 ? fineStep(survey, error) : 1;
+  const double room = roomFor(error, fine, survey, plan);
+  if (survey.range() > 0 && room >= 1) {
+    const auto largest = static_cast<int32_t>(room);
     setStep(survey, fine, plan);
     const Result<Fields> fields = readFields(plan, kTrialSide, read);
     if (!fields.ok()) return fields.status();
@@ -331,7 +346,8 @@ Status chooseSteps(const Survey& survey, const MosaicOptions& options, const Rea
   if (options.step > 0) return keepSteps(options.step, survey, read, plan);
   if (options.max_error > 0) {
     const double error = options.max_error / std::abs(plan.header.metadata.scale);
-    return keepWithin(error, survey, read, plan);
+    const double left = std::max(error - besideNodata(survey, plan, error), 0.);
+    return keepWithin(left, survey, read, plan);
   }
   const double exact = survey.exactStep();
   if (exact > 0 && !survey.negativeZeros()) return keepSteps(exact, survey, read, plan);

@@ -12,7 +12,6 @@
 #include "base/samples.hpp"
 #include "codec/geometry/quantiser/height_steps.hpp"
 #include "encoder/mosaic/block.hpp"
-#include "encoder/mosaic/step_plan.hpp"
 #include "encoder/selection/write_stream.hpp"
 
 namespace tetrakis::inline mosaic {

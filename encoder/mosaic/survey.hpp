@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // makePlan() turns a source and a target into a plan. A survey reads the source once, window by
 // window, for what an encoder finds in a whole plane: range, voids, and the step that restores all
-// samples. Steps, filters and the cut are chosen by parts of the source (step_plan.hpp).
+// samples. chooseSteps() then chooses by nine fields of the source (step_plan.cpp).
 #pragma once
 
 #include <array>
@@ -66,5 +66,12 @@ class Survey {
   std::array<uint64_t, kDecimalSteps.size()> decimals_{};
   int lowest_bit_ = std::numeric_limits<int>::max();  ///< exponent of the lowest bit of all floats
 };
+
+/// The part of makePlan() that says how samples become steps and how these are coded: base, step and
+/// filters, and whether coefficients are cut, with corrections behind them. plan: with all that the
+/// source and the target say of it. TKS_USAGE: the target cannot be promised, with the reason.
+/// Errors of `read`.
+Status chooseSteps(const Survey& survey, const MosaicOptions& options, const ReadSamples& read,
+                   MosaicPlan& plan);
 
 }  // namespace tetrakis::inline mosaic

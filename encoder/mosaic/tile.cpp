@@ -80,13 +80,7 @@ bool decodes(const TrackSource& source, const EncodedTrack& track) {
 
 /// Ends a track where a byte takes off less than `slope`, in squared steps.
 void cutAt(double slope, EncodedTrack& track) {
-  const std::vector<RatePoint> hull = lowerHull(track.points, 0);
-  uint64_t end = 0;
-  for (size_t i = 1; i < hull.size(); ++i) {
-    const RatePoint &a = hull[i - 1], &b = hull[i];
-    if (a.distortion - b.distortion < slope * static_cast<double>(b.bytes - a.bytes)) break;
-    end = b.bytes;
-  }
+  const uint64_t end = bytesWorth(track.points, slope);
   std::erase_if(track.points, [&](const RatePoint& point) { return point.bytes > end; });
   track.codeword.resize(end);
 }

@@ -23,6 +23,9 @@ namespace tetrakis::inline curves {
 /// kLeastPacket) apart so that packet heads stay cheap.
 std::vector<RatePoint> lowerHull(std::span<const RatePoint> points, double growth);
 
+/// The bytes of a track that take off at least `slope` distortion each, up to a vertex of the hull.
+uint64_t bytesWorth(std::span<const RatePoint> points, double slope);
+
 /// Bytes of the shortest packets. Shorter ones show first bytes sooner, and heads take more of
 /// them.
 inline constexpr uint64_t kLeastPacket = 24;

@@ -52,6 +52,17 @@ std::vector<RatePoint> lowerHull(std::span<const RatePoint> points, double growt
   return sparse;
 }
 
+uint64_t bytesWorth(std::span<const RatePoint> points, double slope) {
+  const std::vector<RatePoint> hull = lowerHull(points, 0);
+  uint64_t worth = 0;
+  for (size_t i = 1; i < hull.size(); ++i) {
+    const RatePoint &a = hull[i - 1], &b = hull[i];
+    if (a.distortion - b.distortion < slope * static_cast<double>(b.bytes - a.bytes)) break;
+    worth = b.bytes;
+  }
+  return worth;
+}
+
 std::vector<RatePoint> packetEnds(std::span<const RatePoint> points, const RatePoint& from,
                                   const RatePoint& to) {
   assert(from.bytes < to.bytes);

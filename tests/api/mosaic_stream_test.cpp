@@ -317,6 +317,29 @@ TEST(MosaicStream, KeepsALargestError) {
   }
 }
 
+/// A height that would be the nodata value becomes the next one.
+TEST(MosaicStream, KeepsALargestErrorBesideANodataValue) {
+  for (const tks_sample sample : {TKS_U8, TKS_I16}) {
+    for (const double error : {1., 2., 9.}) {
+      Source source(hills(sample));
+      source.heights.has_nodata = 1;  // in the middle of heights that become void
+      source.heights.nodata = sampleAt(source.raster.data, sample, 12345);
+      tks_mosaic_options options = mosaicOptions();
+      options.max_error = error;
+      Stream stream(mosaicOf(source, options));
+      const Raster& raster = source.raster;
+      std::vector<std::byte> samples(stream.heightsBytes());
+      ASSERT_EQ(tks_decode_heights(stream.get(), samples.data(), samples.size()), TKS_OK);
+      for (size_t i = 0; i < size_t{raster.width} * raster.height; ++i) {
+        const double truth = sampleAt(raster.data, sample, i), shown = sampleAt(samples, sample, i);
+        const double nodata = source.heights.nodata;
+        ASSERT_EQ(truth == nodata, shown == nodata) << i;
+        ASSERT_LE(std::abs(truth - shown), error) << i;
+      }
+    }
+  }
+}
+
 /// Squared errors of all samples of a stream of TKS_I16.
 double squaresOf(const Bytes& bytes, const Raster& raster) {
   Stream stream((Prefix(bytes)));
