@@ -276,7 +276,7 @@ double roundedStep(const Survey& survey, double error) {
   return step > 0 && survey.range() / step < kMostSteps ? step : 0;
 }
 
-/// The largest error in steps of fineStep() that corrections may leave; 0: none, or nobody corrects.
+/// The largest error that corrections may leave, in steps of fineStep(); 0: nobody corrects.
 double roomFor(double error, double fine, const Survey& survey, const MosaicPlan& plan) {
   if (!hasRegions(plan)) return 0;
   const double own = survey.exactStep() > 0 ? 0 : fine / 2 + roundingOf(survey);
@@ -288,7 +288,7 @@ Status keepWithin(double error, const Survey& survey, const ReadSamples& read, M
   const double rounded = roundedStep(survey, error);
   const double fine = survey.range() > 0 && error > 0 ? fineStep(survey, error) : 1;
   const double room = roomFor(error, fine, survey, plan);
-  if (survey.range() > 0 && room >= 1) {
+  if (survey.range() > error && room >= 1) {
     const auto largest = static_cast<int32_t>(room);
     setStep(survey, fine, plan);
     const Result<Fields> fields = readFields(plan, kTrialSide, read);

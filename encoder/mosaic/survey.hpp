@@ -67,9 +67,9 @@ class Survey {
   int lowest_bit_ = std::numeric_limits<int>::max();  ///< exponent of the lowest bit of all floats
 };
 
-/// The part of makePlan() that says how samples become steps and how these are coded: base, step and
-/// filters, and whether coefficients are cut, with corrections behind them. plan: with all that the
-/// source and the target say of it. TKS_USAGE: the target cannot be promised, with the reason.
+/// The part of makePlan() that says how samples become steps and how these are coded: base, step
+/// and filters, and whether coefficients are cut, with corrections behind them. plan: with all that
+/// the source and the target say of it. TKS_USAGE: the target cannot be promised, with the reason.
 /// Errors of `read`.
 Status chooseSteps(const Survey& survey, const MosaicOptions& options, const ReadSamples& read,
                    MosaicPlan& plan);
