@@ -5,6 +5,7 @@
 
 #include "bitstream/stream/geometry_header.hpp"
 #include "codec/geometry/heights_decoder.hpp"
+#include "codec/geometry/region_masks.hpp"
 #include "codec/geometry/values/value_table.hpp"
 #include "codec/lattice/validity.hpp"
 #include "codec/lines/shown_lines.hpp"
@@ -114,6 +115,7 @@ uint64_t HeightsBytes::drawing() const {
 
 /// Which samples of the plane are valid, and which are lifted where that is not the same.
 uint64_t HeightsBytes::wholeMasks() const {
+  if (layers_.region_masks) return regionMaskBytes(header_, view_.window);
   const bool bridged = layers_.bridge > 0 || layers_.late_mask;
   // Of frames: those that arrive and go, and what is valid in one of them.
   const uint64_t masks = header_.frames.none() ? (bridged ? 2 : 1) : header_.frames.count + 6u;
@@ -122,6 +124,7 @@ uint64_t HeightsBytes::wholeMasks() const {
 
 /// The same while one of them is decoded, or found.
 uint64_t HeightsBytes::openingMaskBytes() const {
+  if (layers_.region_masks) return wholeMasks();
   return voids_ ? wholeMasks() +
                       std::max(validityBytes(header_.extent()), closingBytes(header_.extent()))
                 : 0;

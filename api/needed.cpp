@@ -10,6 +10,7 @@
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/scattered_packets.hpp"
 #include "codec/geometry/heights_decoder.hpp"
+#include "codec/geometry/region_masks.hpp"
 #include "codec/lines/shown_lines.hpp"
 #include "codec/wavelet/synthesis/view_synthesis.hpp"
 #include "codec/wavelet/wavelet.hpp"
@@ -41,6 +42,7 @@ std::vector<bool> neededTracks(const StreamHeader& header, Component component, 
   const GeometryHeader& geometry = *header.geometry;
   const View lines = codedView(geometry, view);
   std::vector<bool> needed = neededTracks(geometry, decodedView(geometry, header.layers, lines));
+  if (header.layers.region_masks) addMaskTracks(geometry, needed);
   if (correctionTracks(geometry, header.layers) == 0) return needed;
   const Window all{0, 0, geometry.width, geometry.height};
   for (const Window& part : correctionParts(geometry.extent(), geometry.regions.side_log2))
@@ -147,7 +149,7 @@ Result<std::vector<tks_range>> neededRanges(tks_decoder& decoder, tks_part part,
     std::transform(needed.begin(), needed.end(), of_view.begin(), needed.begin(),
                    std::logical_or<bool>());
   }
-  if (part == TKS_PART_VALIDITY) needed.assign(1, true);
+  if (part == TKS_PART_VALIDITY && !header.layers.region_masks) needed.assign(1, true);
   return withGap(decoder, rangesOfTracks(decoder, component, needed));
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -61,6 +62,8 @@ class BitPlane {
       takeRow(marks.data() + size_t{y} * extent.width, y);
   }
 
+  bool operator==(const BitPlane&) const = default;
+
   static uint64_t bytesOf(Extent extent) {
     const uint64_t words = uint64_t{extent.width} / kWordBits + 2;
     return sizeof(uint64_t) * (words * extent.height + 1);
@@ -95,6 +98,29 @@ class BitPlane {
     for (uint32_t i = 0; i < 32 && x < extent_.width; ++i, x += uint32_t{1} << log2)
       bits |= uint32_t{at(x, y)} << i;
     return bits;
+  }
+
+  /// A rectangle of the plane as a plane of its own.
+  BitPlane cut(const Window& window) const {
+    assert(window.isInside(extent_));
+    BitPlane out(window.extent());
+    for (uint32_t y = 0; y < window.height; ++y)
+      for (uint32_t k = 0; k < out.words_; ++k)
+        out.row(y)[k] = from(window.x + k * kWordBits, window.y + y) & out.existing(k);
+    return out;
+  }
+  /// Marks what is marked in a plane whose first sample is put at (x, y).
+  void mark(const BitPlane& part, uint32_t x, uint32_t y) {
+    assert((Window{x, y, part.extent_.width, part.extent_.height}.isInside(extent_)));
+    const uint32_t shift = x % kWordBits;
+    for (uint32_t j = 0; j < part.extent_.height; ++j) {
+      uint64_t* const to = row(y + j) + x / kWordBits;
+      for (uint32_t k = 0; k < part.words_; ++k) {
+        const uint64_t bits = part.row(j)[k];
+        to[k] |= bits << shift;
+        if (shift > 0 && bits >> (kWordBits - shift) != 0) to[k + 1] |= bits >> (kWordBits - shift);
+      }
+    }
   }
 
   /// How many of the first samples of a row are marked.

@@ -122,6 +122,9 @@ struct RelativeSteps {
 /// the mask comes late; then the mask of the samples that are lifted stands in its place.
 struct GeometryLayers {
   uint64_t validity_bytes = 0;  ///< 0: every sample is valid
+  /// The mask of the base opens the first track, and each region of coefficients begins with what
+  /// its mask has beside that (codec/geometry/region_masks.hpp).
+  bool region_masks = false;
   uint64_t table_bytes = 0;     ///< 0: steps are multiples; else they count the values of a table
   uint32_t table_values = 0;    ///< with a table only: how many it has
   uint64_t table_after = 0;     ///< likewise: bytes of coefficients before it
@@ -145,8 +148,10 @@ struct GeometryLayers {
 
   template <class V>
   void visit(V& v) {
-    v.part(PartKind::kValidity, validity_bytes > 0,
-           [&](auto& part) { part.varint("validity_bytes", validity_bytes, 1, UINT64_MAX >> 1); });
+    v.part(PartKind::kValidity, validity_bytes > 0, [&](auto& part) {
+      part.varint("validity_bytes", validity_bytes, 1, UINT64_MAX >> 1);
+      part.unless(false, region_masks, [&] { part.u8("region_masks", region_masks, 0, 1); });
+    });
     v.part(PartKind::kBridges, bridge > 0, [&](auto& part) { part.u8("bridge", bridge, 1, 255); });
     late_mask = v.part(PartKind::kLateMask, late_mask, [&](auto& part) {
       part.varint("lifted_bytes", lifted_bytes, 0, UINT64_MAX >> 1);

@@ -70,6 +70,17 @@ Status checkVoids(const GeometryLayers& layers, uint8_t sample) {
   return {};
 }
 
+/// Masks of regions are of what lifting leaves: each level shall have halved both sides.
+Status checkRegionMasks(const GeometryHeader& heights, const GeometryLayers& layers) {
+  if (!layers.region_masks) return {};
+  const bool plain = layers.bridge == 0 && !layers.late_mask && layers.flat_bytes == 0 &&
+                     heights.frames.none() && !heights.wavelet.ring && !heights.direct();
+  if (plain && takesRegionMasks(heights.extent(), heights.regions.side_log2)) return {};
+  return {TKS_CORRUPT,
+          "Corrupt stream: masks of regions stand on no grid that regions divide, or beside "
+          "bridges, a late mask, flat areas or frames."};
+}
+
 Status checkLayers(const StreamHeader& header) {
   const GeometryLayers& layers = header.layers;
   if (!header.geometry) return {};
@@ -78,6 +89,7 @@ Status checkLayers(const StreamHeader& header) {
   if (layers.flat_bytes > 0 && heights.extent().samples() > GeometryLayers::kMostFlatSamples) {
     return {TKS_CORRUPT, "Corrupt stream: so large a height field has no flat areas."};
   }
+  if (Status status = checkRegionMasks(heights, layers); !status.ok()) return status;
   return checkVoids(layers, heights.sample);
 }
 

@@ -40,6 +40,31 @@ struct Region {
   bool holds(int level) const { return level >= first_level && level <= last_level; }
 };
 
+/// The regions of a group of levels. A remainder of less than half a side joins its neighbour.
+struct RegionGroup {
+  int side_log2 = 0;               ///< of the samples of a region
+  uint32_t columns = 1, rows = 1;  ///< of regions
+  uint64_t first = 0;              ///< number of the track of the first of them
+  Extent plane = {};               ///< samples
+
+  /// The samples of one region.
+  Window samplesOf(uint32_t column, uint32_t row) const { return samplesOf({column, row, 1, 1}); }
+  /// The samples of a rectangle of regions.
+  Window samplesOf(const Window& regions) const;
+  /// The rectangle of regions that a window of samples meets.
+  Window meeting(const Window& samples) const;
+  uint64_t numberOf(uint32_t column, uint32_t row) const {
+    return first + uint64_t{row} * columns + column;
+  }
+};
+
+/// The groups of a plane, from the finest levels on; none if the base holds everything.
+std::vector<RegionGroup> regionGroups(Extent plane, int side_log2);
+
+/// Whether regions may have masks of their own: there are groups, and each of their levels halves
+/// both sides.
+bool takesRegionMasks(Extent plane, int side_log2);
+
 /// The tracks of a plane in the order of their numbers: the base, then the regions from the
 /// coarsest levels to the finest, row by row. side_log2 0: the base alone, with everything.
 std::vector<Region> regionsOf(uint32_t width, uint32_t height, int side_log2);

@@ -82,7 +82,7 @@ void holdShown(const HeldSamples& flat, Extent plane, const View& view,
 }
 
 /// The layout of the plane. Held samples outlive it. memory: null, or that of earlier calls.
-PlaneLayout layoutOf(const GeometryHeader& header, const SharedBits& lifted, HeldSamples flat,
+PlaneLayout layoutOf(const GeometryHeader& header, const SampleMarks& lifted, HeldSamples flat,
                      TrackMemory* memory) {
   const WaveletSpec spec = specOf(header.wavelet);
   PlaneLayout layout(spec, pyramidOf(spec, lifted, header.extent(), flat),
@@ -99,8 +99,8 @@ DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords
                                    const DecodeContext<TrackMemory>& context) {
   std::vector<int32_t> area_heights(known.flat.values.begin(), known.flat.values.end());
   const HeldSamples flat{known.flat.numbers, area_heights};
-  const PlaneLayout layout =
-      layoutOf(header, known.lifted.value_or(known.valid), flat, context.memory);
+  const PlaneLayout layout = layoutOf(
+      header, known.lifted ? SampleMarks(*known.lifted) : known.valid, flat, context.memory);
   const std::vector<Region> regions =
       regionsOf(header.width, header.height, header.regions.side_log2);
   assert(codewords.size() == regions.size());
@@ -129,7 +129,7 @@ DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords
   out.height = extent.height;
   out.heights = synthesis.run(context.threads);
   out.fraction_bits = fraction_bits;
-  out.valid = shownMarks(known.valid, view);
+  out.valid = known.valid.shown(view);
   clearUnmarked(std::span(out.heights), out.valid);
   significance.giveTo(out);
   clearUnmarked(std::span(out.significant), out.valid);

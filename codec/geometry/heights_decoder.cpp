@@ -10,6 +10,7 @@
 #include "codec/geometry/drawn_heights/drawn_heights_decoder.hpp"
 #include "codec/geometry/flat/flat_areas.hpp"
 #include "codec/geometry/plane_corrections.hpp"
+#include "codec/geometry/region_masks.hpp"
 #include "codec/geometry/values/value_table.hpp"
 #include "codec/lattice/validity.hpp"
 #include "codec/wavelet/morphology.hpp"
@@ -50,7 +51,8 @@ SharedBits lateLifted(const TakenLayers& taken) {
   return shared(decodeValidity(taken.lifted, taken.header.extent()));
 }
 
-/// The validity mask of the whole plane. lifted: lateLifted(), if the mask comes late.
+/// The validity mask of the whole plane, which is not that of regions. lifted: lateLifted(), if the
+/// mask comes late.
 SharedBits validityOf(const TakenLayers& taken, const SharedBits& lifted,
                       HeightsMemory* memory = nullptr) {
   const GeometryLayers& stated = taken.stated;
@@ -136,9 +138,15 @@ DecodedGeometry decodeSteps(const TakenLayers& taken, DecodedView& view,
   HeightsMemory& memory = kept != nullptr ? *kept : of_this_call;
   SharedBits& lifted = memory.lifted;
   if (stated.late_mask && lifted == nullptr) lifted = lateLifted(taken);
+  const JoinedCoefficients joined = joinCoefficients(taken);
+  if (stated.region_masks) {
+    view = decodedViewOf(taken, nullptr, view.view);
+    return decodeCoefficients(header, joined.codewords,
+                              {decodeRegionMasks(taken, view.view.window), {}, {}}, view.view,
+                              {context.threads, kept != nullptr ? &memory.tracks : nullptr});
+  }
   const SharedBits valid = validityOf(taken, lifted, context.memory);
   view = decodedViewOf(taken, valid, view.view);
-  const JoinedCoefficients joined = joinCoefficients(taken);
   if (header.drawn) {
     const std::span<const uint8_t> codeword = joined.codewords.front();
     return kept != nullptr && kept->drawing
@@ -223,10 +231,12 @@ uint64_t HeightsMemory::bytes() const {
 std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const GeometryLayers& layers,
                                          const Codewords& codewords, const View& view) {
   const TakenLayers taken = takeApart(codewords, header, layers);
+  const ShownLines lines(header, view);
+  if (layers.region_masks)
+    return lines.shown(decodeRegionMasks(taken, lines.coded().window).shown(lines.coded()));
   const SharedBits valid = header.frames.none()
                                ? validityOf(taken, layers.late_mask ? lateLifted(taken) : nullptr)
                                : frameMasksOf(taken)[view.frame];
-  const ShownLines lines(header, view);
   return lines.shown(shownMarks(valid, lines.coded()));
 }
 

@@ -35,7 +35,7 @@ namespace tetrakis::inline geometry {
 
 /// The samples of a plane that are known before its coefficients.
 struct KnownSamples {
-  SharedBits valid = {};                  ///< which samples are valid; the others are void
+  SampleMarks valid = {};                 ///< which samples are valid; the others are void
   HeldSamples flat = {};                  ///< of flat areas, which outlive the call
   std::optional<SharedBits> lifted = {};  ///< of liftedSamples(), if voids are bridged
 };
@@ -44,6 +44,7 @@ struct KnownSamples {
 /// codewords: any prefix of the coefficients of each track, one for each of regionsOf(). known: of
 /// the whole plane. Safe on any bytes and on any header that readHeader() accepts. The memory is
 /// that of earlier calls with the same header, known samples and view, which is no window.
+/// Of a window, valid and lifted may be those around it.
 DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords& codewords,
                                    KnownSamples known = {}, const View& view = {},
                                    const DecodeContext<TrackMemory>& context = {});

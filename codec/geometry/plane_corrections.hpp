@@ -24,15 +24,17 @@ namespace tetrakis::inline geometry {
 /// outlive this object.
 struct TakenLayers {
   const GeometryHeader& header;
-  const GeometryLayers& stated;  ///< the layers as the stream header states them
-  std::span<const uint8_t> validity = {};
-  std::span<const uint8_t> lifted = {};  ///< of heights whose mask comes late
+  const GeometryLayers& stated;            ///< the layers as the stream header states them
+  std::span<const uint8_t> validity = {};  ///< with masks of regions, that of the base
+  Codewords region_validity = {};          ///< with those: of each of the other tracks
+  std::span<const uint8_t> lifted = {};    ///< of heights whose mask comes late
   std::span<const uint8_t> flat = {};
   std::span<const uint8_t> table = {};
   /// The coefficients of the first track, in the pieces into which the layers among them cut them.
   Codewords first_coefficients = {};
   Codewords other_coefficients = {};  ///< of each of the other tracks
   Codewords corrections = {};         ///< of each part of the plane
+  bool masks_whole = true;            ///< of region_validity
 
   bool isCorrected() const;
   /// Whether all layers that come before the coefficients are there.

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "bitstream/stream/geometry_header.hpp"
+#include "codec/geometry/region_masks.hpp"
 
 namespace tetrakis::inline geometry {
 
@@ -64,7 +65,7 @@ bool TakenLayers::isCorrected() const {
 bool TakenLayers::isOpened() const {
   const bool masked = stated.late_mask ? lifted.size() == stated.lifted_bytes
                                        : validity.size() == stated.validity_bytes;
-  return masked && flat.size() == stated.flat_bytes;
+  return masked && masks_whole && flat.size() == stated.flat_bytes;
 }
 
 TakenLayers takeApart(const Codewords& codewords, const GeometryHeader& header,
@@ -75,6 +76,7 @@ TakenLayers takeApart(const Codewords& codewords, const GeometryHeader& header,
   const auto corrections = codewords.end() - correction_tracks;
   taken.other_coefficients.assign(codewords.begin() + 1, corrections);
   taken.corrections.assign(corrections, codewords.end());
+  if (layers.region_masks) takeRegionMasks(taken);
   std::span<const uint8_t> first = codewords.front();
   if (layers.late_mask) {
     taken.lifted = takeFront(first, layers.lifted_bytes);

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -52,6 +53,9 @@ inline uint64_t marksOf(const BitPlane* marks, const SampleLine& line) {
   return (bits | uint64_t{marks->every(line.log2, further, line.y)} << half) & lowBits(line.count);
 }
 
+/// Levels of samples between the mask of a group of levels and that of the next.
+inline constexpr uint32_t kFinerLevels = 3;
+
 /// Runs over all vertices once. Io is the encoder's or the decoder's side of decisions:
 ///   uint64_t asked(const SampleLine&)            which samples take one; the others are void
 ///   bool bit(AdaptiveBit&, size_t sample)        the sample is valid
@@ -71,7 +75,12 @@ class ValidityPass {
   /// Returns which samples are valid.
   BitPlane run() {
     const uint32_t depth = depthOf(BorderRule::kClipped, plane_.width, plane_.height);
-    BitPlane known = roots(uint32_t{1} << depth);
+    return refine(roots(uint32_t{1} << depth), depth);
+  }
+
+  /// The same where the samples at multiples of 2^depth are known.
+  BitPlane refine(BitPlane known, uint32_t depth) {
+    assert(known.extent() == latticeOf(uint32_t{1} << depth));
     for (uint32_t k = depth; k-- > 0;) {
       log2_ = static_cast<int>(k);
       LatticePlanes planes(std::move(known), latticeOf(uint32_t{1} << k));
@@ -203,6 +212,13 @@ BitPlane decodeValidity(std::span<const uint8_t> codeword, Extent plane);
 BitPlane decodeLateValidity(std::span<const uint8_t> codeword, Extent plane,
                             const SharedBits& lifted);
 
+/// The same where every 8th sample of every 8th row is known, as a plane of its own: the mask of a
+/// region of one group of levels, above that of the group before (docs/FORMAT.md, section 5.3).
+BitPlane decodeFinerValidity(std::span<const uint8_t> codeword, Extent plane, BitPlane coarse);
+
+/// Every 8th sample of every 8th row of a plane.
+BitPlane coarseMarks(const BitPlane& marks);
+
 // encodeValidity() encodes the mask of the valid samples of a plane as a codeword.
 
 /// Returns the codeword of a mask, which has one byte or more. valid: 1 where a sample is valid, 0
@@ -211,6 +227,9 @@ std::vector<uint8_t> encodeValidity(const PlaneView<const uint8_t>& valid);
 
 /// The same of a plane of which nobody holds a byte for each sample.
 std::vector<uint8_t> encodeValidityBits(const BitPlane& valid);
+
+/// The same for decoders that know coarseMarks() of the mask. It is empty if they need nothing more.
+std::vector<uint8_t> encodeFinerValidity(const BitPlane& valid);
 
 /// The same of a mask that comes late. lifted: marks at least the valid samples.
 std::vector<uint8_t> encodeLateValidity(const PlaneView<const uint8_t>& valid, Mask lifted);

@@ -36,4 +36,18 @@ BitPlane decodeValidity(std::span<const uint8_t> codeword, Extent plane) {
   return ValidityPass<DecodingIo>(plane, io).run();
 }
 
+BitPlane decodeFinerValidity(std::span<const uint8_t> codeword, Extent plane, BitPlane coarse) {
+  DecodingIo io(codeword);
+  return ValidityPass<DecodingIo>(plane, io).refine(std::move(coarse), kFinerLevels);
+}
+
+BitPlane coarseMarks(const BitPlane& marks) {
+  const Extent plane = marks.extent();
+  BitPlane coarse({(plane.width + 7) / 8, (plane.height + 7) / 8});
+  for (uint32_t y = 0; y < coarse.extent().height; ++y)
+    for (uint32_t x = 0; x < coarse.extent().width; ++x)
+      coarse.row(y)[x / kWordBits] |= uint64_t{marks.at(8 * x, 8 * y)} << x % kWordBits;
+  return coarse;
+}
+
 }  // namespace tetrakis::inline lattice

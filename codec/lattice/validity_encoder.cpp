@@ -70,6 +70,14 @@ std::vector<uint8_t> encodeValidityBits(const BitPlane& valid) {
   return encode(valid.extent(), BitMarks{valid});
 }
 
+std::vector<uint8_t> encodeFinerValidity(const BitPlane& valid) {
+  const Extent plane = valid.extent();
+  if (decodeFinerValidity({}, plane, coarseMarks(valid)) == valid) return {};
+  EncodingIo<BitMarks> io({valid});
+  ValidityPass<EncodingIo<BitMarks>>(plane, io).refine(coarseMarks(valid), kFinerLevels);
+  return finished(io);
+}
+
 std::vector<uint8_t> encodeLateValidity(const PlaneView<const uint8_t>& valid, Mask lifted) {
   EncodingIo<ByteMarks> encoding({valid.values()});
   const SharedBits bits = sharedBits(lifted, valid.extent());

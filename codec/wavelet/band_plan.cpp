@@ -172,7 +172,7 @@ void PlaneLayout::markAbsent(std::span<const BandPart> parts, std::span<BandPlan
       const uint32_t y = subband.planeRow(part.row + row);
       for (uint32_t first = 0; first < part.columns; first += 32) {
         const uint32_t x = subband.sampleColumn(part.column + first);
-        uint32_t word = ~pyramid_.existing(subband.splits_x, x, y);
+        uint32_t word = ~pyramid_.existing(subband, x, y);
         for (uint32_t k = 0; !held.none() && k < std::min(32u, part.columns - first); ++k)
           word |= uint32_t{isHeld(subband.sampleColumn(part.column + first + k), y)} << k;
         bands[i].absent[shape.word(row, first / 32)] = word & shape.valid(first / 32);

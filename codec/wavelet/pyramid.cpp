@@ -24,10 +24,9 @@ LowBand split(const LowBand& whole) {
 
 }  // namespace
 
-Pyramid::Pyramid(SharedBits valid, Extent plane, HeldSamples held, int most_levels)
+Pyramid::Pyramid(SampleMarks valid, Extent plane, HeldSamples held, int most_levels)
     : valid_(std::move(valid)), held_(held), lows_{{plane, plane.height, 0, 0}} {
   assert(plane.samples() > 0);
-  assert(allExist() || valid_->extent() == plane);
   assert(held.none() || held.numbers.size() == plane.samples());
   splitAll(most_levels);
   addSubbands();
@@ -97,9 +96,9 @@ std::vector<uint8_t> Pyramid::splitMask(int level, const Window& block) const {
   uint8_t* to = mask.data();
   for (uint32_t y = block.y; y < block.y + block.height; ++y) {
     const uint32_t row = y << band.splits_y;
-    for (uint32_t x = 0; x < lows; ++x) *to++ = valid_->at(first + x * pitch, row);
+    for (uint32_t x = 0; x < lows; ++x) *to++ = valid_.at(level, first + x * pitch, row);
     for (uint32_t x = 0; x < block.width - lows; ++x)
-      *to++ = valid_->at(first + x * pitch + pitch / 2, row);
+      *to++ = valid_.at(level, first + x * pitch + pitch / 2, row);
   }
   assert(to == mask.data() + mask.size());
   return mask;

@@ -11,6 +11,7 @@
 #include "base/bit_plane.hpp"
 #include "base/forest.hpp"
 #include "base/plane.hpp"
+#include "base/sample_marks.hpp"
 #include "base/view.hpp"
 #include "bitstream/track/band.hpp"
 
@@ -84,9 +85,9 @@ class Pyramid {
  public:
   /// The mask marks the samples of the plane that exist. What is held outlives the pyramid.
   explicit Pyramid(Extent plane, Mask valid = {}, HeldSamples held = {})
-      : Pyramid(sharedBits(valid, plane), plane, held) {}
+      : Pyramid(SampleMarks(sharedBits(valid, plane)), plane, held) {}
   /// The same, of marks that are there as bits. most_levels: coarser ones are not split.
-  Pyramid(SharedBits valid, Extent plane, HeldSamples held = {}, int most_levels = kMaxLevels);
+  Pyramid(SampleMarks valid, Extent plane, HeldSamples held = {}, int most_levels = kMaxLevels);
   /// The raster of a forest: each patch has a pyramid of its own, in which the samples exist that
   /// it owns. What is held outlives the pyramid.
   explicit Pyramid(const Forest& forest, HeldSamples held = {});
@@ -94,11 +95,15 @@ class Pyramid {
   static uint64_t bytesOf(const Forest& forest);
 
   Extent plane() const { return lows_.front().extent; }
-  bool allExist() const { return valid_ == nullptr; }
-  bool exists(uint32_t x, uint32_t y) const { return allExist() || valid_->at(x, y); }
-  /// Which of 32 samples of a row exist that lie 2^log2 apart, from x on.
-  uint32_t existing(int log2, uint32_t x, uint32_t y) const {
-    return allExist() ? ~uint32_t{0} : valid_->every(log2, x, y);
+  bool allExist() const { return valid_.allExist(); }
+  /// Of a pyramid whose marks are those of the whole plane.
+  bool exists(uint32_t x, uint32_t y) const { return allExist() || valid_.whole()->at(x, y); }
+  /// Which samples exist of 32 coefficients of a row of a band, the first of which belongs to the
+  /// sample (x, y).
+  uint32_t existing(const Subband& band, uint32_t x, uint32_t y) const {
+    if (allExist()) return ~uint32_t{0};
+    const int split = band.orientation == Orientation::kLL ? band.level : band.level - 1;
+    return valid_.every(split, band.splits_x, x, y);
   }
   HeldSamples held() const { return held_; }
 
@@ -138,7 +143,7 @@ class Pyramid {
   void addSubbands();
   void addSubbands(int level);
 
-  SharedBits valid_;
+  SampleMarks valid_;
   HeldSamples held_;
   std::vector<LowBand> lows_;
   std::vector<Subband> subbands_;

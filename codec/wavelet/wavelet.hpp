@@ -66,7 +66,7 @@ struct WaveletSpec {
 };
 
 /// The pyramid of a plane: of its forest, or of a grid whose lifted samples are marked.
-inline Pyramid pyramidOf(const WaveletSpec& spec, SharedBits lifted, Extent plane,
+inline Pyramid pyramidOf(const WaveletSpec& spec, SampleMarks lifted, Extent plane,
                          HeldSamples held = {}) {
   if (spec.forest != nullptr) return Pyramid(*spec.forest, held);
   return {std::move(lifted), plane, held};

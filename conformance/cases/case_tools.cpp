@@ -160,6 +160,15 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
      "corrections of samples, doubled low bands, heights by wavelet, regions of heights, voids"},
     {"regions_coast_bounded_64x50",
      "corrections of steps, fraction bits, heights by wavelet, nodata, regions of heights, voids"},
+    {"region_masks_200x150",
+     "exact corrections, fraction bits, heights by wavelet, levels of several filters, masks of "
+     "regions, nodata, regions of heights, voids"},
+    {"region_masks_bounded_200x150",
+     "corrections of steps, fraction bits, heights by wavelet, levels of several filters, masks of "
+     "regions, nodata, regions of heights, voids"},
+    {"noise_region_masks_200x150",
+     "exact corrections, heights by wavelet, levels of several filters, masks of regions, nodata, "
+     "regions of heights, voids"},
     {"frames_33x26", "doubled low bands, frames of heights, heights by wavelet"},
     {"frames_voids_40x33",
      "doubled low bands, frames of heights, heights by wavelet, nodata, regions of heights, voids"},

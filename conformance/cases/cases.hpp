@@ -42,6 +42,8 @@ std::vector<VectorCase> placedCases();
 std::vector<VectorCase> damagedCases();
 
 // Streams that are written out (VectorCase::stream).
+// region_mask_cases.cpp
+std::vector<VectorCase> regionMaskCases();
 // frame_cases.cpp
 std::vector<VectorCase> frameCases();
 // crafted_cases.cpp: all of these.

@@ -41,6 +41,7 @@ inline Bytes streamOf(StreamHeader header, const std::vector<Bytes>& codewords) 
   const size_t component = header.geometry ? 0 : 1;
   Bytes payload;
   for (size_t track = 0; track < codewords.size(); ++track) {
+    if (codewords[track].empty()) continue;
     append(payload, varint(uint64_t{codewords[track].size()} << 2));
     if (trackCounts(header)[component].named) append(payload, varint(track));
     payload.push_back(0);

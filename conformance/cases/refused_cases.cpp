@@ -133,6 +133,15 @@ void plant(StreamHeader& h, uint32_t patches, int depth = 1) {
   h.geometry->wavelet.forest = forest;
 }
 
+/// Heights with voids, whose regions of 16 samples have masks.
+StreamHeader divided(uint32_t width, uint32_t height) {
+  StreamHeader h = heightsHeader(width, height, TKS_F32, 8);
+  h.geometry->regions.side_log2 = 4;
+  h.layers.validity_bytes = 9;
+  h.layers.region_masks = true;
+  return h;
+}
+
 /// What makes a sound header of heights one that no decoder may take.
 struct Refusal {
   const char* name;
@@ -359,6 +368,15 @@ const Refusal kRefusals[] = {
        h.layers.validity_bytes = 9;
        h.layers.has_nodata = 1;
      }},
+    {"region_masks", "masks of regions beside flat areas",
+     [](StreamHeader& h) {
+       h = divided(80, 70);
+       h.layers.flat_bytes = h.layers.flat_areas = 5;
+     }},
+    {"region_masks_narrow", "masks of regions of a grid whose height is not halved three times",
+     [](StreamHeader& h) { h = divided(200, 16); }},
+    {"region_masks_one", "masks of regions where there are none",
+     [](StreamHeader& h) { h = divided(20, 20); }},
     {"base_mesh_grid", "a grid over a base mesh",
      [](StreamHeader& h) { h.geometry->base_mesh.bits = 8; }},
     {"base_mesh_depth", "patches of 513 x 513 samples over a base mesh",

@@ -44,9 +44,9 @@ void addHeights(const GeometryHeader& heights, const GeometryLayers& layers, Too
        {Had{"repeated lines", !heights.repeats.none()},
         Had{"priorities of heights", !heights.priorities.none()},
         Had{"regions of heights", heights.regions.side_log2 > 0},
-        Had{"voids", layers.validity_bytes > 0}, Had{"nodata", layers.has_nodata != 0},
-        Had{"bridged voids", layers.bridge > 0}, Had{"late mask", layers.late_mask},
-        Had{"opening of a late mask", layers.lifted_bytes > 0},
+        Had{"voids", layers.validity_bytes > 0}, Had{"masks of regions", layers.region_masks},
+        Had{"nodata", layers.has_nodata != 0}, Had{"bridged voids", layers.bridge > 0},
+        Had{"late mask", layers.late_mask}, Had{"opening of a late mask", layers.lifted_bytes > 0},
         Had{"flat areas", layers.flat_bytes > 0}, Had{"table of values", layers.table_bytes > 0},
         Had{"stand-in knots", !layers.table_knots.empty()}})
     if (had.second) tools.insert(had.first);
@@ -124,6 +124,7 @@ Tools allTools() {
           "index",
           "late mask",
           "levels of several filters",
+          "masks of regions",
           "nodata",
           "opening of a late mask",
           "positions",

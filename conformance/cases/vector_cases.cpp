@@ -17,6 +17,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : storedCases()) all.push_back(std::move(next));
   for (VectorCase& next : jointCases()) all.push_back(std::move(next));
   for (VectorCase& next : regionCases()) all.push_back(std::move(next));
+  for (VectorCase& next : regionMaskCases()) all.push_back(std::move(next));
   for (VectorCase& next : frameCases()) all.push_back(std::move(next));
   for (VectorCase& next : cylinderCases()) all.push_back(std::move(next));
   for (VectorCase& next : forestCases()) all.push_back(std::move(next));

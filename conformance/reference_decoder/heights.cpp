@@ -8,6 +8,7 @@
 #include "conformance/reference_decoder/height_corrections.hpp"
 #include "conformance/reference_decoder/height_samples.hpp"
 #include "conformance/reference_decoder/layers.hpp"
+#include "conformance/reference_decoder/reader.hpp"
 #include "conformance/reference_decoder/regions.hpp"
 #include "conformance/reference_decoder/stream.hpp"
 #include "conformance/reference_decoder/surface.hpp"
@@ -48,6 +49,18 @@ FirstTrack takeApart(const Layers& layers, std::span<const uint8_t> codeword) {
   coefficients(layers.corrections > 0 ? layers.coefficientBytes : UINT64_MAX);
   track.corrections = codeword;
   return track;
+}
+
+/// FORMAT 8.1.2, "Masks of regions": takes them off the tracks behind the first.
+std::vector<std::span<const uint8_t>> takeMasks(std::span<std::span<const uint8_t>> coefficients) {
+  std::vector<std::span<const uint8_t>> masks;
+  for (std::span<const uint8_t>& codeword : coefficients) {
+    Reader reader(codeword);
+    const uint64_t bytes = reader.varint(0, UINT64_MAX);
+    codeword = reader.outcome() == Outcome::kDone ? reader.rest() : codeword.first(0);
+    masks.push_back(take(codeword, bytes));
+  }
+  return masks;
 }
 
 /// What is known of the samples before their coefficients.
@@ -93,14 +106,21 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
   level = std::min(level, subbandsOf(header.width, header.height).front().level);
   if (header.frames.count > 0) return decodeHeightFrames(header, layers, codewords, level);
   const FirstTrack track = takeApart(layers, codewords.at(0));
-  Opening opening = decodeOpening(header, layers, track);
-  const bool stored = header.planes == kStoredPlanes && !header.drawn;
-  if (stored) return decodeStored(header, layers, track.coefficients, opening.plane.valid, level);
   const auto regions = regionsOf(header.width, header.height, header.regions.log2);
   const auto behind = codewords.begin() + regions.size();
   std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), behind);
-  std::vector<std::span<const uint8_t>> corrections(behind, codewords.end());
   coefficients[0] = track.coefficients;
+  Opening opening;
+  if (layers.regionMasks) {
+    const auto masks = takeMasks(std::span(coefficients).subspan(1));
+    opening.lifted = decodeRegionMasks(track.validity, masks, regions);
+    opening.plane = {header.width, header.height, {}, opening.lifted};
+  } else {
+    opening = decodeOpening(header, layers, track);
+  }
+  const bool stored = header.planes == kStoredPlanes && !header.drawn;
+  if (stored) return decodeStored(header, layers, track.coefficients, opening.plane.valid, level);
+  std::vector<std::span<const uint8_t>> corrections(behind, codewords.end());
   if (corrections.empty()) corrections.push_back(track.corrections);
   Surface surface =
       decodeSurface(header, opening.lifted, coefficients, std::move(opening.plane), level);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "conformance/reference_decoder/parts.hpp"
+#include "conformance/reference_decoder/regions.hpp"
 
 namespace tetrakis::reference {
 namespace {
@@ -59,6 +60,16 @@ BaseMeshHeader readBaseMesh(Reader& in) {
   return mesh;
 }
 
+/// FORMAT 8.1.2, "Masks of regions": whether the grid and the other tools allow them.
+bool suitsRegionMasks(const GeometryHeader& geometry, const Layers& layers) {
+  const Domain& domain = geometry.wavelet.domain;
+  const int levels = 3 * groupsOf(geometry.width, geometry.height, geometry.regions.log2);
+  const bool grid = domain.forest.isGrid() && !domain.ring();
+  return grid && levels > 0 && std::min(geometry.width, geometry.height) > 2ll << levels &&
+         geometry.frames.count == 0 && layers.bridge == 0 && !layers.lateMask &&
+         layers.flatBytes == 0;
+}
+
 /// Whether such heights may have the layers.
 bool suits(const GeometryHeader& geometry, const Layers& layers) {
   const bool integer = geometry.sample != kF32, direct = geometry.planes == kStoredPlanes;
@@ -71,6 +82,7 @@ bool suits(const GeometryHeader& geometry, const Layers& layers) {
   if (layers.flatBytes > 0 && uint64_t(geometry.width) * uint64_t(geometry.height) > 1u << 31)
     return false;
   if (hasTooManyTiles(geometry)) return false;
+  if (layers.regionMasks && !suitsRegionMasks(geometry, layers)) return false;
   const bool all_lifted = layers.lateMask && layers.liftedBytes == 0;
   const bool holes = !direct && layers.validityBytes > 0 && !all_lifted;
   const auto& filters = geometry.wavelet.filters;
@@ -92,7 +104,10 @@ bool suits(const GeometryHeader& geometry, const Layers& layers) {
 /// FORMAT 2, parts 3 to 9 of heights.
 Layers readLayers(Parts& parts) {
   Layers layers;
-  parts.take(3, [&](Reader& p) { layers.validityBytes = p.varint(1, INT64_MAX); });
+  parts.take(3, [&](Reader& p) {
+    layers.validityBytes = p.varint(1, INT64_MAX);
+    if (!p.ends()) layers.regionMasks = p.u8(0, 1) == 1;
+  });
   parts.take(4, [&](Reader& p) { layers.bridge = p.u8(1, 255); });
   layers.lateMask = parts.take(5, [&](Reader& p) {
     layers.liftedBytes = p.varint(0, INT64_MAX);

@@ -27,11 +27,9 @@ struct Vertex {
   Offset c2() const { return centre ? Offset{0, -2 * s} : Offset{s, -s}; }
 };
 
-/// In the order of the levels.
+/// In the order of the levels. root: how far roots lie apart.
 template <class Visit>
-void forEachVertex(int width, int height, const Visit& visit) {
-  int root = 1;
-  while (root < std::max(width, height) - 1) root *= 2;
+void forEachVertex(int width, int height, int root, const Visit& visit) {
   for (int y = 0; y < height; y += root) {
     for (int x = 0; x < width; x += root) visit(Vertex{false, 0, x, y});
   }
@@ -43,6 +41,14 @@ void forEachVertex(int width, int height, const Visit& visit) {
       for (int x = y / s % 2 == 0 ? s : 0; x < width; x += 2 * s) visit(Vertex{false, s, x, y});
     }
   }
+}
+
+/// The same, with as few roots as there can be.
+template <class Visit>
+void forEachVertex(int width, int height, const Visit& visit) {
+  int root = 1;
+  while (root < std::max(width, height) - 1) root *= 2;
+  forEachVertex(width, height, root, visit);
 }
 
 }  // namespace tetrakis::reference

@@ -9,12 +9,19 @@
 #include <span>
 #include <vector>
 
+#include "conformance/reference_decoder/regions.hpp"
 #include "conformance/reference_decoder/wavelet.hpp"
 
 namespace tetrakis::reference {
 
 /// 1 valid, 0 void, row by row.
 std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, int width, int height);
+
+/// FORMAT 8.1.2, "Masks of regions". base: of the first track; masks: of the others; regions: of
+/// all of them, in their order.
+std::vector<uint8_t> decodeRegionMasks(std::span<const uint8_t> base,
+                                       const std::vector<std::span<const uint8_t>>& masks,
+                                       const std::vector<Region>& regions);
 
 /// FORMAT 9.4, "Masks": of each frame.
 std::vector<std::vector<uint8_t>> decodeFrameMasks(std::span<const uint8_t> codeword, int width,

@@ -31,6 +31,13 @@ std::vector<Region> groupOf(int width, int height, int log2, int g) {
 
 }  // namespace
 
+int groupsOf(int width, int height, int log2) {
+  int groups = 0;
+  for (int s = log2; log2 > 0 && countOf(width, s) * countOf(height, s) > 1; s += kGroupLevels)
+    ++groups;
+  return groups;
+}
+
 std::vector<Region> regionsOf(int width, int height, int log2) {
   std::vector<std::vector<Region>> groups;
   for (int g = 0; log2 > 0; ++g) {

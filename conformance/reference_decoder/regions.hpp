@@ -29,6 +29,9 @@ struct Region {
   int64_t x0, y0, x1, y1;     ///< samples; x1 and y1 are outside
 };
 
+/// How many groups there are, each of three levels.
+int groupsOf(int width, int height, int log2);
+
 std::vector<Region> regionsOf(int width, int height, int log2);
 
 /// FORMAT 8.1: the regions of group 0, whose corrections are tracks of their own.

@@ -110,6 +110,7 @@ struct TableKnot {
 
 struct Layers {
   uint64_t validityBytes = 0, coefficientBytes = 0;
+  bool regionMasks = false;
   bool hasNodata = false;
   double nodata = 0;
   int corrections = 0;  ///< 0 none, 1 of steps, 2 of samples, 3 from relative steps, 4 facets

@@ -3,6 +3,7 @@
 // section 8.1).
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "conformance/reference_decoder/lattice.hpp"
 #include "conformance/reference_decoder/layers.hpp"
@@ -38,6 +39,15 @@ class ValidityDecoder {
   std::vector<uint8_t> decode() {
     forEachVertex(width_, height_, [&](const Vertex& v) {
       if (v.s == 0) at(v.x, v.y) = next(v, root_, 1);
+      if (v.s > 0) decide(v);
+    });
+    return valid_;
+  }
+
+  /// known: right at the multiples of 8.
+  std::vector<uint8_t> decodeAbove(std::vector<uint8_t> known) {
+    valid_ = std::move(known);
+    forEachVertex(width_, height_, 8, [&](const Vertex& v) {
       if (v.s > 0) decide(v);
     });
     return valid_;
@@ -101,6 +111,50 @@ class ValidityDecoder {
 std::vector<uint8_t> decodeValidity(std::span<const uint8_t> codeword, int width, int height) {
   RangeDecoder decoder(codeword);
   return ValidityDecoder(decoder, width, height).decode();
+}
+
+namespace {
+
+/// The samples at multiples of 2^log2 of a rectangle of a plane.
+struct SparseGrid {
+  int log2;
+  int64_t x0, y0, x1, y1;
+
+  int width() const { return static_cast<int>(((x1 - 1 - x0) >> log2) + 1); }
+  int height() const { return static_cast<int>(((y1 - 1 - y0) >> log2) + 1); }
+
+  std::vector<uint8_t> of(const std::vector<uint8_t>& plane, int64_t pitch) const {
+    std::vector<uint8_t> values;
+    for (int64_t y = y0; y < y1; y += int64_t{1} << log2) {
+      for (int64_t x = x0; x < x1; x += int64_t{1} << log2)
+        values.push_back(plane.at(static_cast<size_t>(y * pitch + x)));
+    }
+    return values;
+  }
+  void put(const std::vector<uint8_t>& values, int64_t pitch, std::vector<uint8_t>& plane) const {
+    size_t i = 0;
+    for (int64_t y = y0; y < y1; y += int64_t{1} << log2) {
+      for (int64_t x = x0; x < x1; x += int64_t{1} << log2)
+        plane.at(static_cast<size_t>(y * pitch + x)) = values.at(i++);
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<uint8_t> decodeRegionMasks(std::span<const uint8_t> base,
+                                       const std::vector<std::span<const uint8_t>>& masks,
+                                       const std::vector<Region>& regions) {
+  std::vector<uint8_t> valid(static_cast<size_t>(regions[0].x1 * regions[0].y1));
+  for (size_t i = 0; i < regions.size(); ++i) {
+    const Region& region = regions[i];
+    const SparseGrid grid{region.firstLevel - 1, region.x0, region.y0, region.x1, region.y1};
+    const int64_t pitch = regions[0].x1;
+    RangeDecoder decoder(i == 0 ? base : masks.at(i - 1));
+    ValidityDecoder mask(decoder, grid.width(), grid.height());
+    grid.put(i == 0 ? mask.decode() : mask.decodeAbove(grid.of(valid, pitch)), pitch, valid);
+  }
+  return valid;
 }
 
 std::vector<std::vector<uint8_t>> decodeFrameMasks(std::span<const uint8_t> codeword, int width,

@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/bit_plane.hpp"
-#include "codec/lattice/validity.hpp"
 #include "encoder/mosaic/part.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "ratecontrol/needs/needs.hpp"
@@ -18,7 +16,7 @@ namespace tetrakis::inline mosaic {
 
 namespace {
 
-/// Where the codeword of a track lies, behind bytes that only the merge knows.
+/// Where the codeword of a track lies.
 struct TrackPlace {
   Tile tile;
   PartTable::Track stated;  ///< without points
@@ -28,41 +26,11 @@ struct TrackPlace {
 struct Parts {
   std::vector<EncodedTrack> tracks;  ///< without codewords; those of corrections last
   std::vector<TrackPlace> places;    ///< of each track
-  std::vector<uint8_t> validity;     ///< codeword, which opens track 0; empty: there are no voids
   uint64_t valid_samples = 0;
 };
 
 size_t correctionTracksOf(const MosaicPlan& plan) {
   return static_cast<size_t>(correctionTracks(plan.geometry(), plan.header.layers));
-}
-
-/// Marks what a tile says of its samples.
-void addMask(const PartMask& valid, const Window& samples, BitPlane& mask) {
-  for (uint32_t y = 0; y < samples.height; ++y) {
-    uint64_t* const row = mask.row(samples.y + y);
-    for (uint32_t x = 0; x < samples.width; ++x) {
-      const uint64_t exists = valid.empty() || valid[size_t{y} * samples.width + x] != 0;
-      row[(samples.x + x) / kWordBits] |= exists << (samples.x + x) % kWordBits;
-    }
-  }
-}
-
-uint64_t countOf(const BitPlane& mask) {
-  uint64_t count = 0;
-  for (uint32_t y = 0; y < mask.extent().height; ++y)
-    count += mask.countBefore(mask.extent().width, y);
-  return count;
-}
-
-/// The mask opens the first track. Until it is known every void is shown as ground, which is worth
-/// more than any coefficients.
-void openWith(std::vector<uint8_t> validity, Parts& parts) {
-  parts.validity = std::move(validity);
-  std::vector<RatePoint>& points = parts.tracks.front().points;
-  for (RatePoint& point : points) point.bytes += parts.validity.size();
-  double all = 0;
-  for (const EncodedTrack& track : parts.tracks) all += track.points.front().distortion;
-  points.insert(points.begin(), {0, points.front().distortion + 1 + all});
 }
 
 /// The error that coefficients leave is that of the corrections, which take it off.
@@ -85,8 +53,6 @@ Result<Parts> readParts(const MosaicPlan& plan, const MosaicGrid& grid, const Mo
   const size_t all = grid.regions().size() + correctionTracksOf(plan);
   parts.tracks.resize(all);
   parts.places.resize(all);
-  const Extent plane = plan.geometry().extent();
-  BitPlane mask(plan.hasVoids() ? plane : Extent{0, 0});
   const uint32_t hash = hashOf(plan);
   for (const Tile& tile : grid.tiles()) {
     Result<PartTable> table = readTable(files, hash, tile);
@@ -97,20 +63,18 @@ Result<Parts> readParts(const MosaicPlan& plan, const MosaicGrid& grid, const Mo
     for (size_t i = 0; i < numbers.size(); ++i) {
       PartTable::Track& track = table->tracks[i];
       parts.tracks[numbers[i]] = {{}, std::move(track.points), plan.geometry().planes};
-      parts.places[numbers[i]] = {tile, {track.offset, track.bytes, track.crc, {}}};
+      parts.places[numbers[i]] = {tile, {track.offset, track.bytes, track.crc, track.opening, {}}};
     }
-    if (plan.hasVoids() && tile.group == 0) addMask(table->valid, grid.samples(tile), mask);
+    parts.valid_samples += table->valid_samples;
   }
   if (plan.corrects()) passRestToCorrections(grid.regions().size(), parts.tracks);
-  parts.valid_samples = plan.hasVoids() ? countOf(mask) : plane.samples();
-  if (plan.hasVoids()) openWith(encodeValidityBits(mask), parts);
   return parts;
 }
 
 /// The packets of all tracks in their order, each with the error that it leaves.
 std::vector<Packet> orderedPackets(const MosaicPlan& plan, const Parts& parts, TrackOrder by) {
-  const CodedTracks coded{Component::kGeometry, parts.tracks, parts.validity.size(), 0,
-                          correctionTracksOf(plan)};
+  const CodedTracks coded{Component::kGeometry, parts.tracks, parts.places.front().stated.opening,
+                          0, correctionTracksOf(plan)};
   OrderedTracks order = orderTracks(coded, by);
   const double samples = std::max(1.0, static_cast<double>(parts.valid_samples));
   const bool whole = plan.geometry().regions.side_log2 > 0;
@@ -135,14 +99,15 @@ std::vector<Packet> orderedPackets(const MosaicPlan& plan, const Parts& parts, T
 StreamHeader headerFor(const MosaicPlan& plan, const Parts& parts,
                        const std::vector<Packet>& packets, const MergeOptions& options) {
   StreamHeader header = plan.header;
-  header.layers.validity_bytes = parts.validity.size();
+  header.layers.validity_bytes = parts.places.front().stated.opening;
   WaveletHeader& wavelet = header.geometry->wavelet;
   uint64_t coefficients = 0;
   const size_t of_coefficients = parts.places.size() - correctionTracksOf(plan);
   for (const TrackPlace& place : std::span(parts.places).first(of_coefficients))
-    coefficients += place.stated.bytes;
+    coefficients += place.stated.bytes - place.stated.opening;
   if (wavelet.fraction_bits == 0) wavelet.rounded_bytes = coefficients;
-  if (plan.corrects()) header.layers.coefficient_bytes = parts.places.front().stated.bytes;
+  const PartTable::Track& base = parts.places.front().stated;
+  if (plan.corrects()) header.layers.coefficient_bytes = base.bytes - base.opening;
   if (header.lossless != 0 || plan.target.bounded) header.payload_crc = 0;  // until it is known
   header.payload_bytes = bytesOfPackets(packets);
   if (options.index) header.index = indexOf(packets, trackCounts(header));
@@ -158,14 +123,9 @@ class PayloadWriter {
   Status add(const Parts& parts, const Packet& packet, const TrackCounts& counts) {
     if (Status status = append(headBytes(headOf(packet, counts), counts)); !status.ok())
       return status;
-    const uint32_t track = packet.track.value_or(0);
-    const uint64_t opening = track == 0 ? parts.validity.size() : 0;
-    if (packet.begin < opening)
-      return append(std::span(parts.validity).subspan(packet.begin, packet.length()));
-    const TrackPlace& place = parts.places[track];
+    const TrackPlace& place = parts.places[packet.track.value_or(0)];
     const std::string name = partName(place.tile);
-    const auto bytes =
-        files_.read(name, place.stated.offset + packet.begin - opening, packet.length());
+    const auto bytes = files_.read(name, place.stated.offset + packet.begin, packet.length());
     if (!bytes.ok()) return bytes.status();
     if (bytes->size() != packet.length())
       return {TKS_IO, "The part " + name + " of the mosaic is too short."};

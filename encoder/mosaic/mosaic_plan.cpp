@@ -12,7 +12,7 @@ namespace tetrakis::inline mosaic {
 namespace {
 
 constexpr std::array<uint8_t, 4> kPlanMagic = {'T', 'K', 'M', 0x1a};
-constexpr uint8_t kPlanVersion = 2;
+constexpr uint8_t kPlanVersion = 3;
 
 }  // namespace
 
@@ -51,7 +51,8 @@ Result<MosaicPlan> readPlan(std::span<const uint8_t> bytes) {
   const int region_log2 = plan.geometry().regions.side_log2;
   const bool tiled = plan.tile_log2 >= std::max(region_log2, kLeastRegionLog2) &&
                      plan.tile_log2 <= kMostRegionLog2;
-  if (!tiled || plan.header.texture || plan.geometry().direct()) return corrupt;
+  const bool masked = plan.header.layers.region_masks == (plan.hasVoids() && region_log2 > 0);
+  if (!tiled || !masked || plan.header.texture || plan.geometry().direct()) return corrupt;
   const bool followed = plan.cut_slope == 0 || plan.corrects();
   if (!followed || !(plan.cut_slope >= 0) || (plan.corrects() && region_log2 == 0)) return corrupt;
   return plan;

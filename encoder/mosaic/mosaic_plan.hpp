@@ -28,7 +28,7 @@ struct MosaicTarget {
 
 struct MosaicPlan {
   /// That of the stream, but for the bytes of what the tasks will code. Of heights with voids
-  /// layers.validity_bytes is not 0.
+  /// layers.validity_bytes is not 0, and if there are regions they have masks.
   StreamHeader header;
   int tile_log2 = kUsualTileLog2;
   MosaicTarget target;

@@ -24,7 +24,7 @@ namespace {
 // A low:    opening, width, height, mask, values; CRC of all
 // Opening:  magic, hash of the plan, group, column, row
 
-constexpr std::array<uint8_t, 4> kPartMagic = {'T', 'K', 'P', 1}, kLowMagic = {'T', 'K', 'L', 1};
+constexpr std::array<uint8_t, 4> kPartMagic = {'T', 'K', 'P', 2}, kLowMagic = {'T', 'K', 'L', 1};
 
 void writeOpening(ByteWriter& out, std::span<const uint8_t> magic, uint32_t plan,
                   const Tile& tile) {
@@ -77,9 +77,12 @@ Status missing(const std::string& name) {
 std::vector<uint8_t> writePart(uint32_t plan, const Tile& tile, const Part& part) {
   ByteWriter table;
   table.number(static_cast<uint32_t>(part.tracks.size()));
-  for (const EncodedTrack& track : part.tracks) {
+  assert(part.openings.empty() || part.openings.size() == part.tracks.size());
+  for (size_t i = 0; i < part.tracks.size(); ++i) {
+    const EncodedTrack& track = part.tracks[i];
     table.number(uint64_t{track.codeword.size()});
     table.number(crc32(track.codeword));
+    table.number(part.openings.empty() ? uint64_t{0} : part.openings[i]);
     table.number(static_cast<uint32_t>(track.points.size()));
     for (const RatePoint& point : track.points) {
       table.number(point.bytes);
@@ -87,8 +90,7 @@ std::vector<uint8_t> writePart(uint32_t plan, const Tile& tile, const Part& part
       table.number<uint8_t>(point.dips);
     }
   }
-  table.number(static_cast<uint64_t>(part.valid.size()));
-  writeMask(table, part.valid);
+  table.number(part.valid_samples);
   const std::vector<uint8_t> sealed = std::move(table).sealed();
   ByteWriter head;
   writeOpening(head, kPartMagic, plan, tile);
@@ -118,6 +120,7 @@ Result<PartTable> readTable(const MosaicFiles& files, uint32_t plan, const Tile&
     track.offset = offset;
     track.bytes = in.number<uint64_t>();
     track.crc = in.number<uint32_t>();
+    track.opening = std::min(in.number<uint64_t>(), track.bytes);
     track.points.resize(std::min<size_t>(in.number<uint32_t>(), table->size()));
     for (RatePoint& point : track.points) {
       point.bytes = in.number<uint64_t>();
@@ -126,7 +129,7 @@ Result<PartTable> readTable(const MosaicFiles& files, uint32_t plan, const Tile&
     }
     offset += track.bytes;
   }
-  out.valid = readMask(in, static_cast<size_t>(in.number<uint64_t>()));
+  out.valid_samples = in.number<uint64_t>();
   if (!in.ok()) return missing(name);
   return out;
 }

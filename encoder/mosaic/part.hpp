@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Part is what the task of a tile leaves for the merge: codewords with their accounts, and the
-// mask of its samples. A LowPart is what it leaves for the tasks of the next group. Both are files
+// A Part is what the task of a tile leaves for the merge: codewords with their accounts. A LowPart is what it leaves for the tasks of the next group. Both are files
 // of a mosaic, sealed by the hash of the plan that they belong to and by checksums.
 #pragma once
 
@@ -78,7 +77,9 @@ using PartMask = std::vector<uint8_t>;
 
 struct Part {
   std::vector<EncodedTrack> tracks;  ///< of MosaicGrid::tracks()
-  PartMask valid;                    ///< of the samples of a tile of group 0, in a plan with voids
+  /// Bytes of each codeword that the mask takes, which opens it; empty: none has a mask.
+  std::vector<uint64_t> openings;
+  uint64_t valid_samples = 0;  ///< of a tile of group 0 that codes
 };
 
 /// A low band that a tile leaves for the tasks of the next group: of the samples themselves where
@@ -95,10 +96,11 @@ struct PartTable {
   struct Track {
     uint64_t offset = 0, bytes = 0;  ///< of its codeword in the file
     uint32_t crc = 0;                ///< of the codeword
+    uint64_t opening = 0;            ///< Part::openings
     std::vector<RatePoint> points;
   };
   std::vector<Track> tracks;
-  PartMask valid;
+  uint64_t valid_samples = 0;
 };
 
 std::vector<uint8_t> writePart(uint32_t plan, const Tile& tile, const Part& part);

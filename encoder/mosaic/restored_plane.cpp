@@ -16,7 +16,7 @@ namespace tetrakis::inline mosaic {
 
 namespace {
 
-/// The codeword of a region in the block.
+/// The coefficients of a region in the block.
 struct RegionCodeword {
   Region region;
   std::vector<uint8_t> bytes;
@@ -40,8 +40,10 @@ Result<std::vector<RegionCodeword>> readCodewords(const TaskInputs& inputs, cons
     for (size_t i = 0; i < std::min(numbers.size(), table->tracks.size()); ++i) {
       const Region& region = grid.regions()[numbers[i]];
       if (!isIn(block, plane, region)) continue;
-      Result<std::vector<uint8_t>> bytes = readCodeword(inputs.files, coder, table->tracks[i]);
+      const PartTable::Track& track = table->tracks[i];
+      Result<std::vector<uint8_t>> bytes = readCodeword(inputs.files, coder, track);
       if (!bytes.ok()) return bytes.status();
+      bytes->erase(bytes->begin(), bytes->begin() + static_cast<ptrdiff_t>(track.opening));
       codewords.push_back({region, *std::move(bytes)});
     }
   }

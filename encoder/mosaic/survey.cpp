@@ -18,8 +18,6 @@ namespace tetrakis::inline mosaic {
 
 namespace {
 
-/// More are in no stream that programs open.
-constexpr uint64_t kMostSamples = uint64_t{1} << 32;
 /// Sides of the windows that a survey reads. Larger ones take memory.
 constexpr uint32_t kWindowSide = 2048;
 
@@ -117,13 +115,25 @@ Status checkOptions(const MosaicOptions& options) {
   return {};
 }
 
+/// Regions of narrow planes with voids become longer, until each can have a mask of its own.
+void chooseRegions(int region_log2, bool voids, MosaicPlan& plan) {
+  GeometryHeader& header = *plan.header.geometry;
+  const auto count = [&] { return regionCount(header.width, header.height, region_log2); };
+  while (voids && count() > 1 && !takesRegionMasks(header.extent(), region_log2)) ++region_log2;
+  const bool one = count() <= 1;
+  header.regions.side_log2 = static_cast<uint8_t>(one ? 0 : region_log2);
+  plan.tile_log2 = std::max<int>(plan.tile_log2, header.regions.side_log2);
+  plan.header.layers.validity_bytes = voids ? 1 : 0;
+  plan.header.layers.region_masks = voids && !one;
+}
+
 }  // namespace
 
 Result<MosaicPlan> makePlan(const tks_heights& source, const MosaicOptions& options,
                             const ReadSamples& read) {
   if (Status status = checkOptions(options); !status.ok()) return status;
-  if (uint64_t{source.width} * source.height > kMostSamples)
-    return Status(TKS_USAGE, "A mosaic has at most 2^32 samples.");
+  if (std::max(source.width, source.height) > kMaxSide)
+    return Status(TKS_USAGE, "A mosaic has at most 2^20 columns and 2^20 rows.");
   MosaicPlan plan;
   plan.tile_log2 = options.tile_log2;
   plan.target.bounded = options.max_error > 0;
@@ -133,15 +143,13 @@ Result<MosaicPlan> makePlan(const tks_heights& source, const MosaicOptions& opti
   header.width = source.width;
   header.height = source.height;
   header.sample = static_cast<uint8_t>(source.sample);
-  const bool one = regionCount(source.width, source.height, options.region_log2) <= 1;
-  header.regions.side_log2 = static_cast<uint8_t>(one ? 0 : options.region_log2);
   if (options.max_error > 0) header.max_error = options.max_error;
   if (options.lossless) header.max_error = 0;
   plan.header.layers.has_nodata = statesNodata(source);
   if (plan.header.layers.has_nodata) plan.header.layers.nodata = source.nodata;
   const Result<Survey> survey = surveyOf(plan, read);
   if (!survey.ok()) return survey.status();
-  plan.header.layers.validity_bytes = survey->voids() ? 1 : 0;
+  chooseRegions(options.region_log2, survey->voids(), plan);
   if (Status status = chooseSteps(*survey, options, read, plan); !status.ok()) return status;
   header.exact = options.lossless && !plan.header.layers.restoresSamples();
   return plan;

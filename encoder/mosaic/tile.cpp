@@ -13,16 +13,17 @@
 #include "encoder/mosaic/block.hpp"
 #include "encoder/mosaic/block_layout.hpp"
 #include "encoder/mosaic/restored_plane.hpp"
+#include "encoder/mosaic/track_mask.hpp"
 #include "ratecontrol/curves/component_curve.hpp"
 
 namespace tetrakis::inline mosaic {
 
 namespace {
 
-/// A lifted block.
+/// A lifted block, whose values it takes.
 class LiftedBlock {
  public:
-  LiftedBlock(const TaskInputs& inputs, Block block)
+  LiftedBlock(const TaskInputs& inputs, Block& block)
       : layout_(inputs, block.window, block.valid), values_(std::move(block.values)) {
     forwardWavelet(layout_.spec(), layout_.local().pyramid(), values_, inputs.threads);
   }
@@ -118,23 +119,39 @@ Result<std::vector<EncodedTrack>> codeTracks(const TaskInputs& inputs, const Lif
   return Status(TKS_MISMATCH, "A tile of the mosaic does not come back: a fault of the encoder.");
 }
 
+/// How many samples of a window of the plane exist.
+uint64_t validIn(const Block& block, const Window& samples) {
+  if (block.valid.empty()) return samples.extent().samples();
+  const Window inner{samples.x - block.window.x, samples.y - block.window.y, samples.width,
+                     samples.height};
+  const std::vector<uint8_t> valid =
+      slice(std::span<const uint8_t>(block.valid), block.window.extent(), {0, inner});
+  return static_cast<uint64_t>(std::count(valid.begin(), valid.end(), 1));
+}
+
+/// Puts masks in front of the coefficients of all tracks of a tile.
+void openTracks(const TaskInputs& inputs, const Block& block, Part& part) {
+  const std::vector<uint32_t> numbers = inputs.grid.tracks(inputs.tile);
+  part.openings.resize(numbers.size());
+  parallelFor(inputs.threads, numbers.size(), [&](size_t i) {
+    part.openings[i] =
+        openWithMask(inputs, block, inputs.grid.regions()[numbers[i]], part.tracks[i]);
+  });
+}
+
 Result<CodedTile> codeCoefficients(const TaskInputs& inputs) {
   const MosaicGrid& grid = inputs.grid;
   const bool has_voids = inputs.plan.hasVoids();
   Result<Block> block = readBlock(inputs, grid.block(inputs.tile));
   if (!block.ok()) return block.status();
   CodedTile coded;
-  if (inputs.tile.group == 0 && has_voids && !block->valid.empty()) {
-    const Window inner = grid.samples(inputs.tile), &outer = block->window;
-    coded.part.valid =
-        slice(std::span<const uint8_t>(block->valid), outer.extent(),
-              {0, Window{inner.x - outer.x, inner.y - outer.y, inner.width, inner.height}});
-  }
-  const LiftedBlock lifted(inputs, *std::move(block));
+  if (inputs.tile.group == 0) coded.part.valid_samples = validIn(*block, grid.samples(inputs.tile));
+  const LiftedBlock lifted(inputs, *block);
   if (grid.leavesLow(inputs.tile)) coded.low = lifted.lowPart(grid.low(inputs.tile), has_voids);
   Result<std::vector<EncodedTrack>> tracks = codeTracks(inputs, lifted);
   if (!tracks.ok()) return tracks.status();
   coded.part.tracks = *std::move(tracks);
+  if (has_voids) openTracks(inputs, *block, coded.part);
   return coded;
 }
 

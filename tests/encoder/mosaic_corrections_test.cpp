@@ -6,9 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "base/bit_plane.hpp"
 #include "codec/geometry/heights_decoder.hpp"
-#include "codec/lattice/validity.hpp"
 #include "codec/wavelet/lifting/lifting_kernel.hpp"
 #include "encoder/mosaic/merge.hpp"
 #include "encoder/mosaic/tile.hpp"
@@ -39,40 +37,39 @@ MosaicPlan planOf(const WholePlane& whole, const CutCase& cut) {
   return plan;
 }
 
+struct MadeTracks {
+  std::vector<std::vector<uint8_t>> codewords;
+  uint64_t mask_bytes = 0;  ///< of the first
+};
+
 /// The codewords of all tracks, as the merge lays them out.
-std::vector<std::vector<uint8_t>> runAll(const MosaicPlan& plan, const WholePlane& whole,
-                                         MosaicMemory& memory) {
+MadeTracks runAll(const MosaicPlan& plan, const WholePlane& whole, MosaicMemory& memory) {
   const MosaicGrid grid = plan.grid();
   const MosaicFiles files = memory.storage();
-  std::vector<std::vector<uint8_t>> codewords(
-      grid.regions().size() + correctionTracks(plan.geometry(), plan.header.layers));
+  MadeTracks made;
+  made.codewords.resize(grid.regions().size() +
+                        correctionTracks(plan.geometry(), plan.header.layers));
   for (const Tile& tile : grid.tiles()) {
     const Status status = runTask(plan, tile, whole.reader(), files, 2);
     EXPECT_TRUE(status.ok()) << status.message();
     const Result<PartTable> table = readTable(files, hashOf(plan), tile);
     EXPECT_TRUE(table.ok());
-    if (!table.ok()) return codewords;
+    if (!table.ok()) return made;
+    if (grid.isBase(tile)) made.mask_bytes = table->tracks.front().opening;
     const std::vector<uint32_t> tracks = grid.tracks(tile);
     for (size_t i = 0; i < tracks.size(); ++i)
-      codewords[tracks[i]] = *readCodeword(files, tile, table->tracks[i]);
+      made.codewords[tracks[i]] = *readCodeword(files, tile, table->tracks[i]);
   }
-  return codewords;
+  return made;
 }
 
 /// The whole steps that a decoder has.
-std::vector<int32_t> decoded(const MosaicPlan& plan, const WholePlane& whole,
-                             std::vector<std::vector<uint8_t>> codewords, const View& view) {
+std::vector<int32_t> decoded(const MosaicPlan& plan, const MadeTracks& made, const View& view) {
   GeometryHeader header = plan.geometry();
   GeometryLayers layers = plan.header.layers;
-  layers.coefficient_bytes = codewords.front().size();
-  layers.validity_bytes = 0;
-  if (plan.hasVoids()) {
-    const std::vector<uint8_t> mask =
-        encodeValidityBits(*sharedBits(whole.valid(), header.extent()));
-    layers.validity_bytes = mask.size();
-    codewords.front().insert(codewords.front().begin(), mask.begin(), mask.end());
-  }
-  Codewords spans(codewords.begin(), codewords.end());
+  layers.validity_bytes = made.mask_bytes;
+  layers.coefficient_bytes = made.codewords.front().size() - made.mask_bytes;
+  Codewords spans(made.codewords.begin(), made.codewords.end());
   const DecodedHeights heights = decodeHeights(header, layers, spans, view);
   std::vector<int32_t> steps = wholeSteps(heights.geometry);
   for (size_t i = 0; i < heights.corrections.size(); ++i) steps[i] += heights.corrections[i];
@@ -83,8 +80,7 @@ void expectKept(const TileCase& given, const CutCase& cut) {
   const WholePlane whole(given);
   const MosaicPlan plan = planOf(whole, cut);
   MosaicMemory memory;
-  const auto codewords = runAll(plan, whole, memory);
-  const std::vector<int32_t> steps = decoded(plan, whole, codewords, {});
+  const std::vector<int32_t> steps = decoded(plan, runAll(plan, whole, memory), {});
   const Mask valid = whole.valid();
   ASSERT_EQ(steps.size(), whole.values().size());
   for (size_t i = 0; i < steps.size(); ++i) {

@@ -2,6 +2,8 @@
 // Tasks of tiles make the codewords of an encoder that holds the whole plane.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "codec/wavelet/lifting/lifting_kernel.hpp"
@@ -26,8 +28,13 @@ void expectSameCodewords(const TileCase& given) {
     const Result<CodedTile> coded = codeTile(plan, tile, whole.reader(), files, 1);
     ASSERT_TRUE(coded.ok()) << coded.status().message();
     const std::vector<uint32_t> tracks = grid.tracks(tile);
+    const Part& part = coded->part;
     for (size_t i = 0; i < tracks.size(); ++i) {
-      ASSERT_EQ(coded->part.tracks[i].codeword, expected[tracks[i]].codeword)
+      std::vector<uint8_t> coefficients = part.tracks[i].codeword;
+      if (!part.openings.empty())
+        coefficients.erase(coefficients.begin(),
+                           coefficients.begin() + static_cast<ptrdiff_t>(part.openings[i]));
+      ASSERT_EQ(coefficients, expected[tracks[i]].codeword)
           << "filter " << +given.filter << ", track " << tracks[i] << " of " << given.plane.width
           << " x " << given.plane.height;
     }
@@ -69,10 +76,12 @@ TEST(MosaicTile, HasTheCodewordsOfAWholePlaneOfAnySize) {
   for (const Extent plane : {Extent{1, 1}, Extent{5, 900}, Extent{900, 2}, Extent{33, 33},
                              Extent{1500, 40}, Extent{257, 255}}) {
     for (const bool voids : {false, true}) {
-      const bool one = regionCount(plane.width, plane.height, 4) <= 1;
+      int region_log2 = 4;
+      const auto one = [&] { return regionCount(plane.width, plane.height, region_log2) <= 1; };
+      while (voids && !one() && !takesRegionMasks(plane, region_log2)) ++region_log2;
       expectSameCodewords({.plane = plane,
-                           .region_log2 = one ? 0 : 4,
-                           .tile_log2 = 5,
+                           .region_log2 = one() ? 0 : region_log2,
+                           .tile_log2 = std::max(5, region_log2),
                            .filter = 3,
                            .first_doubled = 1,
                            .voids = voids});

@@ -53,6 +53,7 @@ class WholePlane {
     plan.header.lossless = 1;
     if (case_.voids) {
       plan.header.layers.validity_bytes = 1;
+      plan.header.layers.region_masks = plan.geometry().regions.side_log2 > 0;
       plan.header.layers.has_nodata = 1;
       plan.header.layers.nodata = kNodata;
     }

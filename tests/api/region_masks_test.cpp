@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Masks of regions: windows, prefixes, ranges and memory of streams whose regions have their own.
+#include <algorithm>
+#include <random>
+
+#include "bitstream/stream/header.hpp"
+#include "tests/support/mosaic_source.hpp"
+
+namespace tetrakis::test {
+namespace {
+
+using samples::VoidShape;
+
+constexpr VoidShape kShapes[] = {VoidShape::kCoast, VoidShape::kSpeckle, VoidShape::kHoles,
+                                 VoidShape::kHalf,  VoidShape::kAll,     VoidShape::kOneVoid};
+
+/// Two groups of regions.
+Bytes mosaicWith(VoidShape shape, double max_error = 0, tks_index index = TKS_INDEX_NONE) {
+  Source source(hills(TKS_I16, 280, 215));
+  dig(source, shape);
+  tks_mosaic_options options = mosaicOptions();
+  options.regions = 16;
+  options.max_error = max_error;
+  options.lossless = max_error == 0;
+  const Bytes bytes = mosaicOf(source, options, index);
+  EXPECT_TRUE(readHeader(bytes)->header.layers.region_masks);
+  return bytes;
+}
+
+tks_window randomWindow(std::mt19937& random) {
+  const auto below = [&](uint32_t end) { return static_cast<uint32_t>(random() % end); };
+  tks_window window = {};
+  window.width = 1 + below(60);
+  window.height = 1 + below(60);
+  window.x = below(280 - window.width);
+  window.y = below(215 - window.height);
+  return window;
+}
+
+std::vector<int16_t> decodedWindow(Stream& stream, const tks_window& window) {
+  std::vector<int16_t> samples(size_t{window.width} * window.height);
+  EXPECT_EQ(tks_decode_heights_window(stream.get(), &window, samples.data(), 2 * samples.size()),
+            TKS_OK)
+      << stream.message();
+  return samples;
+}
+
+std::vector<int16_t> cut(const std::vector<int16_t>& plane, const tks_window& window) {
+  std::vector<int16_t> samples;
+  for (uint32_t y = window.y; y < window.y + window.height; ++y) {
+    const auto row = plane.begin() + static_cast<ptrdiff_t>(size_t{y} * 280 + window.x);
+    samples.insert(samples.end(), row, row + window.width);
+  }
+  return samples;
+}
+
+std::vector<int16_t> plane(Stream& stream) {
+  std::vector<int16_t> samples(size_t{280} * 215);
+  EXPECT_EQ(tks_decode_heights(stream.get(), samples.data(), 2 * samples.size()), TKS_OK);
+  return samples;
+}
+
+TEST(RegionMasks, WindowsOfPrefixesHoldWhatThePlaneHoldsThere) {
+  std::mt19937 random(3);
+  for (const VoidShape shape : kShapes) {
+    for (const double max_error : {0., 3.}) {
+      const Bytes bytes = mosaicWith(shape, max_error);
+      for (const double part : {0.05, 0.2, 0.5, 0.8, 1.}) {
+        const auto end = static_cast<size_t>(part * static_cast<double>(bytes.size()));
+        Stream stream(Prefix(bytes).first(end));
+        if (stream.status() != TKS_OK) continue;
+        const std::vector<int16_t> whole = plane(stream);
+        for (int i = 0; i < 4; ++i) {
+          const tks_window window = randomWindow(random);
+          ASSERT_EQ(decodedWindow(stream, window), cut(whole, window))
+              << static_cast<int>(shape) << ", " << part << " of the bytes, window " << window.x
+              << ", " << window.y << ", " << window.width << " x " << window.height;
+        }
+      }
+    }
+  }
+}
+
+/// A decoder that keeps what it decoded gives what one gives that has kept nothing.
+TEST(RegionMasks, GrowingStreamsDecodeAsOthersDo) {
+  std::mt19937 random(5);
+  for (const VoidShape shape : {VoidShape::kCoast, VoidShape::kSpeckle}) {
+    const Bytes bytes = mosaicWith(shape, 2);
+    size_t end = readHeader(bytes)->bytes;
+    Stream growing(Prefix(bytes).first(end));
+    while (end < bytes.size()) {
+      const size_t more = std::min<size_t>(bytes.size() - end, 1 + random() % 2500);
+      ASSERT_EQ(tks_append(growing.get(), bytes.data() + end, more), TKS_OK);
+      end += more;
+      Stream fresh(Prefix(bytes).first(end));
+      const tks_window window = randomWindow(random);
+      ASSERT_EQ(decodedWindow(growing, window), decodedWindow(fresh, window)) << end;
+      ASSERT_EQ(plane(growing), plane(fresh)) << end;
+    }
+  }
+}
+
+/// The ranges that a window needs give the window; those of windows before it change nothing.
+TEST(RegionMasks, RangesOfAWindowGiveTheWindow) {
+  std::mt19937 random(7);
+  for (const VoidShape shape : kShapes) {
+    const Bytes bytes = mosaicWith(shape, 0, TKS_INDEX_WINDOWS);
+    Stream all((Prefix(bytes)));
+    const std::vector<int16_t> whole = plane(all);
+    const size_t header = readHeader(bytes)->bytes;
+    Stream stream(Prefix(bytes).first(header));
+    uint64_t fetched = 0;
+    for (int i = 0; i < 5; ++i) {
+      const tks_window window = randomWindow(random);
+      tks_ranges ranges = {};
+      ASSERT_EQ(tks_needed_ranges(stream.get(), TKS_PART_HEIGHTS, &window, &ranges), TKS_OK);
+      for (size_t k = 0; k < ranges.count; ++k) {
+        const tks_range& range = ranges.ranges[k];
+        if (i == 0) fetched += range.size;
+        ASSERT_EQ(tks_put(stream.get(), range.offset, bytes.data() + range.offset, range.size),
+                  TKS_OK);
+      }
+      tks_free_ranges(&ranges);
+      ASSERT_EQ(decodedWindow(stream, window), cut(whole, window)) << static_cast<int>(shape);
+    }
+    EXPECT_TRUE(shape != VoidShape::kCoast || fetched < bytes.size());
+  }
+}
+
+/// Narrow planes get regions that are long enough to be halved.
+TEST(RegionMasks, NarrowPlanesKeepTheirVoids) {
+  for (const auto& [width, height] : {std::pair(2000u, 5u), std::pair(17u, 900u)}) {
+    Source source(hills(TKS_I16, width, height));
+    dig(source, VoidShape::kHoles);
+    tks_mosaic_options options = mosaicOptions();
+    options.regions = 16;
+    options.lossless = 1;
+    Stream stream(mosaicOf(source, options));
+    std::vector<std::byte> samples(stream.heightsBytes());
+    ASSERT_EQ(tks_decode_heights(stream.get(), samples.data(), samples.size()), TKS_OK);
+    EXPECT_TRUE(samples == source.raster.data) << width;
+  }
+}
+
+}  // namespace
+}  // namespace tetrakis::test
