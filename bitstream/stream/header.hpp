@@ -24,7 +24,7 @@ namespace tetrakis::inline stream {
 inline constexpr std::array<uint8_t, 4> kMagic = {'T', 'K', 'S', 0x1a};
 inline constexpr uint8_t kFormatVersion = 1;
 inline constexpr uint8_t kMainProfile = 0;
-inline constexpr uint32_t kMaxHeaderBytes = 1u << 20;
+inline constexpr uint32_t kMaxHeaderBytes = 1u << 26;
 
 /// What the heights mean on the ground.
 struct Metadata {

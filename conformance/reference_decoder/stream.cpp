@@ -34,7 +34,7 @@ bool namesTracks(const Stream& stream, uint64_t number) {
 
 /// FORMAT 2, Index: it decodes nothing, but its syntax counts.
 void skipIndex(Reader& in, const Stream& stream) {
-  for (uint64_t left = in.varint(1, 1 << 19); left > 0; --left) {
+  for (uint64_t left = in.varint(1, 1 << 25); left > 0; --left) {
     const Head head = headOf(in.varint(0, UINT64_MAX), stream);
     if (namesTracks(stream, head.number)) in.varint(0, UINT32_MAX);
     in.byte();  // quality
@@ -169,7 +169,7 @@ std::span<const uint8_t> readHeader(std::span<const uint8_t> prefix, Stream& str
   const uint8_t version = in.byte(), profile = in.byte(), level = in.byte();
   if (in.rest().empty()) in.fail(Outcome::kTruncated);  // says nothing of the version
   if (version != 1 || profile != 0) in.fail(Outcome::kUnsupported);
-  const auto body = in.take(in.varint(0, 1 << 20));
+  const auto body = in.take(in.varint(0, 1 << 26));
   const auto sealed = prefix.first(prefix.size() - in.rest().size());
   const uint64_t crc = in.littleEndian(4);
   stream.outcome = in.outcome();

@@ -139,11 +139,31 @@ void openTracks(const TaskInputs& inputs, const Block& block, Part& part) {
   });
 }
 
+/// Whether nothing exists of a block, as over the sea or abroad.
+bool isVoid(const Block& block) {
+  return !block.valid.empty() && std::find(block.valid.begin(), block.valid.end(), 1) ==
+                                     block.valid.end();
+}
+
+/// The tile of a block of which nothing exists: what coding it would make, without doing so.
+CodedTile voidTile(const TaskInputs& inputs) {
+  const MosaicGrid& grid = inputs.grid;
+  CodedTile coded;
+  const size_t tracks = grid.tracks(inputs.tile).size();
+  coded.part.tracks.assign(tracks, {{}, {{}}, inputs.plan.geometry().planes});
+  coded.part.openings.resize(tracks);
+  if (!grid.leavesLow(inputs.tile)) return coded;
+  const Extent low = grid.low(inputs.tile).extent();
+  coded.low = {low, std::vector<int32_t>(low.samples()), PartMask(low.samples())};
+  return coded;
+}
+
 Result<CodedTile> codeCoefficients(const TaskInputs& inputs) {
   const MosaicGrid& grid = inputs.grid;
   const bool has_voids = inputs.plan.hasVoids();
   Result<Block> block = readBlock(inputs, grid.block(inputs.tile));
   if (!block.ok()) return block.status();
+  if (!grid.isBase(inputs.tile) && isVoid(*block)) return voidTile(inputs);
   CodedTile coded;
   if (inputs.tile.group == 0) coded.part.valid_samples = validIn(*block, grid.samples(inputs.tile));
   const LiftedBlock lifted(inputs, *block);

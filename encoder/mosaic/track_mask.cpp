@@ -61,7 +61,8 @@ double steepestOf(std::span<const RatePoint> points) {
 uint64_t openWithMask(const TaskInputs& inputs, const Block& block, const Region& region,
                       EncodedTrack& track) {
   const std::vector<uint8_t> opening = openingOf(maskOf(inputs, block, region), region.isBase());
-  if (opening.size() == 1 && !region.isBase() && track.codeword.empty()) return 0;
+  const bool coded = track.points.size() > 1;  // a codeword of zeros is worth no packet
+  if (opening.size() == 1 && !region.isBase() && !coded) return 0;
   std::vector<RatePoint>& points = track.points;
   const double worth = kMaskSlope * steepestOf(points) * static_cast<double>(opening.size());
   for (RatePoint& point : points) point.bytes += opening.size();

@@ -18,6 +18,8 @@ namespace tetrakis::tools {
 
 /// Of one file or stream: 32768 x 32768 RGBA.
 inline constexpr uint64_t kMaxSamples = uint64_t{1} << 32;
+/// Samples of a stream, as many as the format allows: memory bounds what is decoded of it.
+inline constexpr uint64_t kMostStreamSamples = uint64_t{1} << 40;
 
 /// TKS_LIMIT for more, and for those that take more memory than there is to read
 /// (memory_limit.hpp): before anything is allocated, as a few bytes can declare any size.

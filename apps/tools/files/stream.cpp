@@ -124,7 +124,7 @@ std::span<const uint8_t> octets(std::span<const std::byte> bytes) {
 
 tks_limits limitsOfTools() {
   tks_limits limits = makeLimits();
-  limits.max_samples = limits.max_texels = kMaxSamples;
+  limits.max_samples = limits.max_texels = kMostStreamSamples;
   limits.max_memory = memoryLimit();
   return limits;
 }
