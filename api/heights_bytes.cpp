@@ -115,7 +115,7 @@ uint64_t HeightsBytes::drawing() const {
 
 /// Which samples of the plane are valid, and which are lifted where that is not the same.
 uint64_t HeightsBytes::wholeMasks() const {
-  if (layers_.region_masks) return regionMaskBytes(header_, view_.window);
+  if (layers_.region_masks) return regionMaskBytes(header_, view_);
   const bool bridged = layers_.bridge > 0 || layers_.late_mask;
   // Of frames: those that arrive and go, and what is valid in one of them.
   const uint64_t masks = header_.frames.none() ? (bridged ? 2 : 1) : header_.frames.count + 6u;

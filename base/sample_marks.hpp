@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// SampleMarks says which samples of a plane exist: all, those of a BitPlane, or, around a window of
-// a plane that is too large for that, those of LevelMarks: at the multiples of 8^g, for g = 0, 1, …,
-// within rectangles that grow as the samples grow sparse. A transform of a window reads no others.
+// SampleMarks says which samples of a plane exist: all, those of a BitPlane, or, for a view of a
+// plane that is too large for that, those of LevelMarks: at the multiples of 8^g, for some g = G, G +
+// 1, …, within rectangles that grow as the samples grow sparse. A transform that makes a window, or
+// a level of 3 G or more, reads no others.
 #pragma once
 
 #include <algorithm>
@@ -32,9 +33,10 @@ class SampleMarks {
   SampleMarks() = default;
   /// null: all exist.
   SampleMarks(SharedBits whole) : whole_(std::move(whole)) {}
-  /// From g = 0 on.
-  explicit SampleMarks(std::vector<LevelMarks> levels)
-      : levels_(std::make_shared<const std::vector<LevelMarks>>(std::move(levels))) {}
+  /// From g = first on.
+  SampleMarks(std::vector<LevelMarks> levels, int first)
+      : levels_(std::make_shared<const std::vector<LevelMarks>>(std::move(levels))),
+        first_(first) {}
 
   bool allExist() const { return whole_ == nullptr && levels_ == nullptr; }
   /// Of a whole plane; null: all exist.
@@ -63,6 +65,7 @@ class SampleMarks {
   std::vector<uint8_t> shown(const View& view) const {
     if (levels_ == nullptr) return shownMarks(whole_, view);
     const LevelMarks& finest = levels_->front();
+    if (!view.window) return finest.marks.bytes({view.level - kLevelLog2 * first_, {}});
     Window window = *view.window;
     window.x -= finest.samples.x;
     window.y -= finest.samples.y;
@@ -75,12 +78,15 @@ class SampleMarks {
     const LevelMarks& marks;
   };
   Found levelOf(int split) const {
-    const int level = std::min(split / kLevelLog2, static_cast<int>(levels_->size()) - 1);
-    return {kLevelLog2 * level, (*levels_)[static_cast<size_t>(level)]};
+    const int last = static_cast<int>(levels_->size()) - 1;
+    const int level = std::min(split / kLevelLog2 - first_, last);
+    assert(level >= 0);
+    return {kLevelLog2 * (first_ + level), (*levels_)[static_cast<size_t>(level)]};
   }
 
   SharedBits whole_;
   std::shared_ptr<const std::vector<LevelMarks>> levels_;
+  int first_ = 0;
 };
 
 }  // namespace tetrakis::inline base

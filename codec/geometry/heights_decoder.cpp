@@ -142,7 +142,7 @@ DecodedGeometry decodeSteps(const TakenLayers& taken, DecodedView& view,
   if (stated.region_masks) {
     view = decodedViewOf(taken, nullptr, view.view);
     return decodeCoefficients(header, joined.codewords,
-                              {decodeRegionMasks(taken, view.view.window), {}, {}}, view.view,
+                              {decodeRegionMasks(taken, view.view), {}, {}}, view.view,
                               {context.threads, kept != nullptr ? &memory.tracks : nullptr});
   }
   const SharedBits valid = validityOf(taken, lifted, context.memory);
@@ -233,7 +233,7 @@ std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const Geo
   const TakenLayers taken = takeApart(codewords, header, layers);
   const ShownLines lines(header, view);
   if (layers.region_masks)
-    return lines.shown(decodeRegionMasks(taken, lines.coded().window).shown(lines.coded()));
+    return lines.shown(decodeRegionMasks(taken, lines.coded()).shown(lines.coded()));
   const SharedBits valid = header.frames.none()
                                ? validityOf(taken, layers.late_mask ? lateLifted(taken) : nullptr)
                                : frameMasksOf(taken)[view.frame];

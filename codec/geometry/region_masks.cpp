@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -42,16 +41,21 @@ Window grown(const Window& window, uint64_t distance, Extent plane) {
           high(window.y + window.height, plane.height) - y};
 }
 
-/// The regions of each group, from the finest on, whose masks a window needs: those that its
-/// coefficients lie in, and those that lie under them.
-std::vector<Window> neededRegions(const std::vector<RegionGroup>& groups, const Window& window,
+/// The finest group of whose samples a view needs the mask.
+size_t finestGroup(const std::vector<RegionGroup>& groups, const View& view) {
+  return std::min(static_cast<size_t>(view.level / kRegionLevels), groups.size());
+}
+
+/// The regions of each group whose masks a view needs: those that its coefficients lie in, and
+/// those that lie above them. None of groups that are finer than the view.
+std::vector<Window> neededRegions(const std::vector<RegionGroup>& groups, const View& view,
                                   Extent plane) {
-  std::vector<Window> needed;
-  Window samples = window;
-  for (size_t g = 0; g < groups.size(); ++g) {
+  std::vector<Window> needed(groups.size());
+  Window samples = view.window.value_or(Window{0, 0, plane.width, plane.height});
+  for (size_t g = finestGroup(groups, view); g < groups.size(); ++g) {
     samples = grown(samples, kReach << (kRegionLevels * g), plane);
-    needed.push_back(groups[g].meeting(samples));
-    samples = groups[g].samplesOf(needed.back());
+    needed[g] = groups[g].meeting(samples);
+    samples = groups[g].samplesOf(needed[g]);
   }
   return needed;
 }
@@ -123,31 +127,32 @@ void takeRegionMasks(TakenLayers& taken) {
   });
 }
 
-SampleMarks decodeRegionMasks(const TakenLayers& taken, const std::optional<Window>& window) {
+SampleMarks decodeRegionMasks(const TakenLayers& taken, const View& view) {
   const Extent plane = taken.header.extent();
   const std::vector<RegionGroup> groups = groupsOf(taken.header);
   const Window all{0, 0, plane.width, plane.height};
-  const std::vector<Window> needed = neededRegions(groups, window.value_or(all), plane);
+  const std::vector<Window> needed = neededRegions(groups, view, plane);
+  const size_t finest = finestGroup(groups, view);
   const Window base = sparse(all, kRegionLevels * static_cast<int>(groups.size()));
   std::vector<LevelMarks> levels = {{base, decodeValidity(taken.validity, base.extent())}};
-  for (size_t g = groups.size(); g-- > 0;)
+  for (size_t g = groups.size(); g-- > finest;)
     levels.push_back(decodeGroup(taken, groups[g], needed[g], kRegionLevels * static_cast<int>(g),
                                  levels.back()));
-  if (!window) return shared(std::move(levels.back().marks));
+  if (view.isWhole()) return shared(std::move(levels.back().marks));
   std::reverse(levels.begin(), levels.end());
-  return SampleMarks(std::move(levels));
+  return SampleMarks(std::move(levels), static_cast<int>(finest));
 }
 
-uint64_t regionMaskBytes(const GeometryHeader& header, const std::optional<Window>& window) {
+uint64_t regionMaskBytes(const GeometryHeader& header, const View& view) {
   const Extent plane = header.extent();
   const std::vector<RegionGroup> groups = groupsOf(header);
   const Window all{0, 0, plane.width, plane.height};
-  const std::vector<Window> needed = neededRegions(groups, window.value_or(all), plane);
+  const std::vector<Window> needed = neededRegions(groups, view, plane);
   const auto sparseBytes = [](const Window& samples, size_t group) {
     return validityBytes(sparse(samples, kRegionLevels * static_cast<int>(group)).extent());
   };
   uint64_t bytes = sparseBytes(all, groups.size());
-  for (size_t g = 0; g < groups.size(); ++g) {
+  for (size_t g = finestGroup(groups, view); g < groups.size(); ++g) {
     const Window samples = groups[g].samplesOf(needed[g]);
     // The last region of a group is its largest in each direction, or as large as the others.
     const Window last = groups[g].samplesOf(groups[g].columns - 1, groups[g].rows - 1);

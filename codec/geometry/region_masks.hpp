@@ -10,7 +10,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "base/sample_marks.hpp"
@@ -23,13 +22,12 @@ namespace tetrakis::inline geometry {
 /// before it; where that is not whole, or is none, the track holds nothing. Safe on any bytes.
 void takeRegionMasks(TakenLayers& taken);
 
-/// The mask around a window: as much as decoding it reads. Nothing: the mask of the whole plane.
-/// Samples of which no byte tells are taken to be as most of those around them. taken: of heights
-/// with region masks. Safe on any bytes.
-SampleMarks decodeRegionMasks(const TakenLayers& taken, const std::optional<Window>& window);
+/// As much of the mask as decoding a view reads. Samples of which no byte tells are taken to be as
+/// most of those around them. taken: of heights with region masks. Safe on any bytes.
+SampleMarks decodeRegionMasks(const TakenLayers& taken, const View& view);
 
 /// What decoding and keeping that mask takes.
-uint64_t regionMaskBytes(const GeometryHeader& header, const std::optional<Window>& window);
+uint64_t regionMaskBytes(const GeometryHeader& header, const View& view);
 
 /// Marks the tracks that the masks of marked ones stand on. needed: of each track of coefficients.
 void addMaskTracks(const GeometryHeader& header, std::vector<bool>& needed);

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "bitstream/stream/header.hpp"
+#include "conformance/reference_decoder.hpp"
 #include "tests/support/mosaic_source.hpp"
 
 namespace tetrakis::test {
@@ -78,6 +79,28 @@ TEST(RegionMasks, WindowsOfPrefixesHoldWhatThePlaneHoldsThere) {
               << static_cast<int>(shape) << ", " << part << " of the bytes, window " << window.x
               << ", " << window.y << ", " << window.width << " x " << window.height;
         }
+      }
+    }
+  }
+}
+
+/// Levels of a stream with masks of regions are those of the reference decoder.
+TEST(RegionMasks, LevelsAreThoseOfTheReference) {
+  for (const VoidShape shape : {VoidShape::kCoast, VoidShape::kSpeckle}) {
+    const Bytes bytes = mosaicWith(shape);
+    for (const double part : {0.1, 0.5, 1.}) {
+      const auto prefix =
+          Prefix(bytes).first(static_cast<size_t>(part * static_cast<double>(bytes.size())));
+      Stream stream(prefix);
+      for (uint32_t level = 0; level <= stream.info().coarsest_level; ++level) {
+        ASSERT_EQ(tks_set_levels(stream.get(), level, 0), TKS_OK);
+        const auto expected = reference::decode(prefix, 1 << 20, {static_cast<int>(level), 0});
+        std::vector<std::byte> heights(expected.heights->size());
+        ASSERT_EQ(tks_decode_heights(stream.get(), heights.data(), heights.size()), TKS_OK);
+        ASSERT_TRUE(std::equal(
+            heights.begin(), heights.end(), expected.heights->begin(), expected.heights->end(),
+            [](std::byte a, uint8_t b) { return std::to_integer<uint8_t>(a) == b; }))
+            << level;
       }
     }
   }
