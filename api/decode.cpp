@@ -96,8 +96,8 @@ Result<std::vector<View>> askedViews(const tks_decoder& decoder, tks_part part,
     whole.frame = decoder.frame;
     return std::vector{whole};
   }
-  if (level > 0) return Status(TKS_USAGE, "Windows are parts of level 0; set the level to 0.");
-  const Extent extent = texture ? header.texture->shown() : header.geometry->shown();
+  const View all = texture ? levelOf(*header.texture, level) : levelOf(*header.geometry, level);
+  const Extent extent = all.extentIn(texture ? header.texture->shown() : header.geometry->shown());
   const bool ring = texture ? header.texture->wavelet.ring : header.geometry->wavelet.ring;
   const Window asked{window->x, window->y, window->width, window->height};
   // A turn from the window's first column on.
@@ -109,8 +109,18 @@ Result<std::vector<View>> askedViews(const tks_decoder& decoder, tks_part part,
                                  " samples and hold one or more.");
   std::vector<View> views;
   for (const Window& each : partsRound(asked, extent.width))
-    views.push_back({0, each, decoder.frame});
+    views.push_back({level, each, decoder.frame, all.patch_rows});
   return views;
+}
+
+View decodedFor(const StreamHeader& header, tks_part part, const View& view) {
+  if (!view.window || view.level == 0) return view;
+  const auto decoded = [&](const auto& component) {
+    const bool lifted = !component.direct() && component.wavelet.forest == nullptr &&
+                        component.frames.none() && component.repeats.none();
+    return lifted ? view : View{view.level, {}, view.frame, view.patch_rows};
+  };
+  return part == TKS_PART_TEXTURE ? decoded(*header.texture) : decoded(*header.geometry);
 }
 
 DecodedHeights decodeHeights(tks_decoder& decoder, const View& asked) {
@@ -168,6 +178,20 @@ struct ViewPlaces {
 
 using Give = std::function<Status(const View& view, std::byte* out)>;
 
+/// Writes the window of a view that is cut out of its level.
+Status giveCut(const View& level, const View& view, Extent shown, size_t place_bytes,
+               const Give& give, std::byte* out) {
+  const Extent all = level.extentIn(shown);
+  std::vector<std::byte> values(all.samples() * place_bytes);
+  if (Status status = give(level, values.data()); !status.ok()) return status;
+  const auto& [x, y, width, height] = *view.window;
+  for (size_t row = 0; row < height; ++row) {
+    const size_t from = ((y + row) * all.width + x) * place_bytes;
+    std::copy_n(values.data() + from, width * place_bytes, out + row * width * place_bytes);
+  }
+  return {};
+}
+
 /// Writes what a call asks for, of so many bytes a place, one view after the other.
 Status giveViews(tks_decoder& decoder, const Call& call, Extent shown, size_t place_bytes,
                  const Give& give) {
@@ -185,7 +209,12 @@ Status giveViews(tks_decoder& decoder, const Call& call, Extent shown, size_t pl
     const size_t copied = alone ? 0 : places.row_bytes * rows;
     if (Status s = checkMemory(decoder, {call.part, view, 0}, copied); !s.ok()) return s;
     std::vector<std::byte> part(copied);
-    if (Status s = give(view, alone ? to : part.data()); !s.ok()) return s;
+    std::byte* const at = alone ? to : part.data();
+    const View decoded = decodedFor(decoder.parsed.header, call.part, view);
+    const Status given = decoded.window == view.window
+                             ? give(view, at)
+                             : giveCut(decoded, view, shown, place_bytes, give, at);
+    if (!given.ok()) return given;
     if (!alone) places.put(part.data(), to);
     to += places.row_bytes;
   }

@@ -123,10 +123,15 @@ Status lost();
 
 /// What a call shows of the component that a part belongs to: the window, or, without one, all of
 /// the level that is set for the component; two views, from left to right, of a window that reaches
-/// across the seam of a cylinder. TKS_USAGE with a sentence unless the stream holds the component,
-/// the level is 0 or there is no window, and the window lies inside.
+/// across the seam of a cylinder. TKS_USAGE with a sentence unless the stream holds the component
+/// and the window lies inside of the level.
 Result<std::vector<View>> askedViews(const tks_decoder& decoder, tks_part part,
                                      const tks_window* window);
+
+/// What is decoded for such a view: the view, or all of its level, out of which it is then cut. The
+/// windows of coarser levels are cut out of drawings, stored samples, forests, frames and planes
+/// with repeated lines.
+View decodedFor(const StreamHeader& header, tks_part part, const View& view);
 
 /// Whether the stream is there to its end.
 bool isComplete(const tks_decoder& decoder);

@@ -22,6 +22,17 @@ uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks) {
 
 namespace {
 
+/// What a view of heights, or of a texture, takes as the caller gets it; floats of heights.
+uint64_t viewBytes(const StreamHeader& header, const MemoryRequest& request) {
+  if (request.part != TKS_PART_TEXTURE)
+    return std::max(sizeof(float),
+                    tks_sample_bytes(static_cast<tks_sample>(header.geometry->sample))) *
+           area(request.view.extentIn(header.geometry->shown()));
+  const TextureHeader& texture = *header.texture;
+  return tks_sample_bytes(static_cast<tks_sample>(texture.sample)) * texture.channels *
+         area(request.view.extentIn(texture.shown()));
+}
+
 /// What a call takes beside the codewords that it joins.
 uint64_t decodingBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   if (request.part == TKS_PART_TEXTURE) {
@@ -50,7 +61,12 @@ uint64_t joinedBytes(const tks_decoder& decoder, const MemoryRequest& request) {
 }  // namespace
 
 uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
-  return decodingBytes(decoder, request) + joinedBytes(decoder, request);
+  const StreamHeader& header = decoder.parsed.header;
+  MemoryRequest decoded = request;
+  decoded.view = decodedFor(header, request.part, request.view);
+  const bool cut = decoded.view.window != request.view.window;
+  return decodingBytes(decoder, decoded) + joinedBytes(decoder, decoded) +
+         (cut ? viewBytes(header, decoded) : 0);
 }
 
 // Refuses calls that would take more than limits.max_memory, in a sentence.
@@ -89,17 +105,6 @@ uint64_t heldBytes(const tks_decoder& decoder) {
 uint64_t saturatingSum(uint64_t a, uint64_t b) {
   return a > std::numeric_limits<uint64_t>::max() - b ? std::numeric_limits<uint64_t>::max()
                                                       : a + b;
-}
-
-/// What a view of heights, or of a texture, takes as the caller gets it; floats of heights.
-uint64_t viewBytes(const StreamHeader& header, const MemoryRequest& request) {
-  if (request.part != TKS_PART_TEXTURE)
-    return std::max(sizeof(float),
-                    tks_sample_bytes(static_cast<tks_sample>(header.geometry->sample))) *
-           area(request.view.extentIn(header.geometry->shown()));
-  const TextureHeader& texture = *header.texture;
-  return tks_sample_bytes(static_cast<tks_sample>(texture.sample)) * texture.channels *
-         area(request.view.extentIn(texture.shown()));
 }
 
 /// What tks_check_memory is asked about.

@@ -144,7 +144,8 @@ Result<std::vector<tks_range>> neededRanges(tks_decoder& decoder, tks_part part,
   std::vector<bool> needed;
   for (const View& view : *views) {
     if (Status status = checkMemory(decoder, {part, view, 0}); !status.ok()) return status;
-    const std::vector<bool> of_view = neededTracks(header, component, view);
+    const std::vector<bool> of_view =
+        neededTracks(header, component, decodedFor(header, part, view));
     needed.resize(of_view.size());
     std::transform(needed.begin(), needed.end(), of_view.begin(), needed.begin(),
                    std::logical_or<bool>());

@@ -61,15 +61,16 @@ class SampleMarks {
     if (column >= marks.samples.width || row >= marks.samples.height) return 0;
     return marks.marks.every(log2 - shift, column, row);
   }
-  /// Those that a view shows, a byte each; empty: all exist. A view of levels has no window.
+  /// Those that a view shows, a byte each; empty: all exist.
   std::vector<uint8_t> shown(const View& view) const {
     if (levels_ == nullptr) return shownMarks(whole_, view);
     const LevelMarks& finest = levels_->front();
-    if (!view.window) return finest.marks.bytes({view.level - kLevelLog2 * first_, {}});
-    Window window = *view.window;
-    window.x -= finest.samples.x;
-    window.y -= finest.samples.y;
-    return finest.marks.bytes({0, window});
+    View here{view.level - kLevelLog2 * first_, view.window};
+    if (here.window) {  // of samples that are 2^level apart, as the first one is from 0
+      here.window->x -= finest.samples.x >> here.level;
+      here.window->y -= finest.samples.y >> here.level;
+    }
+    return finest.marks.bytes(here);
   }
 
  private:

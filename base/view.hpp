@@ -31,10 +31,10 @@ struct Window {
   bool operator==(const Window&) const = default;
 };
 
-/// The default view shows the whole plane. A view with a window has level 0.
+/// The default view shows the whole plane.
 struct View {
   int level = 0;                 ///< the samples at multiples of 2^level in x and y are shown
-  std::optional<Window> window;  ///< only the samples in the window are shown
+  std::optional<Window> window;  ///< of these only those in the window, in numbers of them
   uint32_t frame = 0;            ///< of a component in frames, the one that is shown
   uint32_t patch_rows = 0;       ///< of patches that lie one below the other, each of which has
                                  ///< levels of its own; 0: the plane is one patch
@@ -42,16 +42,17 @@ struct View {
   bool isWhole() const { return level == 0 && !window; }
   /// How many samples of a plane of that size are shown.
   Extent extentIn(Extent plane) const {
-    assert(!window || (level == 0 && window->isInside(plane)));
+    assert(!window || window->isInside(View{level, {}, 0, patch_rows}.extentIn(plane)));
     if (window) return window->extent();
     const uint32_t of_patch = patch_rows > 0 ? patch_rows : plane.height;
     return {shownOf(plane.width), plane.height / of_patch * shownOf(of_patch)};
   }
   /// The column and the row of the plane that the first shown sample lies in.
-  uint32_t firstColumn() const { return window ? window->x : 0; }
-  uint32_t firstRow() const { return window ? window->y : 0; }
+  uint32_t firstColumn() const { return window ? window->x << level : 0; }
+  uint32_t firstRow() const { return window ? window->y << level : 0; }
   /// The row of the plane that a shown row lies in.
   uint32_t rowOf(uint32_t shown) const {
+    assert(!window || patch_rows == 0 || level == 0);
     if (level == 0 || patch_rows == 0) return firstRow() + (shown << level);
     const uint32_t of_patch = shownOf(patch_rows);
     return shown / of_patch * patch_rows + (shown % of_patch << level);

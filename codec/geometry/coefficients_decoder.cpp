@@ -21,7 +21,8 @@ ShownSignificance::ShownSignificance(const Pyramid& pyramid, const View& view, s
     : pyramid_(pyramid),
       level_(view.level),
       low_(pyramid.low(view.level)),
-      shown_(view.window.value_or(Window{0, 0, low_.extent.width, low_.extent.height})),
+      shown_low_(pyramid, view),
+      shown_(shown_low_.window),
       is_window_(view.window.has_value()),
       marks_(shown_.extent().samples()),
       quiet_(tracks, pyramid.levels() - view.level) {}
@@ -42,6 +43,8 @@ void ShownSignificance::giveTo(DecodedGeometry& geometry) {
   if (!is_window_) {
     geometry.quiet_levels = static_cast<uint32_t>(*std::min_element(quiet_.begin(), quiet_.end()));
     marks_.resize(thin(pyramid_, level_, std::span(marks_)));
+  } else {
+    shown_low_.thin(marks_);
   }
   geometry.significant = std::move(marks_);
 }

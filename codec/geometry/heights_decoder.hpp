@@ -27,6 +27,7 @@
 #include "codec/wavelet/band_plan.hpp"
 #include "codec/wavelet/pyramid.hpp"
 #include "codec/wavelet/region_decoder.hpp"
+#include "codec/wavelet/synthesis/view_synthesis.hpp"
 
 namespace tetrakis::inline geometry {
 
@@ -70,6 +71,7 @@ class ShownSignificance {
   const Pyramid& pyramid_;
   int level_;
   const LowBand& low_;
+  ShownLow shown_low_;
   Window shown_;  ///< samples of the low band
   bool is_window_;
   std::vector<uint8_t> marks_;  ///< of those

@@ -51,7 +51,11 @@ size_t finestGroup(const std::vector<RegionGroup>& groups, const View& view) {
 std::vector<Window> neededRegions(const std::vector<RegionGroup>& groups, const View& view,
                                   Extent plane) {
   std::vector<Window> needed(groups.size());
-  Window samples = view.window.value_or(Window{0, 0, plane.width, plane.height});
+  Window samples{0, 0, plane.width, plane.height};
+  if (view.window) {
+    samples = {view.firstColumn(), view.firstRow(), ((view.window->width - 1) << view.level) + 1,
+               ((view.window->height - 1) << view.level) + 1};
+  }
   for (size_t g = finestGroup(groups, view); g < groups.size(); ++g) {
     samples = grown(samples, kReach << (kRegionLevels * g), plane);
     needed[g] = groups[g].meeting(samples);

@@ -38,7 +38,7 @@ void PlaneSynthesis::put(const Band& band, int fraction_bits, const BandPart& pa
 
 std::vector<int32_t> PlaneSynthesis::run(uint32_t threads) {
   inverseWavelet(spec_, *pyramid_, values_, {level_, threads});
-  normalise();
+  takeOutGain(spec_, *pyramid_, level_, values_);
   values_.resize(thin(*pyramid_, level_, std::span(values_)));
   return std::move(values_);
 }
@@ -51,22 +51,22 @@ std::vector<int32_t> PlaneSynthesis::run(uint32_t threads, SynthesisMemory& memo
   return memory.samples;
 }
 
-/// Takes the gain of the finer levels out of the low band.
-void PlaneSynthesis::normalise() {
+void takeOutGain(const WaveletSpec& spec, const Pyramid& pyramid, int level,
+                 std::span<int32_t> values) {
   constexpr int kShift = 30;
   int64_t weight = int64_t{1} << kShift;
   int halvings = 0;
-  for (int l = 1; l <= level_; ++l) {
-    const int splits = pyramid_->splitsX(l) + pyramid_->splitsY(l);
+  for (int l = 1; l <= level; ++l) {
+    const int splits = pyramid.splitsX(l) + pyramid.splitsY(l);
     for (int i = 0; i < splits; ++i) {
-      weight = (weight * inverseGain(spec_.filter(l)) + (int64_t{1} << (kShift - 1))) >> kShift;
+      weight = (weight * inverseGain(spec.filter(l)) + (int64_t{1} << (kShift - 1))) >> kShift;
     }
-    halvings += spec_.doubles(l);
+    halvings += spec.doubles(l);
   }
   const int shift = kShift + halvings;
   if (weight == int64_t{1} << shift) return;
   const int64_t half = int64_t{1} << (shift - 1);
-  for (int32_t& v : values_) v = static_cast<int32_t>((v * weight + half) >> shift);
+  for (int32_t& v : values) v = static_cast<int32_t>((v * weight + half) >> shift);
 }
 
 }  // namespace tetrakis::inline synthesis

@@ -32,15 +32,26 @@ WindowSynthesis::Axis WindowSynthesis::rowAxisOf(Range needed, int level) const 
   return axisOf(needed, pyramid_->splitsX(level), size, reach);
 }
 
-WindowSynthesis::WindowSynthesis(const WaveletSpec& spec, const Pyramid& pyramid,
-                                 const Window& window)
+ShownLow::ShownLow(const Pyramid& pyramid, const View& view) {
+  const LowBand& low = pyramid.low(view.level);
+  window = view.window.value_or(Window{0, 0, low.extent.width, low.extent.height});
+  if (!view.window) return;
+  const int finer_x = view.level - low.splits_x, finer_y = view.level - low.splits_y;
+  step_x <<= finer_x;
+  step_y <<= finer_y;
+  window = {window.x << finer_x, window.y << finer_y, (window.width - 1) * step_x + 1,
+            (window.height - 1) * step_y + 1};
+}
+
+WindowSynthesis::WindowSynthesis(const WaveletSpec& spec, const Pyramid& pyramid, const View& view)
     : spec_(spec),
       pyramid_(&pyramid),
-      window_(window),
-      ll_x_{window.x, window.x + window.width},
-      ll_y_{window.y, window.y + window.height} {
-  assert(window.isInside(pyramid.plane()));
-  for (int level = 1; level <= pyramid.levels(); ++level) {
+      level_(view.level),
+      shown_(pyramid, view),
+      ll_x_{shown_.window.x, shown_.window.x + shown_.window.width},
+      ll_y_{shown_.window.y, shown_.window.y + shown_.window.height} {
+  assert(shown_.window.isInside(pyramid.low(level_).extent));
+  for (int level = level_ + 1; level <= pyramid.levels(); ++level) {
     const uint32_t height = pyramid.low(level - 1).extent.height;
     const uint32_t reach = synthesisReach(spec_.filter(level));
     Level block{rowAxisOf(ll_x_, level), axisOf(ll_y_, pyramid.splitsY(level), height, reach), {}};
@@ -65,7 +76,8 @@ uint64_t WindowSynthesis::coefficients() const {
 /// of the largest block; of each row or column that is lifted, its halves and their masks.
 uint64_t WindowSynthesis::workBytes(uint32_t, bool masked) const {
   constexpr uint64_t kAround = 1024;  // what a filter reaches beyond a row, and more
-  uint64_t largest_block = 0, largest_part = window_.extent().samples(), widest = window_.width;
+  uint64_t largest_block = 0, largest_part = shown_.window.extent().samples(),
+           widest = shown_.window.width;
   for (const Level& level : levels_) {
     largest_block = std::max<uint64_t>(largest_block, level.samples());
     largest_part = std::max<uint64_t>(largest_part, level.low().extent().samples());
@@ -77,6 +89,7 @@ uint64_t WindowSynthesis::workBytes(uint32_t, bool masked) const {
 
 WindowSynthesis::Target WindowSynthesis::targetOf(const Subband& subband) const {
   if (subband.orientation == Orientation::kLL) return {ll_x_, ll_y_, 0, ll_x_.size()};
+  if (subband.level <= level_) return {{0, 0}, {0, 0}, 0, 0};
   const Level& level = at(subband.level);
   const size_t width = level.x.block.size();
   return {level.x.wanted(subband.isHighX()), level.y.wanted(subband.isHighY()),
@@ -86,13 +99,14 @@ WindowSynthesis::Target WindowSynthesis::targetOf(const Subband& subband) const 
 
 int32_t* WindowSynthesis::valuesOf(const Subband& subband) {
   if (subband.orientation == Orientation::kLL) return ll_.data();
-  return levels_[static_cast<size_t>(subband.level - 1)].values.data();
+  return at(subband.level).values.data();
 }
 
 /// The coarsest of its levels reaches farthest.
 bool WindowSynthesis::mayNeed(const Region& region) const {
   const int level = std::min(region.last_level, pyramid_->levels());
   if (region.isBase() || level < region.first_level) return true;
+  if (level <= level_) return false;
   const Window low = at(level).low();
   const LowBand& band = pyramid_->low(level);
   const auto meets = [](uint32_t begin, uint32_t size, int splits, uint32_t first, uint32_t end) {
@@ -135,7 +149,7 @@ std::span<int32_t> WindowSynthesis::row(const Subband& subband, uint32_t row) {
 }
 
 void WindowSynthesis::copyLow(const std::vector<int32_t>& low, int number) {
-  Level& level = levels_[static_cast<size_t>(number - 1)];
+  Level& level = at(number);
   const Window part = level.low();
   const size_t width = level.x.block.size();
   const size_t pitch = level.y.split() ? 2 * width : width;
@@ -162,8 +176,8 @@ std::vector<int32_t> WindowSynthesis::run(uint32_t) {
   std::vector<int32_t> low = std::move(ll_);
   std::optional<HeldLadder> ladder;
   if (!pyramid_->held().none()) ladder.emplace(spec_, *pyramid_);
-  for (int number = pyramid_->levels(); number >= 1; --number) {
-    Level& level = levels_[static_cast<size_t>(number - 1)];
+  for (int number = pyramid_->levels(); number > level_; --number) {
+    Level& level = at(number);
     copyLow(low, number);
     const Window block = level.block();
     const HeldLevel states = ladder ? ladder->level(number) : HeldLevel{};
@@ -175,12 +189,14 @@ std::vector<int32_t> WindowSynthesis::run(uint32_t) {
     whole.held = held ? &*held : nullptr;
     transformOf(number).run(whole);
     // What the next finer level wants of it, or the window.
-    Window wanted = number > 1 ? at(number - 1).low() : window_;
+    Window wanted = number > level_ + 1 ? at(number - 1).low() : shown_.window;
     wanted.x -= block.x;
     wanted.y -= block.y;
     low = slice(std::span<const int32_t>(level.values), block.extent(), {0, wanted});
     level.values = std::vector<int32_t>();  // {} would keep its memory
   }
+  takeOutGain(spec_, *pyramid_, level_, low);
+  shown_.thin(low);
   return low;
 }
 

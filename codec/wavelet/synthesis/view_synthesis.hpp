@@ -16,8 +16,9 @@
 
 namespace tetrakis::inline synthesis {
 
-// WindowSynthesis is the inverse wavelet of a window. It gives the samples that the inverse wavelet
-// of the whole plane would give there, from the coefficients that reach the window. At every level
+// WindowSynthesis is the inverse wavelet of a window of the plane, or of the samples of one of its
+// levels. It gives the samples that the inverse wavelet of the whole plane, or of the level, would
+// give there, from the coefficients that reach the window. At every level
 // the window grows by the reach of the filter and then halves, so the work follows the size of the
 // window and not that of the plane. Of a plane whose columns go round, a level whose block would
 // reach across the seam takes whole rows: those are rings.
@@ -26,10 +27,35 @@ namespace tetrakis::inline synthesis {
 // a complete track has, because a window cannot see whether all tracks are complete; and sums
 // beside voids always have 64 bits.
 
+/// What a view shows of the low band of its level, whose samples lie closer together where a side
+/// is too short to be split so often.
+struct ShownLow {
+  Window window;                    ///< of the low band, from the first shown sample to the last
+  uint32_t step_x = 1, step_y = 1;  ///< from one shown sample to the next
+
+  ShownLow(const Pyramid& pyramid, const View& view);
+
+  /// Keeps the shown ones of the values of the window.
+  template <class T>
+  void thin(std::vector<T>& values) const {
+    if (step_x == 1 && step_y == 1) return;
+    size_t count = 0;
+    for (uint32_t y = 0; y < window.height; y += step_y)
+      for (uint32_t x = 0; x < window.width; x += step_x)
+        values[count++] = values[size_t{y} * window.width + x];
+    values.resize(count);
+  }
+};
+
+/// Takes the gain that the finer levels give to constants out of values of the low band of a level.
+void takeOutGain(const WaveletSpec& spec, const Pyramid& pyramid, int level,
+                 std::span<int32_t> values);
+
 /// The functions are those of ViewSynthesis, which says what they do.
 class WindowSynthesis {
  public:
-  WindowSynthesis(const WaveletSpec& spec, const Pyramid& pyramid, const Window& window);
+  /// view: with a window.
+  WindowSynthesis(const WaveletSpec& spec, const Pyramid& pyramid, const View& view);
 
   void allocate();
   uint64_t coefficients() const;
@@ -81,7 +107,8 @@ class WindowSynthesis {
   static Axis axisOf(Range needed, bool splits, uint32_t size, uint32_t reach);
   /// Of rows, which may be rings.
   Axis rowAxisOf(Range needed, int level) const;
-  const Level& at(int level) const { return levels_[static_cast<size_t>(level - 1)]; }
+  const Level& at(int level) const { return levels_[static_cast<size_t>(level - level_ - 1)]; }
+  Level& at(int level) { return levels_[static_cast<size_t>(level - level_ - 1)]; }
   Target targetOf(const Subband& subband) const;
   int32_t* valuesOf(const Subband& subband);
   void copyLow(const std::vector<int32_t>& low, int level);
@@ -90,8 +117,9 @@ class WindowSynthesis {
 
   WaveletSpec spec_;
   const Pyramid* pyramid_;
-  Window window_;
-  std::vector<Level> levels_;  ///< [l - 1]: what level l works on
+  int level_;
+  ShownLow shown_;
+  std::vector<Level> levels_;  ///< [l - level_ - 1]: what level l works on
   Range ll_x_, ll_y_;
   std::vector<int32_t> ll_;
 };
@@ -133,8 +161,6 @@ class PlaneSynthesis {
   std::vector<int32_t> run(uint32_t threads, SynthesisMemory& memory);
 
  private:
-  void normalise();
-
   WaveletSpec spec_;
   const Pyramid* pyramid_;
   int level_;
@@ -223,7 +249,7 @@ class ViewSynthesis {
   using Kernel = std::variant<PlaneSynthesis, WindowSynthesis>;
 
   static Kernel kernelOf(const WaveletSpec& spec, const Pyramid& pyramid, const View& view) {
-    if (view.window) return WindowSynthesis(spec, pyramid, *view.window);
+    if (view.window) return WindowSynthesis(spec, pyramid, view);
     return PlaneSynthesis(spec, pyramid, view.level);
   }
   Kernel kernel_;
