@@ -268,11 +268,15 @@ Status giveValidity(tks_decoder& decoder, const Call& call) {
   const Extent shown = geometry ? geometry->shown() : Extent{};
   return giveViews(decoder, call, shown, 1, [&](const View& view, void* to) -> Status {
     std::vector<uint8_t> valid;
-    if (decoder.heights) {
+    if (decoder.heights && !view.window) {
       valid = decoder.heights->geometry.valid;
     } else if (!decoder.packets.payload.nothingOf(Component::kGeometry)) {
-      valid = decodeValidityLayer(*geometry, decoder.parsed.header.layers,
-                                  decoder.packets.codewordsOf(Component::kGeometry, {true}), view);
+      const StreamHeader& header = decoder.parsed.header;
+      const std::vector<bool> tracks = header.layers.region_masks
+                                           ? neededTracks(header, Component::kGeometry, view)
+                                           : std::vector<bool>{true};
+      valid = decodeValidityLayer(*geometry, header.layers,
+                                  decoder.packets.codewordsOf(Component::kGeometry, tracks), view);
     }
     auto* const out = static_cast<uint8_t*>(to);
     if (valid.empty()) {
@@ -390,6 +394,13 @@ tks_status tks_decode_surface_window(tks_decoder* decoder, const tks_window* win
 tks_status tks_decode_validity(tks_decoder* decoder, uint8_t* out, size_t count) {
   return tetrakis::keeping(decoder, [&] {
     return tetrakis::giveValidity(*decoder, {TKS_PART_VALIDITY, nullptr, false, out, count});
+  });
+}
+
+tks_status tks_decode_validity_window(tks_decoder* decoder, const tks_window* window, uint8_t* out,
+                                      size_t count) {
+  return tetrakis::keeping(decoder, [&] {
+    return tetrakis::giveValidity(*decoder, {TKS_PART_VALIDITY, window, true, out, count});
   });
 }
 

@@ -114,8 +114,7 @@ Result<std::vector<View>> requestedViews(const tks_decoder& decoder, tks_part pa
     return Status(TKS_USAGE, "Unknown part of a stream.");
   const Result<std::vector<View>> whole = askedViews(decoder, part, nullptr);
   if (!whole.ok() || window == nullptr) return whole;
-  if (part != TKS_PART_HEIGHTS && part != TKS_PART_TEXTURE)
-    return Status(TKS_USAGE, "Only heights and textures have windows.");
+  if (part > TKS_PART_TEXTURE) return Status(TKS_USAGE, "Meshes have no windows.");
   return askedViews(decoder, part, window);
 }
 

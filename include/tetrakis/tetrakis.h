@@ -712,21 +712,24 @@ tks_status tks_decode_validity(tks_decoder* decoder, uint8_t* out, size_t count)
 /* Writes texture_width * texture_height * texture_channels samples of info.texture_sample. */
 tks_status tks_decode_texture(tks_decoder* decoder, void* out, size_t bytes);
 
-/* A rectangle of samples, or of texels. */
+/* A rectangle of samples, or of texels, of the level that is set. */
 typedef struct tks_window {
   uint32_t x, y, width, height;
 } tks_window;
 
-/* These write what tks_decode_heights, _surface and _texture would write in the window, and nothing
- * else: window->width * window->height samples, row by row. The window must lie inside and hold a
- * sample, else TKS_USAGE. One on a cylinder may reach across its seam: it begins inside, and is no
- * wider than the raster. Of a stream in regions they decode only those that reach the window; with
- * corrections (of a largest error, or of samples that no step restores) those that reach the
- * regions that it meets. */
+/* These write what tks_decode_heights, _surface, _validity and _texture would write in the window,
+ * and nothing else: window->width * window->height samples, row by row. The window must lie inside
+ * of the level that is set and hold a sample, else TKS_USAGE. One on a cylinder may reach across
+ * its seam: it begins inside, and is no wider than the raster. Of a stream in regions they decode
+ * only those that reach the window; with corrections (of a largest error, or of samples that no
+ * step restores) those that reach the regions that it meets. Windows of levels above 0 are cut out
+ * of the level where there are drawings, forests, frames or repeated lines, and take as long. */
 tks_status tks_decode_heights_window(tks_decoder* decoder, const tks_window* window, void* out,
                                      size_t bytes);
 tks_status tks_decode_surface_window(tks_decoder* decoder, const tks_window* window, float* out,
                                      size_t count);
+tks_status tks_decode_validity_window(tks_decoder* decoder, const tks_window* window, uint8_t* out,
+                                      size_t count);
 tks_status tks_decode_texture_window(tks_decoder* decoder, const tks_window* window, void* out,
                                      size_t bytes);
 

@@ -322,6 +322,9 @@ class Decoder {
   Result<std::vector<float>> surface(const tks_window& window) {
     return part<float>(TKS_PART_HEIGHTS, window, 1, tks_decode_surface_window);
   }
+  Result<std::vector<uint8_t>> validity(const tks_window& window) {
+    return part<uint8_t>(TKS_PART_VALIDITY, window, 1, tks_decode_validity_window);
+  }
   Result<std::vector<std::byte>> texture(const tks_window& window) {
     return part<std::byte>(TKS_PART_TEXTURE, window, texelBytes(), tks_decode_texture_window);
   }

@@ -38,7 +38,10 @@ std::vector<Called> heightCalls() {
              return tks_decode_surface_window(d.decoder, &kWindow, out, 20);
            }},
           {"tks_decode_validity",
-           [=](Desk& d) { return tks_decode_validity(d.decoder, d.out.data(), samples(d.info)); }}};
+           [=](Desk& d) { return tks_decode_validity(d.decoder, d.out.data(), samples(d.info)); }},
+          {"tks_decode_validity_window", [](Desk& d) {
+             return tks_decode_validity_window(d.decoder, &kWindow, d.out.data(), 20);
+           }}};
 }
 
 std::vector<Called> textureCalls() {

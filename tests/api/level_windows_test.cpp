@@ -23,9 +23,9 @@ struct Level {
 
   tks_status decode(tks_decoder* decoder, const tks_window* window, std::vector<std::byte>& out) {
     const bool texture = part == TKS_PART_TEXTURE;
-    out.resize((window != nullptr ? size_t{window->width} * window->height
-                                  : size_t{width} * height) *
-               bytes);
+    out.resize(
+        (window != nullptr ? size_t{window->width} * window->height : size_t{width} * height) *
+        bytes);
     if (window == nullptr)
       return texture ? tks_decode_texture(decoder, out.data(), out.size())
                      : tks_decode_heights(decoder, out.data(), out.size());

@@ -48,6 +48,12 @@ std::vector<int16_t> decodedWindow(Stream& stream, const tks_window& window) {
   return samples;
 }
 
+std::vector<uint8_t> validIn(Stream& stream, const tks_window& window) {
+  std::vector<uint8_t> valid(size_t{window.width} * window.height);
+  EXPECT_EQ(tks_decode_validity_window(stream.get(), &window, valid.data(), valid.size()), TKS_OK);
+  return valid;
+}
+
 std::vector<int16_t> cut(const std::vector<int16_t>& plane, const tks_window& window) {
   std::vector<int16_t> samples;
   for (uint32_t y = window.y; y < window.y + window.height; ++y) {
@@ -147,8 +153,28 @@ TEST(RegionMasks, RangesOfAWindowGiveTheWindow) {
       }
       tks_free_ranges(&ranges);
       ASSERT_EQ(decodedWindow(stream, window), cut(whole, window)) << static_cast<int>(shape);
+      ASSERT_EQ(validIn(stream, window), validIn(all, window));
     }
     EXPECT_TRUE(shape != VoidShape::kCoast || fetched < bytes.size());
+  }
+}
+
+/// What is valid is what is not the value of voids, in windows and levels as well.
+TEST(RegionMasks, ValidityIsThatOfTheSamples) {
+  const Bytes bytes = mosaicWith(VoidShape::kCoast);
+  Stream stream((Prefix(bytes)));
+  for (uint32_t level = 0; level <= stream.info().coarsest_level; ++level) {
+    ASSERT_EQ(tks_set_levels(stream.get(), level, 0), TKS_OK);
+    tks_info info = {};
+    info.size = sizeof info;
+    ASSERT_EQ(tks_get_info(stream.get(), &info), TKS_OK);
+    const tks_window all{0, 0, info.width, info.height};
+    const std::vector<uint8_t> valid = validIn(stream, all);
+    const std::vector<int16_t> samples = decodedWindow(stream, all);
+    for (size_t i = 0; i < valid.size(); ++i) ASSERT_EQ(valid[i] == 0, samples[i] == 1) << level;
+    std::vector<uint8_t> whole(valid.size());
+    ASSERT_EQ(tks_decode_validity(stream.get(), whole.data(), whole.size()), TKS_OK);
+    ASSERT_EQ(whole, valid);
   }
 }
 

@@ -67,7 +67,7 @@ class Dataset final : public GDALPamDataset {
   /// Pixels of this raster, channels interleaved. False after a reported error.
   bool read(const tks_window& window, std::vector<std::byte>& out);
   /// Whether small parts take much less time than all.
-  bool readsWindows() const { return finerLevel() == 0 && source_->regionSide() != 0; }
+  bool readsWindows() const { return source_->readsWindows(finerLevel()); }
   BlockCache& blocks() { return blocks_; }
   /// Reads rows [top, bottom) with GDAL's own means; the last one says how to report progress.
   using ReadStrip = std::function<CPLErr(int, int, GDALRasterIOExtraArg*)>;

@@ -56,7 +56,7 @@ bool Dataset::makeOverview(const tks_window& part, std::byte* out) {
   std::vector<std::byte> window;
   const std::byte* pixels = nullptr;
   if (readsWindows()) {
-    if (!source_->window(area, window)) return false;
+    if (!source_->window(finer, area, window)) return false;
     pixels = window.data();
   } else {
     pixels = source_->level(finer);
@@ -72,7 +72,7 @@ bool Dataset::makeOverview(const tks_window& part, std::byte* out) {
 bool Dataset::read(const tks_window& window, std::vector<std::byte>& out) {
   try {
     if (source_->cubeDepth() > 0) return source_->gridWindow(level_, window, out);
-    if (level_ == 0 && readsWindows()) return source_->window(window, out);
+    if (level_ == 0 && readsWindows()) return source_->window(0, window, out);
     const size_t pixel = source_->pixelBytes(), row = window.width * pixel;
     if (level_ == 0) {
       const std::byte* const pixels = source_->level(0);

@@ -264,7 +264,7 @@ bool Source::load(uint32_t level, const tks_window* window) {
   if (!decoder_ && !reopen(std::min(first, info_.header_bytes))) return false;
   // Of a shorter file the first bytes are asked for, not what a window would need of all.
   if (!complete() || info_.index == TKS_INDEX_NONE) return reopen(first);
-  const bool shares = level > 0 && apart;
+  const bool shares = level > 0 && apart && window == nullptr;
   if (opened_ == first && !shares) return true;
   auto ranges = neededRanges(level, window);
   if (!ranges) return false;

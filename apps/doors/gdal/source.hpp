@@ -102,8 +102,10 @@ class Source {
   /// a small map takes a small download), or those that it needs, where these are fewer or no
   /// prefix shows all ground.
   const std::byte* level(uint32_t level);
-  /// A part of level 0.
-  bool window(const tks_window& window, std::vector<std::byte>& out);
+  /// Whether parts of a level are decoded for themselves: of level 0, and of those that are large.
+  bool readsWindows(uint32_t level) const;
+  /// A part of a level.
+  bool window(uint32_t level, const tks_window& window, std::vector<std::byte>& out);
   /// A part of the grid of a cube, or of the coarser grid of a level.
   bool gridWindow(uint32_t level, const tks_window& window, std::vector<std::byte>& out);
 
@@ -130,7 +132,7 @@ class Source {
   bool read(std::span<const tks_range> ranges);
   /// How many bytes of the stream show a level well enough for the overview made of it.
   uint64_t bytesOfOverviewAbove(uint32_t level) const;
-  /// Opens what a level takes, or, at level 0, a window of it (null: all).
+  /// Opens what a level takes, or a window of it (null: all).
   bool load(uint32_t level, const tks_window* window);
   /// What a level or a window takes, by the index. Nothing after a reported error.
   std::optional<std::vector<tks_range>> neededRanges(uint32_t level, const tks_window* window);
@@ -140,7 +142,7 @@ class Source {
   /// Whether that took anything off.
   static bool cutShares(std::vector<tks_range>& ranges, uint64_t bytes);
   bool failed(tks_status status);
-  /// All pixels of the level that is set, or a window of level 0.
+  /// All pixels of the level that is set, or a window of it.
   bool decode(const tks_window* window, uint64_t pixels, std::vector<std::byte>& out);
   tks_status decodeFrame(uint32_t frame, const tks_window* window, std::span<std::byte> out);
   bool decodeLevel(uint32_t level, std::vector<std::byte>& out);

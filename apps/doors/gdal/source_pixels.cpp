@@ -9,6 +9,12 @@
 #include "apps/doors/gdal/source.hpp"
 
 namespace tetrakis::gdal {
+namespace {
+
+/// Levels of so many pixels are decoded as a whole and kept; of larger ones parts are decoded.
+constexpr uint64_t kWholeLevel = uint64_t{1} << 21;
+
+}  // namespace
 
 tks_status Source::decodeFrame(uint32_t frame, const tks_window* window, std::span<std::byte> out) {
   tks_decoder* const decoder = decoder_.get();
@@ -67,11 +73,19 @@ const std::byte* Source::level(uint32_t level) {
   }
 }
 
-bool Source::window(const tks_window& window, std::vector<std::byte>& out) {
-  CPLDebug("TKS", "%s: decoding %u x %u from %u, %u", name_.c_str(), window.width, window.height,
-           window.x, window.y);
-  if (!load(0, &window)) return false;
-  const tks_status status = tks_set_levels(decoder_.get(), 0, 0);
+bool Source::readsWindows(uint32_t level) const {
+  if (regionSide() == 0) return false;
+  const uint64_t pixels = uint64_t{width(level)} * height(level);
+  return level == 0 || (pixels > kWholeLevel && frames() == 1 && !frame_);
+}
+
+bool Source::window(uint32_t level, const tks_window& window, std::vector<std::byte>& out) {
+  CPLDebug("TKS", "%s: decoding %u x %u from %u, %u of level %u", name_.c_str(), window.width,
+           window.height, window.x, window.y, level);
+  if (!load(level, &window)) return false;
+  const bool heights = part_ == TKS_PART_HEIGHTS;
+  const tks_status status =
+      tks_set_levels(decoder_.get(), heights ? level : 0, heights ? 0 : level);
   if (status != TKS_OK) return failed(status);
   return decode(&window, uint64_t{window.width} * window.height, out);
 }

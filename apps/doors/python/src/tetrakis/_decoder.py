@@ -24,7 +24,6 @@ class Decoder:
         self._handle = ctypes.c_void_p()
         self._data = data
         self._held = [(0, len(data))]
-        self._levels = {c.PART_HEIGHTS: 0, c.PART_TEXTURE: 0}
         message = ctypes.create_string_buffer(1024)
         status = c.lib.tks_open(data, len(data), limits, self._handle, message, len(message))
         if status != Status.OK:
@@ -63,14 +62,9 @@ class Decoder:
 
     def set_levels(self, heights: int, texture: int) -> None:
         self.check(c.lib.tks_set_levels(self._handle, heights, texture))
-        self._levels = {c.PART_HEIGHTS: heights, c.PART_TEXTURE: texture}
 
     def set_frame(self, frame: int) -> None:
         self.check(c.lib.tks_set_frame(self._handle, frame))
-
-    def _is_round(self, part: int) -> bool:
-        info = self.info()
-        return (info.texture_domain if part == c.PART_TEXTURE else info.domain) == "cylinder"
 
     def _allow(self, part: int, window: Optional[c.Window], beside: int) -> None:
         """Refused here, a stream that claims too much costs no array."""
@@ -84,13 +78,8 @@ class Decoder:
         out: Optional[NDArray[Any]],
     ) -> NDArray[Any]:
         """Calls tks_decode_<what>[_window] for `call` = (what, part); `target` is the shape and
-        type of all that the level holds. The C interface has windows of level 0 only."""
+        type of all that the level holds."""
         (what, part), (shape, dtype) = call, target
-        if window is not None and self._levels[part] > 0:
-            cut = _inside(window, shape, self._is_round(part))
-            array = values.output(out, (window.height, window.width, *shape[2:]), dtype)
-            array[...] = self._decode(call, None, target, None)[cut]
-            return array
         if window is not None:
             shape = (window.height, window.width, *shape[2:])
         count = int(np.prod(shape, dtype=object))
@@ -135,14 +124,12 @@ class Decoder:
         return cube.grid_of(surface, shape, info.geotransform or (), window)
 
     def validity(self, info: _info.Info, window: Optional[c.Window]) -> NDArray[Any]:
-        """The C interface has no window of it: all of the level, cut."""
         shape = info.shape or (0, 0)
-        is_round = info.cube_depth is not None or self._is_round(c.PART_HEIGHTS)
-        cut = ... if window is None else _inside(window, shape, is_round)
         if info.cube_depth is not None:
+            cut = ... if window is None else _inside(window, shape, True)
             return np.ones(shape, bool)[cut]
         call = ("validity", c.PART_VALIDITY)
-        return self._decode(call, None, (shape, np.dtype("u1")), None).view(bool)[cut]
+        return self._decode(call, window, (shape, np.dtype("u1")), None).view(bool)
 
     def texture(
         self, info: _info.Info, window: Optional[c.Window], out: Optional[NDArray[Any]]
@@ -153,12 +140,10 @@ class Decoder:
 
     def missing(self, part: int, window: Optional[c.Window]) -> List[Tuple[int, int]]:
         """(offset, count) of the bytes that a call still needs, of a stream with an index."""
-        level = self._levels[c.PART_TEXTURE if part == c.PART_TEXTURE else c.PART_HEIGHTS]
         raw = c.Ranges()
-        # The C interface has windows of level 0 only, and a cube is decoded as a whole.
-        whole = level > 0 or (part != c.PART_TEXTURE and self.info().cube_depth is not None)
-        of_level = None if whole else window
-        self.check(c.lib.tks_needed_ranges(self._handle, part, of_level, raw))
+        # A cube is decoded as a whole.
+        whole = part != c.PART_TEXTURE and self.info().cube_depth is not None
+        self.check(c.lib.tks_needed_ranges(self._handle, part, None if whole else window, raw))
         try:
             needed = [(raw.ranges[i].offset, raw.ranges[i].size) for i in range(raw.count)]
         finally:

@@ -559,6 +559,7 @@ PROTOTYPES = {
     "tks_decode_validity": (c_int, [c_void_p, c_void_p, c_size_t]),
     "tks_decode_texture": (c_int, [c_void_p, c_void_p, c_size_t]),
     "tks_decode_heights_window": (c_int, [c_void_p, POINTER(Window), c_void_p, c_size_t]),
+    "tks_decode_validity_window": (c_int, [c_void_p, POINTER(Window), c_void_p, c_size_t]),
     "tks_decode_surface_window": (c_int, [c_void_p, POINTER(Window), c_void_p, c_size_t]),
     "tks_decode_texture_window": (c_int, [c_void_p, POINTER(Window), c_void_p, c_size_t]),
     "tks_check_memory": (

@@ -259,8 +259,8 @@ class Stream:
 
         level: 1/2^level of the resolution, up to `info.coarsest_level`.
         window: (x, y, width, height) in samples of the level, or slices: ``numpy.s_[0:64, 32:96]``.
-            The same samples as without it; at level 0 of streams with regions much faster. Where
-            columns go round the Earth, four numbers may go on behind the last column.
+            The same samples as without it; of streams with regions much faster. Where columns go
+            round the Earth, four numbers may go on behind the last column.
         bytes: decodes a prefix of so many bytes.
         masked: gives a masked array whose mask is True at voids; otherwise these are `info.nodata`,
             or NaN without one.
