@@ -358,6 +358,7 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"noise_facets_least_30x20", "facets, heights by wavelet, levels of several filters"},
     {"noise_facets_most_30x20", "facets, heights by wavelet, levels of several filters"},
     {"noise_facets_largest_30x20", "facets, heights by wavelet, levels of several filters"},
+    {"noise_facets_away_30x20", "facets, heights by wavelet, levels of several filters"},
     {"far_facets_4x4", "facets, heights by wavelet, levels of several filters"},
     {"halves_i16_20x20", "heights by wavelet, levels of several filters"},
     {"nodata_zero_24x20", "heights by wavelet, levels of several filters, nodata, voids"},

@@ -38,6 +38,13 @@ StreamHeader facetCorrections(double step, uint8_t unit) {
   return header;
 }
 
+/// Likewise, of a base that is more than 2^62 units of 2^-30 away from 0.
+StreamHeader facetsFarAway() {
+  StreamHeader header = facetCorrections(1, 150);
+  header.geometry->base = 1e20;
+  return header;
+}
+
 /// Behind coefficients of noise.
 VectorCase correctionsOfNoise(const std::string& name, const std::string& purpose,
                               StreamHeader header, uint32_t seed) {
@@ -161,6 +168,8 @@ std::vector<VectorCase> correctionCases() {
                          facetCorrections(1e30, 254), 114),
       correctionsOfNoise("noise_facets_largest_30x20", "facets about the largest floats",
                          facetCorrections(1e36, 254), 118),
+      correctionsOfNoise("noise_facets_away_30x20", "facets beyond 2^62 units", facetsFarAway(),
+                         124),
       farFacets()};
 }
 
