@@ -48,6 +48,8 @@ std::vector<VectorCase> regionMaskCases();
 std::vector<VectorCase> frameCases();
 // crafted_cases.cpp: all of these.
 std::vector<VectorCase> craftedCases();
+// crafted_correction_cases.cpp
+std::vector<VectorCase> correctionCases();
 // crafted_wavelet_cases.cpp
 std::vector<VectorCase> weightCases();
 std::vector<VectorCase> priorityCases();

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Streams that no encoder makes: headers at the ends of their ranges before codewords of noise.
-// Here are those of heights; wavelets and drawings have files of their own.
+// Here are those of heights; their corrections, wavelets and drawings have files of their own.
 #include <limits>
 
 #include "bitstream/stream/geometry_header.hpp"
-#include "codec/geometry/corrections/corrections_encoder.hpp"
 #include "codec/geometry/flat/flat_encoder.hpp"
 #include "codec/lattice/validity.hpp"
 #include "codec/lines/shown_lines.hpp"
@@ -37,41 +36,6 @@ std::vector<VectorCase> wideCases() {
                   streamOf(deep, noise(900, 4, 2)))};
 }
 
-/// Corrections that bring decoded heights, in such steps, to the very samples.
-StreamHeader sampleCorrections(tks_sample sample, double step, int planes = 12) {
-  StreamHeader header = heightsHeader(30, 20, sample, planes);
-  header.geometry->step = step;
-  header.layers.corrections = CorrectionKind::kSamples;
-  return header;
-}
-
-/// From relative steps: multiples and rests of all sizes, samples that are no numbers.
-StreamHeader relativeCorrections(tks_sample sample, RelativeSteps relative) {
-  StreamHeader header = heightsHeader(30, 20, sample, 12);
-  header.geometry->step = 3;
-  header.layers.corrections = CorrectionKind::kRelative;
-  header.layers.relative = relative;
-  return header;
-}
-
-/// From facets: differences of all sizes, samples that are no numbers.
-StreamHeader facetCorrections(double step, uint8_t unit) {
-  StreamHeader header = heightsHeader(30, 20, TKS_F32, 12);
-  header.geometry->step = step;
-  header.layers.corrections = CorrectionKind::kFacets;
-  header.layers.facet_unit = unit;
-  return header;
-}
-
-/// Behind coefficients of noise.
-VectorCase correctionsOfNoise(const std::string& name, const std::string& purpose,
-                              StreamHeader header, uint32_t seed) {
-  header.layers.coefficient_bytes = 200;
-  Bytes codeword = noise(200, seed);
-  append(codeword, noise(2000, seed + 1, 9));
-  return crafted(name, "noise: " + purpose, streamOf(header, codeword));
-}
-
 /// What there is of a table of noise.
 struct NoiseTable {
   tks_sample sample;
@@ -80,12 +44,13 @@ struct NoiseTable {
   uint64_t after = 0;                 ///< bytes of coefficients
   std::vector<TableKnot> knots = {};  ///< that stand in for it
   uint8_t fraction_bits = 0;
+  int planes = 12;
 };
 
 /// Tables of noise: gaps of all sizes, words that wrap, floats that are no numbers. Corrections lie
 /// behind the coefficients, of which there are 300 bytes.
 VectorCase noiseTable(const std::string& name, const std::string& purpose, const NoiseTable& of) {
-  StreamHeader header = heightsHeader(28, 23, of.sample, 12);
+  StreamHeader header = heightsHeader(28, 23, of.sample, of.planes);
   header.geometry->step = 3;
   header.geometry->wavelet.fraction_bits = of.fraction_bits;
   header.layers.corrections = CorrectionKind::kSamples;
@@ -117,7 +82,26 @@ std::vector<VectorCase> craftedTableCases() {
                      {TKS_F32, 60, 80, 130, wild}),
           noiseTable("noise_table_behind_28x23",
                      "noise: an undecided table behind the coefficients, six fraction bits",
-                     {TKS_I32, 1 << 20, 83, 300, {{400000, -300}, {524288, 300}, {700000, 9}}, 6})};
+                     {TKS_I32, 1 << 20, 83, 300, {{400000, -300}, {524288, 300}, {700000, 9}}, 6}),
+          noiseTable("noise_table_far_28x23",
+                     "noise: an undecided table, steps beyond the line that stands in for it",
+                     {TKS_I32, 1 << 20, 86, 300, {{400000, -296}, {524288, 296}}, 0, 30})};
+}
+
+/// A mask of flat areas whose header tells of so many more, or of fewer, with heights for more than
+/// there are: nothing is held.
+VectorCase otherAreas(const std::string& name, const std::string& purpose, int more) {
+  StreamHeader header = heightsHeader(30, 30, TKS_I16, 12);
+  const Extent extent = header.geometry->extent();
+  std::vector<uint8_t> flat = samples::validity(samples::VoidShape::kSpeckle, 30, 30);
+  NumberedAreas numbered = numberAreas(PlaneView<const uint8_t>(flat, extent));
+  FlatAreas areas{std::move(numbered.numbers), std::vector<int32_t>(numbered.count, 500)};
+  Bytes codeword = encodeFlatAreas(areas, extent, {});
+  append(codeword, noise(60, 96));
+  header.layers.flat_bytes = codeword.size();
+  header.layers.flat_areas = numbered.count + static_cast<uint32_t>(more);
+  append(codeword, noise(900, 97));
+  return crafted(name, purpose, streamOf(header, codeword));
 }
 
 /// Flat areas of any shape and any height, and noise for coefficients.
@@ -153,6 +137,8 @@ std::vector<VectorCase> flatCases() {
                     deep, VoidShape::kCoast, 84),
           flatNoise("noise_flat_long_3x90", "noise beside flat areas; one side is split",
                     heightsHeader(3, 90, TKS_I16, 14), VoidShape::kChecker, 87),
+          otherAreas("flat_less_by_one_30x30", "one flat area fewer than is announced", 1),
+          otherAreas("flat_more_by_one_30x30", "one flat area more than is announced", -1),
           crafted("noise_flat_none_30x30", "noise: other flat areas than are announced",
                   streamOf(wrong, noise(900, 90))),
           crafted("noise_flat_fewer_30x30", "noise: fewer flat areas than are announced",
@@ -226,88 +212,6 @@ std::vector<VectorCase> repeatedCases() {
                   streamOf(ends, noise(700, 92))),
           crafted("noise_repeats_texels_61x44", "noise: repeated lines of four channels",
                   streamOf(texels, noise(900, 94)))};
-}
-
-/// Noise in regions: coefficients of all tracks, and corrections of all parts but the last.
-VectorCase correctionsInRegions(const std::string& name, const std::string& purpose,
-                                StreamHeader header, uint32_t seed) {
-  GeometryHeader& geometry = *header.geometry;
-  geometry.width = 40;
-  geometry.height = 33;
-  geometry.regions.side_log2 = 4;
-  header.layers.coefficient_bytes = 200;
-  std::vector<Bytes> tracks;
-  for (uint32_t i = 0; i + 1 < trackCounts(header)[0].tracks; ++i) {
-    const bool coefficients = i < coefficientTracks(geometry);
-    tracks.push_back(coefficients ? noise(i == 0 ? 230 : 60, seed + i) : noise(300, seed + i, 9));
-  }
-  return crafted(name, "noise: " + purpose, streamOf(header, tracks));
-}
-
-/// Every error of 2^15 stands behind one of 1, and adds 2^17 to the same factor of the forecast.
-VectorCase largestFactor() {
-  constexpr uint32_t kWidth = 36, kHeight = 25;
-  StreamHeader header = heightsHeader(kWidth, kHeight, TKS_I32, 0);
-  header.layers.corrections = CorrectionKind::kSteps;
-  header.layers.correction_step = 1;
-  const std::vector<int32_t> flat(kWidth * kHeight);
-  std::vector<int32_t> steps = flat;
-  for (size_t y = 2; y < kHeight; y += 5) {
-    for (size_t x = 2; x + 1 < kWidth; x += 6) {
-      steps[y * kWidth + x] = 1;
-      steps[y * kWidth + x + 1] = 1 << 15;
-    }
-  }
-  return crafted("factors_36x25", "the largest factor of a forecast",
-                 streamOf(header, encodeExactSteps(steps, {flat, {kWidth, kHeight}}, 0)));
-}
-
-std::vector<VectorCase> correctionCases() {
-  StreamHeader steps = heightsHeader(33, 21, TKS_I32, 12);
-  steps.layers.corrections = CorrectionKind::kSteps;
-  steps.layers.coefficient_bytes = 200;
-  steps.layers.correction_step = uint32_t{1} << 26;
-  Bytes codeword = noise(200, 10);
-  append(codeword, noise(1500, 11, 9));
-  StreamHeader exact = steps;
-  exact.layers.correction_step = 1;
-  return {
-      largestFactor(),
-      crafted("noise_exact_i32_33x21", "noise: exact corrections of all classes",
-              streamOf(exact, codeword)),
-      crafted("noise_steps_i32_33x21", "noise: corrections of 32 digits wrap",
-              streamOf(steps, codeword)),
-      correctionsInRegions("noise_exact_regions_40x33", "exact corrections of regions", exact, 120),
-      correctionsInRegions("noise_steps_regions_40x33", "corrections of steps, of regions", steps,
-                           140),
-      correctionsInRegions("noise_relative_regions_40x33", "relative steps of regions",
-                           relativeCorrections(TKS_F32, {0.7, 1}), 160),
-      correctionsOfNoise("noise_corrections_u32_30x20", "corrections of samples of all classes",
-                         sampleCorrections(TKS_U32, 1), 12),
-      correctionsOfNoise("noise_corrections_f32_30x20", "hints of floats of all sizes",
-                         sampleCorrections(TKS_F32, 1e-30), 14),
-      correctionsOfNoise("noise_hints_u8_30x20", "the largest hint",
-                         sampleCorrections(TKS_U8, 1e100), 16),
-      correctionsOfNoise("noise_subnormal_30x20", "hints of floats without an exponent",
-                         sampleCorrections(TKS_F32, 0x1p-137, 13), 24),
-      correctionsOfNoise("noise_hints_f32_30x20", "the smallest hints",
-                         sampleCorrections(TKS_F32, 1, 28), 18),
-      correctionsOfNoise("noise_relative_f32_30x20", "relative steps of floats",
-                         relativeCorrections(TKS_F32, {0.7, 1}), 91),
-      correctionsOfNoise("noise_relative_u8_30x20", "relative steps of bytes",
-                         relativeCorrections(TKS_U8, {2.5, 3}), 92),
-      correctionsOfNoise("noise_relative_i32_30x20", "relative steps beyond the type",
-                         relativeCorrections(TKS_I32, {0x1p1000, 4}), 93),
-      correctionsOfNoise("noise_relative_tiny_30x20", "the smallest relative steps",
-                         relativeCorrections(TKS_F32, {0x1p-1074, 2}), 94),
-      correctionsOfNoise("noise_facets_30x20", "facets of floats of all sizes",
-                         facetCorrections(0.75, 100), 110),
-      correctionsOfNoise("noise_facets_least_30x20", "facets in the smallest unit",
-                         facetCorrections(1e-41, 1), 112),
-      correctionsOfNoise("noise_facets_most_30x20", "facets in the largest unit",
-                         facetCorrections(1e30, 254), 114),
-      correctionsOfNoise("noise_facets_largest_30x20", "facets about the largest floats",
-                         facetCorrections(1e36, 254), 118)};
 }
 
 /// base + q · step for few q, of which some are the declared nodata value.

@@ -79,7 +79,7 @@ std::vector<VectorCase> drawnCases() {
                   streamOf(drawnHeightsHeader(30, 21, TKS_I16), noise(600, 33))),
           crafted("noise_drawn_voids_33x25", "drawn heights: noise, beside voids of noise",
                   streamOf(holed, noise(500, 34))),
-          crafted("zeros_drawn_200x150", "drawn: one way in all decisions, to the ends of weights",
+          crafted("zeros_drawn_200x150", "drawn: one way in all decisions",
                   streamOf(textureHeader(200, 150, 1, TKS_U8, kDrawnPlanes), Bytes(900, 0))),
           crafted("noise_drawn_21x20", "drawn: noise", streamOf(kind, noise(500, 31))),
           crafted("noise_overlay_40x30", "noise: an overlay before coefficients",

@@ -4,6 +4,8 @@
 #include <array>
 #include <functional>
 
+#include "codec/geometry/heights_encoder.hpp"
+#include "codec/wavelet/priority_map.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
 
@@ -64,6 +66,31 @@ VectorCase tablesOfNoise(const std::string& name, const std::string& purpose, St
   return crafted(name, purpose, streamOf(header, noise(900, values[1])));
 }
 
+/// Two tiers of a band with passes of one key in one plane. The delays of these passes have to
+/// differ by 16, as only those do of a likely pass where most coefficients of a tier are
+/// significant and of a rest pass where none of 8192 is. So the map gives priority 1 to everything
+/// but the last tile, which has three coefficients of the finest HL: two are large, and the third
+/// is small.
+VectorCase tiedTiers() {
+  constexpr uint32_t kWidth = 194, kHeight = 184;
+  constexpr int kTileLog2 = 4;
+  PriorityMap map{{kWidth, kHeight}, kTileLog2, {}};
+  map.priorities.assign(size_t{map.columns()} * map.rows(), 1);
+  map.priorities.back() = 0;
+  StreamHeader header = heightsHeader(kWidth, kHeight, TKS_I16, 0);
+  header.geometry->priorities = headerOf(map);
+  std::vector<int32_t> heights(size_t{kWidth} * kHeight);
+  const auto last = [&](uint32_t y) -> int32_t& { return heights[(y + 1) * kWidth - 1]; };
+  last(178) = last(180) = 100;
+  last(182) = 12;
+  const std::vector<EncodedTrack> tracks =
+      encodeCoefficients({heights, {kWidth, kHeight}}, header.geometry->wavelet,
+                         {.flat = nullptr, .priorities = &map});
+  header.geometry->planes = static_cast<uint8_t>(tracks[0].planes);
+  return crafted("tied_tiers_194x184", "passes of two tiers with one key in one plane",
+                 streamOf(header, tracks[0].codeword));
+}
+
 }  // namespace
 
 std::vector<VectorCase> weightCases() {
@@ -86,14 +113,29 @@ std::vector<VectorCase> priorityCases() {
     header.geometry->wavelet.bits = bits;
     return header;
   };
+  const auto separate = [&](uint8_t filter, uint8_t fraction_bits, uint8_t bits) {
+    StreamHeader header = summed(bits);
+    header.geometry->wavelet.filters = {filter, filter, filter};
+    header.geometry->wavelet.fraction_bits = fraction_bits;
+    return header;
+  };
   return {crafted("noise_map_ends_200x150", "noise: a map of priorities that ends early",
                   streamOf(mapped(200, 150, 9), noise(2500, 96))),
+          tiedTiers(),
           crafted("noise_map_260x200", "noise: priorities of coefficients that reach many tiles",
                   streamOf(mapped(260, 200, 120), noise(6000, 97))),
           crafted("noise_joint_15_bits_70x40", "noise: joint sums of 32 bits, which wrap",
                   streamOf(summed(15), noise(2500, 98, 3))),
           crafted("noise_joint_16_bits_70x40", "noise: joint sums of 64 bits",
-                  streamOf(summed(16), noise(2500, 98, 3)))};
+                  streamOf(summed(16), noise(2500, 98, 3))),
+          crafted("noise_15_bits_70x40", "noise: sums of four steps of 32 bits, which wrap",
+                  streamOf(separate(2, 0, 15), noise(2500, 99, 3))),
+          crafted("noise_16_bits_70x40", "noise: sums of four steps of 64 bits",
+                  streamOf(separate(2, 0, 16), noise(2500, 99, 3))),
+          crafted("noise_20_bits_70x40", "noise: sums of two steps of 32 bits, which wrap",
+                  streamOf(separate(4, 1, 20), noise(2500, 100, 3))),
+          crafted("noise_21_bits_70x40", "noise: sums of two steps of 64 bits",
+                  streamOf(separate(4, 1, 21), noise(2500, 100, 3)))};
 }
 
 std::vector<VectorCase> channelTableCases() {
