@@ -32,6 +32,10 @@ void addServe(CLI::App& app, CommandLine& line) {
                   "Address to listen at (127.0.0.1: this machine alone; 0.0.0.0: everybody)")
       ->type_name("IP");
   verb.add_flag("--live", options->live, "Follow the file as it grows");
+  verb.add_option("--origin", options->origins,
+                  "Let pages of this origin in, as https://example.org; * is any. Those of this "
+                  "machine are in any case")
+      ->type_name("ORIGIN");
   options->tell = [](const std::string& text) { tellLine("tetrakis: " + text); };
   verb.callback([options, &line] { line.action = [options] { return serve(*options); }; });
 }

@@ -76,7 +76,7 @@ class LocalDecoder {
 export function startDecoder({worker, wasm, memory = MEMORY, receives = false} = {}) {
   const thread = threadOf(worker, assets);
   const decoder = thread ? new RemoteDecoder(thread) : new LocalDecoder();
-  decoder.ready = compile(assets, wasm, 'web_open')
+  decoder.ready = compile(assets, wasm, receives ? 'web_receiver_open' : 'web_open')
     .then((module) => decoder.start({module, memory, receives}));
   decoder.ready.catch(() => {});
   return decoder;
