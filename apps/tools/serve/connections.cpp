@@ -129,6 +129,10 @@ class CrowdedServer::Pool : public httplib::ThreadPool {
     ThreadPool::enqueue(std::move(job));
   }
   void on_idle() override { server_.makeRoom(); }
+  void shutdown() override {
+    server_.endAll();
+    ThreadPool::shutdown();
+  }
 
  private:
   CrowdedServer& server_;
@@ -143,6 +147,15 @@ CrowdedServer::CrowdedServer(size_t threads, size_t request_bytes)
 
 void CrowdedServer::endBehindAnswer() {
   ends = true;
+}
+
+void CrowdedServer::widen() {
+  ::listen(svr_sock_, SOMAXCONN);
+}
+
+void CrowdedServer::endAll() {
+  const std::lock_guard held(lock_);
+  for (const Connection* connection : connections_) connection->end();
 }
 
 void CrowdedServer::clientCame() {

@@ -72,6 +72,9 @@ class CrowdedServer : public httplib::Server {
   /// request_bytes: that a request may have, with its head. Connections with longer ones end.
   CrowdedServer(size_t threads, size_t request_bytes);
 
+  /// Behind bind: lets many clients come at once, where httplib has the sixth try again after 1 s.
+  void widen();
+
   /// Called by a handler: what follows its request is not read, such as a body that nobody asked
   /// for, which else would be taken for requests.
   static void endBehindAnswer();
@@ -83,6 +86,7 @@ class CrowdedServer : public httplib::Server {
   void clientCame();
   /// Ends the connections that have waited longest, one for each client without a thread.
   void makeRoom();
+  void endAll();
 
   const size_t threads_, request_bytes_;
   std::mutex lock_;

@@ -78,6 +78,7 @@ Result<std::unique_ptr<SequenceServer>> SequenceServer::open(const ServeOptions&
   server->addRoutes();
   const Result<int> port = bindServer(server->server_, options.address, options.port);
   if (!port.ok()) return port.status();
+  server->server_.widen();
   server->port_ = *port;
   return server;
 }
