@@ -143,6 +143,11 @@ CrowdedServer::CrowdedServer(size_t threads, size_t request_bytes)
   constexpr std::chrono::milliseconds kBetweenLooks(50);
   new_task_queue = [this] { return new Pool(*this); };
   set_idle_interval(kBetweenLooks);
+  // Of what httplib refuses it may have left the rest in the socket.
+  set_error_handler(HandlerWithResponse([](const httplib::Request&, httplib::Response&) {
+    endBehindAnswer();
+    return HandlerResponse::Unhandled;
+  }));
 }
 
 void CrowdedServer::endBehindAnswer() {

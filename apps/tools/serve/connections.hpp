@@ -76,7 +76,7 @@ class CrowdedServer : public httplib::Server {
   void widen();
 
   /// Called by a handler: what follows its request is not read, such as a body that nobody asked
-  /// for, which else would be taken for requests.
+  /// for, which else would be taken for requests. So it is behind every refusal.
   static void endBehindAnswer();
 
  private:

@@ -121,7 +121,11 @@ void SequenceServer::addRoutes() {
   server_.set_pre_routing_handler(
       [this](const httplib::Request& request, httplib::Response& response) {
         using Answer = httplib::Server::HandlerResponse;
-        if (!answersAtOnce(request, response)) return Answer::Unhandled;
+        const bool is_answered = answersAtOnce(request, response);
+        // The request is the server's own object, which would cut parts out of answers and refusals.
+        if (is_answered || request.method == "POST")
+          const_cast<httplib::Request&>(request).ranges.clear();
+        if (!is_answered) return Answer::Unhandled;
         CrowdedServer::endBehindAnswer();  // there may be a body
         return Answer::Handled;
       });
@@ -157,8 +161,9 @@ void SequenceServer::takeMessage(const httplib::Request& request, httplib::Respo
     return control.size() <= TKS_MOST_CONTROL_BYTES;  // whatever length was announced, if any
   };
   if (!read(take)) {
-    if (control.size() > TKS_MOST_CONTROL_BYTES) response.status = 413;
-    return CrowdedServer::endBehindAnswer();
+    if (response.status != 413)
+      response.status = control.size() > TKS_MOST_CONTROL_BYTES ? 413 : 400;
+    return;
   }
   Result<Buffer> given = answer(control, afterOf(request));
   if (given.ok())
