@@ -175,9 +175,13 @@ void SequenceServer::takeMessage(const httplib::Request& request, httplib::Respo
 Result<Buffer> SequenceServer::answer(std::span<const uint8_t> control,
                                       std::optional<uint64_t> after) {
   std::unique_lock held(lock_);
-  if (after && options_.live)
-    grown_.wait_for(held, kLongestWait,
-                    [&] { return stopped_ || transmitter_.info().end_frame > *after; });
+  if (after && options_.live) {
+    const uint64_t bytes = transmitter_.info().bytes;  // a group may come in parts
+    grown_.wait_for(held, kLongestWait, [&] {
+      const tks_sequence_info info = transmitter_.info();
+      return stopped_ || info.end_frame > *after || info.bytes != bytes;
+    });
+  }
   return transmitter_.answer(control);
 }
 
