@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // CrowdedServer is an HTTP server whose connections take turns: there are so many threads, and where
-// another client comes than there are, the connection ends that has waited for its client longest.
-// So clients that begin a request and never end it, that send or read it byte by byte, or that
+// more clients come, the connection ends that has waited for its client longest. So clients that begin a request and never end it, that send or read it byte by byte, or that
 // merely stay, hold up nobody, whatever their number. A connection of httplib's own would keep its
 // thread as long as a byte comes in time, and the memory of a request that has no end.
 #pragma once
@@ -44,8 +43,8 @@ class Connection : public httplib::Stream {
   /// time.
   bool awaitRequest(std::chrono::milliseconds most);
 
-  /// Says that no more is answered, and takes what is on its way: bytes that nobody reads would have
-  /// the answer thrown away.
+  /// Says that no more is answered, and takes what is on its way: bytes that nobody reads would
+  /// have the answer thrown away.
   void drain();
 
   /// When the wait began that goes on; none: the server is at work.
@@ -91,7 +90,7 @@ class CrowdedServer : public httplib::Server {
   const size_t threads_, request_bytes_;
   std::mutex lock_;
   std::set<const Connection*> connections_;  ///< but for those that were ended
-  size_t queued_ = 0;                         ///< clients that wait for a thread
+  size_t queued_ = 0;                        ///< clients that wait for a thread
 };
 
 }  // namespace tetrakis::tools

@@ -29,8 +29,9 @@ bool isOrigin(const std::string& text) {
 Result<Origins> Origins::of(std::vector<std::string> named) {
   for (const std::string& origin : named)
     if (!isOrigin(origin))
-      return Status(TKS_USAGE, tools::quoted(origin) +
-                                   " is no origin as https://example.org, without a path; * is any");
+      return Status(
+          TKS_USAGE,
+          tools::quoted(origin) + " is no origin as https://example.org, without a path; * is any");
   Origins origins;
   origins.named_ = std::move(named);
   return origins;

@@ -13,9 +13,9 @@ namespace tetrakis::tools {
 namespace {
 
 constexpr uint32_t kReceivers = 64;
-constexpr size_t kThreads = kReceivers + 16;  ///< for those who read ranges besides
+constexpr size_t kThreads = kReceivers + 16;    ///< for those who read ranges besides
 constexpr size_t kMostRequestBytes = 32 << 10;  ///< with their heads: more than browsers send
-constexpr uint64_t kKeptFrames = 1024;        ///< of a live sequence; ranges give older ones
+constexpr uint64_t kKeptFrames = 1024;          ///< of a live sequence; ranges give older ones
 constexpr std::chrono::milliseconds kBetweenLooks(30);
 constexpr std::chrono::seconds kLongestWait(2), kLongestWrite(30);
 
@@ -70,8 +70,8 @@ Result<std::unique_ptr<SequenceServer>> SequenceServer::open(const ServeOptions&
   transmit.receivers = kReceivers;
   Result<Transmitter> transmitter = Transmitter::open(transmit);
   if (!transmitter.ok()) return transmitter.status();
-  std::unique_ptr<SequenceServer> server(
-      new SequenceServer(options, {*std::move(file), *std::move(transmitter), *std::move(origins)}));
+  std::unique_ptr<SequenceServer> server(new SequenceServer(
+      options, {*std::move(file), *std::move(transmitter), *std::move(origins)}));
   if (Status status = server->follow(); !status.ok()) return status;
   if (!options.live && server->transmitter_.info().end_frame == 0)
     return Status(TKS_TRUNCATED, "the sequence has no frame; --live waits for some");
@@ -122,7 +122,7 @@ void SequenceServer::addRoutes() {
       [this](const httplib::Request& request, httplib::Response& response) {
         using Answer = httplib::Server::HandlerResponse;
         const bool is_answered = answersAtOnce(request, response);
-        // The request is the server's own object, which would cut parts out of answers and refusals.
+        // The request is the server's own object: httplib would cut such parts out of an answer.
         if (is_answered || request.method == "POST")
           const_cast<httplib::Request&>(request).ranges.clear();
         if (!is_answered) return Answer::Unhandled;
@@ -136,16 +136,16 @@ void SequenceServer::addRoutes() {
               const std::string_view text = textOf(bytes);
               return file_.read(begin, bytes) && sink.write(text.data(), text.size());
             }});
-  server_.Post(path(), [this](const httplib::Request& request, httplib::Response& response,
-                              const httplib::ContentReader& read) {
-    takeMessage(request, response, read);
-  });
+  server_.Post(
+      path(), [this](const httplib::Request& request, httplib::Response& response,
+                     const httplib::ContentReader& read) { takeMessage(request, response, read); });
 }
 
 bool SequenceServer::answersAtOnce(const httplib::Request& request,
                                    httplib::Response& response) const {
   const bool is_read = request.method == "GET" || request.method == "HEAD";
-  if (options_.address == kLoopback && !asksForLoopback(request)) return response.status = 403, true;
+  if (options_.address == kLoopback && !asksForLoopback(request))
+    return response.status = 403, true;
   if (request.path != path()) return response.status = 404, true;
   if (origins_.answers(request, response)) return true;
   if (!is_read && request.method != "POST") return response.status = 405, true;

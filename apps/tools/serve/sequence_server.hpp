@@ -28,8 +28,8 @@ namespace tetrakis::tools {
 struct ServeOptions {
   std::string path;
   std::string address = kLoopback;
-  int port = 0;       ///< 0: any free one
-  bool live = false;  ///< the file grows
+  int port = 0;                           ///< 0: any free one
+  bool live = false;                      ///< the file grows
   std::vector<std::string> origins = {};  ///< whose pages are let in, as Origins takes them
   std::function<void(const std::string&)> tell =
       {};  ///< is told why a file is not followed any more

@@ -341,13 +341,13 @@ export interface Sequence extends Terrain {
 
 /** What a receiver tells a server that it wants. */
 export interface Wants {
-  /** The frame that is shown; those behind it come ahead of time. 'newest' (default): whichever that
-   * is. */
+  /** The frame that is shown; those behind it come ahead of time. 'newest' (default): whichever
+   * that is. */
   frame?: number | 'newest';
   /** What is looked at: its bytes come first. Default: all ground counts alike. */
   view?: View | null;
-  /** Of the meshes that are drawn: heights that these do not show are not sent. Default: any number.
-   */
+  /** Of the meshes that are drawn: heights that these do not show are not sent. Default: any
+   * number. */
   triangles?: number;
   /** Bytes a second of the link, of which each group gets its share. Default, null: as fast as
    * answers come. */
@@ -366,8 +366,8 @@ export interface ReceiveOptions extends Omit<OpenOptions, 'requestBytes'>, Wants
 
 /** A sequence that `tetrakis serve` serves. Frames come as they help what is wanted. Numbers of
  * frames, `frame` of calls included, are those of the server; `frame` is by default the newest one
- * that is here, and one that is not here is asked for. decode() takes what is here, whatever `bytes`
- * says; load() and refine() wait for more, as long as more helps. */
+ * that is here, and one that is not here is asked for. decode() takes what is here, whatever
+ * `bytes` says; load() and refine() wait for more, as long as more helps. */
 export interface Reception extends Terrain {
   readonly isSequence: true;
   readonly isLive: true;
@@ -380,8 +380,8 @@ export interface Reception extends Terrain {
   want(wants: Wants): void;
   /** Resolves when the next answer has come, and rejects when no other will. */
   changed(options?: Pick<FrameOptions, 'signal'>): Promise<void>;
-  /** The newest frame that is here, again and again: as soon as it can be decoded, and as more of it
-   * comes. Who is slow misses frames between. */
+  /** The newest frame that is here, again and again: as soon as it can be decoded, and as more of
+   * it comes. Who is slow misses frames between. */
   newest(options?: FrameOptions): AsyncGenerator<Frame, never, void>;
 }
 

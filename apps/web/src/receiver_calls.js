@@ -48,9 +48,8 @@ export class Receiver {
     const instance = this.#instance, {calls} = instance;
     return instance.with(8 * VIEW_NUMBERS + CONTROL_BYTES, (room) => {
       const out = room + 8 * VIEW_NUMBERS;
-      if (view) {
-        instance.view(Float64Array, room, VIEW_NUMBERS).set([view.width, view.height, ...view.clip]);
-      }
+      const seen = view ? [view.width, view.height, ...view.clip] : [];
+      instance.view(Float64Array, room, VIEW_NUMBERS).set(seen);
       this.#check(calls.web_receiver_control(
         this.#address, frame ?? -1, link, triangles, view ? room : 0, out));
       const [size] = instance.view(Uint32Array, out, 1);

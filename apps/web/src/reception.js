@@ -112,8 +112,8 @@ export class Reception {
   }
   #failed(error) {
     this.#failure = this.#held.isEmpty && error.code === 'corrupt'
-      ? new TksError('corrupt', `${this.#url} answers a control message with something else. Give ` +
-        'an address that `tetrakis serve` prints.', {cause: error})
+      ? new TksError('corrupt', `${this.#url} answers a control message with something else. ` +
+        'Give an address that `tetrakis serve` prints.', {cause: error})
       : error;
     this.#tell();
   }

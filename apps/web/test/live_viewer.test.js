@@ -9,6 +9,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 
+import {launch} from './chromium.js';
 import {CLI, sequenceOf} from './sequences.js';
 import {controlOf, serveFile} from './transmitter.js';
 import {drawn, viewerSite} from './viewer_site.js';
@@ -142,15 +143,15 @@ test('a film that is served plays from its begin, and stays when the server ends
 });
 
 test('where no server is the page says so', async () => {
-  const page = await (await import('./chromium.js')).launch();
+  const browser = await launch(), nowhere = encodeURIComponent('http://127.0.0.1:1/a');
   try {
-    await page.withPage(async (its) => {
-      await its.goto(`${site.server.url}index.html?live=${encodeURIComponent('http://127.0.0.1:1/a')}`);
-      await its.waitForFunction(() => document.body.dataset.state === 'failed');
-      assert.match(await its.locator('#message').textContent(), /cannot be fetched/);
+    await browser.withPage(async (page) => {
+      await page.goto(`${site.server.url}index.html?live=${nowhere}`);
+      await page.waitForFunction(() => document.body.dataset.state === 'failed');
+      assert.match(await page.locator('#message').textContent(), /cannot be fetched/);
     });
   } finally {
-    await page.close();
+    await browser.close();
   }
 });
 

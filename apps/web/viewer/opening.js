@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the page opens: a stream or a sequence by its bytes or its address, or what a server sends of
-// a sequence for the page's camera.
+// What the page opens: a stream or a sequence by its bytes or its address, or what a server sends
+// of a sequence for the page's camera.
 import {open, receive} from '../src/index.js';
 import {decoder} from './decoder.js';
 
