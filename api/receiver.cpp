@@ -115,8 +115,8 @@ uint64_t firstChained(const tks_receiver& receiver) {
   return receiver.chained + 1 - receiver.chain.length();
 }
 
-/// Before a group changes: its decoder reads its bytes, and so does the chain. Both stay where other
-/// groups change, so that a live player decodes what frames go on from once.
+/// Before a group changes: its decoder reads its bytes, and so does the chain. Both stay where
+/// others change, so that a live player decodes what frames go on from once.
 void letGo(tks_receiver& receiver, uint64_t number) {
   const bool is_linked =
       receiver.chain.length() > 0 && number >= firstChained(receiver) && number <= receiver.chained;

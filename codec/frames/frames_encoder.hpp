@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // encodeFramePlanes() lifts the planes of the frames of a group over time, transforms and codes
-// them. chooseTimeCoding() and chooseFrameWavelet() choose the filters over time and in space before.
-// Encoder only.
+// them. chooseTimeCoding() and chooseFrameWavelet() choose the filters over time and in space
+// before. Encoder only.
 #pragma once
 
 #include <cstdint>

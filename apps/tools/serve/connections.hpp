@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// CrowdedServer is an HTTP server whose connections take turns: there are so many threads, and where
-// more clients come, the connection ends that has waited for its client longest. So clients that begin a request and never end it, that send or read it byte by byte, or that
-// merely stay, hold up nobody, whatever their number. A connection of httplib's own would keep its
-// thread as long as a byte comes in time, and the memory of a request that has no end.
+// CrowdedServer is an HTTP server whose connections take turns: there are so many threads, and
+// where more clients come, the connection ends that has waited for its client longest. So clients
+// that begin a request and never end it, that send or read it byte by byte, or that merely stay,
+// hold up nobody, whatever their number. A connection of httplib's own would keep its thread as
+// long as a byte comes in time, and the memory of a request that has no end.
 #pragma once
 
 #include <httplib.h>
