@@ -110,9 +110,18 @@ Result<std::map<uint64_t, HeldGroup>> begunGroups(const tks_receiver& receiver,
   return begun;
 }
 
-void closeDecoder(tks_receiver& receiver) {
-  receiver.decoder.reset();
-  receiver.chain.clear();
+/// The number of the first group in the chain.
+uint64_t firstChained(const tks_receiver& receiver) {
+  return receiver.chained + 1 - receiver.chain.length();
+}
+
+/// Before a group changes: its decoder reads its bytes, and so does the chain. Both stay where
+/// others change, so that a live player decodes what frames go on from once.
+void letGo(tks_receiver& receiver, uint64_t number) {
+  const bool is_linked =
+      receiver.chain.length() > 0 && number >= firstChained(receiver) && number <= receiver.chained;
+  if (is_linked || receiver.opened == number) receiver.decoder.reset();
+  if (is_linked) receiver.chain.clear();
 }
 
 Status take(tks_receiver& receiver, std::span<const uint8_t> bytes) {
@@ -120,9 +129,9 @@ Status take(tks_receiver& receiver, std::span<const uint8_t> bytes) {
   if (!answer.ok()) return answer.status();
   Result<std::map<uint64_t, HeldGroup>> begun = begunGroups(receiver, *answer);
   if (!begun.ok()) return begun.status();
-  if (!answer->pieces.empty()) closeDecoder(receiver);
   for (const AnswerPiece& piece : answer->pieces) {
     if (piece.group < receiver.first_group) continue;
+    letGo(receiver, piece.group);
     receiver.bytes += piece.bytes.size();
     if (!begun->contains(piece.group))
       receiver.groups[piece.group].pieces.put(piece.place, piece.bytes);
@@ -292,8 +301,9 @@ void giveUpBefore(tks_receiver& receiver, uint64_t frame) {
   const std::optional<uint64_t> first = firstThatStays(receiver, frame);
   const uint64_t end = first ? *first : receiver.groups.rbegin()->first + 1;
   if (end <= receiver.groups.begin()->first) return;
-  closeDecoder(receiver);
-  receiver.groups.erase(receiver.groups.begin(), receiver.groups.lower_bound(end));
+  const auto stay = receiver.groups.lower_bound(end);
+  for (auto group = receiver.groups.begin(); group != stay; ++group) letGo(receiver, group->first);
+  receiver.groups.erase(receiver.groups.begin(), stay);
   receiver.first_group = std::max(receiver.first_group, end);
   const auto begin = receiver.groups.begin();
   const bool is_known = begin != receiver.groups.end() && begin->second.parsed;

@@ -69,9 +69,9 @@ FrameSource sourceOf(const std::vector<Texels>& frames, const ColourTransform& c
 struct TextureWay {
   TextureHeader header;
   FrameSource source;
-  FrameCoding coding;
+  TimeCoding coding;
 
-  TextureWay(const std::vector<Texels>& frames, const ColourTransform& colour, Purpose purpose,
+  TextureWay(const std::vector<Texels>& frames, const ColourTransform& colour,
              const std::optional<TextureBefore>& before = {})
       : header(headerOfFrames(frames.front(), colour)) {
     header.frames.count = static_cast<uint8_t>(frames.size());
@@ -80,7 +80,7 @@ struct TextureWay {
       header.frames.before.decode = [last = before->last] { return last; };
     }
     source = sourceOf(frames, colour, header);
-    coding = chooseFrameCoding(source, frames.front().bits, purpose);
+    coding = chooseTimeCoding(source, frames.front().bits);
   }
 };
 
@@ -91,18 +91,19 @@ EncodedTexture encodeTextureFrames(const std::vector<Texels>& frames, bool ring,
                                    const std::optional<TextureBefore>& before) {
   assert(!frames.empty() && frames.size() <= FramesHeader::kMost);
   const Texels& first = frames.front();
-  TextureWay way(frames, colourOfFrames(first, purpose), purpose);
+  TextureWay way(frames, colourOfFrames(first, purpose));
   if (before) {
-    TextureWay going_on(frames, colourOf(*before->header), purpose, before);
+    TextureWay going_on(frames, colourOf(*before->header), before);
     if (going_on.coding.bits < way.coding.bits) way = std::move(going_on);
   }
   FrameSource& source = way.source;
-  const FrameCoding& coding = way.coding;
+  const TimeCoding& coding = way.coding;
+  const WaveletHeader wavelet = chooseFrameWavelet(source, coding.filter, first.bits, purpose);
   EncodedTexture encoded{std::move(way.header), {}};
   TextureHeader& header = encoded.header;
   header.regions.side_log2 = static_cast<uint8_t>(options.region_log2);
   header.frames.filter = coding.filter;
-  header.wavelet = options.windows ? withShortReach(coding.wavelet) : coding.wavelet;
+  header.wavelet = options.windows ? withShortReach(wavelet) : wavelet;
   header.wavelet.ring = ring;
   source.layout = frameLayoutOf(header);
   const bool whole = header.wavelet.fraction_bits == 0;

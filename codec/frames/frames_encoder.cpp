@@ -100,26 +100,27 @@ constexpr size_t kLookedAt = 4;
 
 }  // namespace
 
-FrameCoding chooseFrameCoding(const FrameSource& source, int bits, Purpose purpose) {
+TimeCoding chooseTimeCoding(const FrameSource& source, int bits) {
   constexpr std::array kFilters = {TimeFilter::kNone, TimeFilter::kHaar, TimeFilter::kFiveThree};
+  const bool is_moving = source.layout.frames.count > 1;
   const int most = std::max(kMostBits, bitsOf(source.planes));
-  FrameCoding best;
-  double least = 0;
-  Planes left;
+  TimeCoding best;
   for (const TimeFilter filter : kFilters) {
-    Planes planes = lifted(source, filter);
+    if (filter != TimeFilter::kNone && !is_moving) continue;
+    const Planes planes = lifted(source, filter);
     if (bitsOf(planes) > most) continue;
     const double cost = bitsOfAll(planes, source, bits);
-    if (filter != TimeFilter::kNone && cost >= least) continue;
-    least = cost;
-    best.filter = filter;
-    left = std::move(planes);
+    if (filter == TimeFilter::kNone || cost < best.bits) best = {filter, cost};
   }
-  const size_t every = source.layout.frames.count > 2 * kLookedAt ? kLookedAt : 1;
-  best.bits = least;
-  best.wavelet = chooseWavelet(Stack::ofEvery(every, left, source).view(),
-                               std::max(bits, bitsOf(left)), purpose);
   return best;
+}
+
+WaveletHeader chooseFrameWavelet(const FrameSource& source, TimeFilter filter, int bits,
+                                 Purpose purpose) {
+  const Planes left = lifted(source, filter);
+  const size_t every = source.layout.frames.count > 2 * kLookedAt ? kLookedAt : 1;
+  return chooseWavelet(Stack::ofEvery(every, left, source).view(), std::max(bits, bitsOf(left)),
+                       purpose);
 }
 
 namespace {

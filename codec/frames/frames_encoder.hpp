@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // encodeFramePlanes() lifts the planes of the frames of a group over time, transforms and codes
-// them. chooseFrameCoding() chooses the filters over time and in space before. Encoder only.
+// them. chooseTimeCoding() and chooseFrameWavelet() choose the filters over time and in space
+// before. Encoder only.
 #pragma once
 
 #include <cstdint>
@@ -29,16 +30,20 @@ struct FrameSource {
   std::shared_ptr<const FrameReference> before() const { return referenceOf(layout.frames); }
 };
 
-/// The filters of a group.
-struct FrameCoding {
+/// How a group is lifted over time.
+struct TimeCoding {
   TimeFilter filter = TimeFilter::kNone;
-  WaveletHeader wavelet;
   double bits = 0;  ///< that coefficients to the last bit take, estimated
 };
 
-/// Chooses the filter over time that leaves the fewest bits, and the wavelet that suits what it
-/// leaves. bits: of the samples. The layout need not have filters yet.
-FrameCoding chooseFrameCoding(const FrameSource& source, int bits, Purpose purpose);
+/// Chooses the filter over time that leaves the fewest bits. bits: of the samples. The layout need
+/// not have filters yet.
+TimeCoding chooseTimeCoding(const FrameSource& source, int bits);
+
+/// Chooses the wavelet that suits what a filter over time leaves. It takes as long as the other
+/// choice: of several ways to code a group only the one that is taken needs it.
+WaveletHeader chooseFrameWavelet(const FrameSource& source, TimeFilter filter, int bits,
+                                 Purpose purpose);
 
 /// One track for each region. Distortion is in squared units of the samples, summed over the lifted
 /// ones of all frames and multiplied by the share.

@@ -97,7 +97,7 @@ struct HeightWay {
   GeometryHeader header;
   FrameSource source;
   std::vector<uint8_t> masks;
-  FrameCoding coding;
+  TimeCoding coding;
 
   /// The bits that coefficients take down to steps of another size, estimated.
   double bitsAt(double step) const {
@@ -126,8 +126,7 @@ HeightWay wayOf(const GroupInputs& inputs, FrameSteps truth,
   if (!way.masks.empty()) way.source.lifted = everValid(way.truth.masks);
   const auto valid = static_cast<double>(std::max<uint64_t>(way.truth.validSamples(), 1));
   way.source.share = valid / static_cast<double>(samplesOf(way.source.planes));
-  const Purpose purpose = needsAllSteps(inputs.options) ? Purpose::kLossless : Purpose::kLossy;
-  way.coding = chooseFrameCoding(way.source, way.truth.range_bits + 1, purpose);
+  way.coding = chooseTimeCoding(way.source, way.truth.range_bits + 1);
   return way;
 }
 
@@ -161,21 +160,24 @@ Result<HeightFrames> codeHeightFrames(const GroupInputs& inputs) {
   if (!way.ok()) return way.status();
   HeightFrames frames{std::move(way->truth), nullptr};
   const tks_heights& first = inputs.heights.front();
-  const FrameCoding& coding = way->coding;
+  const TimeCoding& coding = way->coding;
   const std::vector<uint8_t>& masks = way->masks;
   FrameSource& source = way->source;
+  const Purpose purpose = needsAllSteps(options) ? Purpose::kLossless : Purpose::kLossy;
+  const WaveletHeader wavelet =
+      chooseFrameWavelet(source, coding.filter, frames.truth.range_bits + 1, purpose);
   CodedHeights coded;
   coded.header = std::move(way->header);
   const CoefficientOptions given = heightOptions(inputs.first());
   coded.header.frames.filter = coding.filter;
-  coded.header.wavelet = given.windows ? withShortReach(coding.wavelet) : coding.wavelet;
+  coded.header.wavelet = given.windows ? withShortReach(wavelet) : wavelet;
   coded.header.wavelet.ring = first.domain == TKS_DOMAIN_CYLINDER;
   coded.header.regions.side_log2 = static_cast<uint8_t>(given.region_log2);
   source.layout = frameLayoutOf(coded.header);
   coded.layers = layersOf(first, masks.size());
   coded.tracks = encodeFramePlanes(std::move(source), {given.limit, options.threads});
   coded.header.planes = static_cast<uint8_t>(coded.tracks.front().planes);
-  if (coding.wavelet.fraction_bits == 0)
+  if (wavelet.fraction_bits == 0)
     coded.header.wavelet.rounded_bytes = roundedBytes(coded.tracks, 0);
   prepend(masks, validityWorth(frames.truth) * frames.counted(), coded.tracks.front());
   frames.coded = std::make_shared<const CodedHeights>(std::move(coded));

@@ -4,6 +4,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <future>
@@ -43,10 +44,12 @@ const Bytes& encodedHills() {
 /// A server that runs while it lives.
 class Running {
  public:
-  explicit Running(const std::string& path, bool live = false)
+  explicit Running(const std::string& path, bool live = false,
+                   std::vector<std::string> origins = {})
       : server_(
             *SequenceServer::open({.path = path,
                                    .live = live,
+                                   .origins = std::move(origins),
                                    .tell = [this](const auto& text) { told_.set_value(text); }})),
         thread_([this] { EXPECT_TRUE(server_->run().ok()); }) {
     while (!client().Get("/")) std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -139,35 +142,139 @@ TEST_F(Serving, LiesAndStrangersAreRefused) {
   expectFrames(received({.url = server.url()}));
 }
 
-/// Sockets that have begun a message and never end it.
+/// More sockets than the server has threads, which send this and read nothing.
 class Stuck {
  public:
-  explicit Stuck(const Running& server) {
-    for (int i = 0; i < 40; ++i) {
+  Stuck(const Running& server, const std::string& text) {
+    for (int i = 0; i < 100; ++i) {
       sockets_.push_back(socket(AF_INET, SOCK_STREAM, 0));
       sockaddr_in address = {};
       address.sin_family = AF_INET;
       address.sin_port = htons(static_cast<uint16_t>(server.port()));
       address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+      const int little = 4096;
+      setsockopt(sockets_.back(), SOL_SOCKET, SO_RCVBUF, &little, sizeof little);
       EXPECT_EQ(connect(sockets_.back(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-      const std::string begun = "POST " + server.path() + " HTTP/1.1\r\nHost: 127.0.0.1\r\nCon";
-      EXPECT_EQ(write(sockets_.back(), begun.data(), begun.size()), ssize_t(begun.size()));
+      EXPECT_EQ(send(sockets_.back(), text.data(), text.size(), MSG_NOSIGNAL),
+                ssize_t(text.size()));
     }
   }
   ~Stuck() {
     for (const int socket : sockets_) close(socket);
+  }
+  /// A byte more of each, as far as the server still takes it.
+  void drip() const {
+    for (const int socket : sockets_) send(socket, "t", 1, MSG_NOSIGNAL | MSG_DONTWAIT);
   }
 
  private:
   std::vector<int> sockets_;
 };
 
+/// A message that has no end.
+std::string begunMessage(const Running& server) {
+  return "POST " + server.path() + " HTTP/1.1\r\nHost: 127.0.0.1\r\nCon";
+}
+
 TEST_F(Serving, SlowReceiversHoldUpNobody) {
   const Running server(save("a.tks", bytes_));
-  const Stuck stuck(server);
+  const Stuck stuck(server, begunMessage(server));
   const auto begin = std::chrono::steady_clock::now();
   expectFrames(received({.url = server.url()}));
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+}
+
+TEST_F(Serving, DrippingReceiversHoldUpNobody) {
+  const Running server(save("a.tks", bytes_));
+  const Stuck stuck(server, begunMessage(server));
+  std::atomic<bool> ends = false;
+  std::thread dripping([&] {
+    for (; !ends; std::this_thread::sleep_for(std::chrono::milliseconds(50))) stuck.drip();
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 3; ++i) expectFrames(received({.url = server.url()}));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+  ends = true;
+  dripping.join();
+}
+
+TEST_F(Serving, ReadersThatStopHoldUpNobody) {
+  const Running server(save("a.tks", bytes_));
+  std::string all;
+  for (int i = 0; i < 1000; ++i)
+    all += "GET " + server.path() + " HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n";
+  const Stuck stuck(server, all);
+  const auto begin = std::chrono::steady_clock::now();
+  expectFrames(received({.url = server.url()}));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(3));
+}
+
+TEST_F(Serving, BodiesWithoutEndAreRefused) {
+  const Running server(save("a.tks", bytes_));
+  for (const auto& [path, status] : {std::pair(server.path(), 413), {std::string("/none"), 404}}) {
+    size_t sent = 0;
+    httplib::Client client = server.client();
+    const auto more = [&](size_t, httplib::DataSink& sink) {
+      const std::string chunk(1 << 16, 'x');
+      sent += chunk.size();
+      return sent < (64 << 20) && sink.write(chunk.data(), chunk.size());
+    };
+    const auto answer = client.Post(path, more, "application/octet-stream");
+    EXPECT_TRUE(!answer || answer->status == status) << path;  // no answer: the connection broke
+    EXPECT_LT(sent, size_t{32} << 20) << path;
+  }
+  expectFrames(received({.url = server.url()}));
+}
+
+/// What a page of an origin is told: {status, Access-Control-Allow-Origin}.
+std::pair<int, std::string> toldTo(const Running& server, const std::string& origin,
+                                   const std::string& method) {
+  httplib::Client client = server.client();
+  httplib::Request request;
+  request.method = method;
+  request.path = server.path();
+  request.headers = {{"Origin", origin}};
+  const std::vector<uint8_t> control = writeControl({.receiver = 1});
+  if (method == "POST") request.body.assign(control.begin(), control.end());
+  const auto answer = client.send(request);
+  if (!answer) return {0, ""};
+  return {answer->status, answer->get_header_value("Access-Control-Allow-Origin")};
+}
+
+TEST_F(Serving, PagesComeFromThisMachineOrAreNamed) {
+  const std::string file = save("a.tks", bytes_);
+  const std::string named = "https://example.org";
+  const Running strict(file), open(file, false, {named}), any(file, false, {"*"});
+  for (const char* method : {"GET", "POST", "OPTIONS"}) {
+    const int good = std::string(method) == "OPTIONS" ? 204 : 200;
+    const auto allowed = [&](const std::string& origin) { return std::pair(good, origin); };
+    const std::pair<int, std::string> refused(403, "");
+    for (const std::string origin :
+         {"http://127.0.0.1:8080", "http://localhost", "https://[::1]:1"})
+      EXPECT_EQ(toldTo(strict, origin, method), allowed(origin)) << method;
+    for (const std::string origin : {"https://example.org", "null", "http://127.0.0.1.example.org",
+                                     "http://localhost.evil", "file://"}) {
+      EXPECT_EQ(toldTo(strict, origin, method), refused) << method << " " << origin;
+      EXPECT_EQ(toldTo(any, origin, method), allowed(origin)) << method << " " << origin;
+      EXPECT_EQ(toldTo(open, origin, method), origin == named ? allowed(origin) : refused);
+    }
+  }
+  for (const std::string wrong : {"", "example.org", "https://", "https://a/b", "https://a b"})
+    EXPECT_EQ(SequenceServer::open({.path = file, .origins = {wrong}}).status().code(), TKS_USAGE);
+}
+
+/// What lies behind a refused message is no message.
+TEST_F(Serving, NothingIsSmuggledBehindARefusal) {
+  const Running server(save("a.tks", bytes_));
+  httplib::Client client = server.client();
+  const std::string second = "GET " + server.path() + " HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n";
+  client.set_keep_alive(true);
+  const auto refused =
+      client.Post(server.path(), {{"Origin", "https://example.org"}}, second, "text/plain");
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->status, 403);
+  const auto next = client.Get("/none");
+  EXPECT_TRUE(!next || next->status == 404) << next->status;  // none: the connection has ended
 }
 
 TEST_F(Serving, LiveSequencesGrowAndStayWhenTheirWriterStops) {

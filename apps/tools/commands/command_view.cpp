@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// tetrakis view: shows a stream or a sequence in the browser. A server only on this machine's
-// loopback address hands out the file, by byte ranges, and the files of the viewer, and nothing
-// else.
+// tetrakis view: shows a stream or a sequence in the browser, or what tetrakis serve serves. A
+// server only on this machine's loopback address hands out the file, by byte ranges, and the files
+// of the viewer, and nothing else.
 #include <httplib.h>
 #include <algorithm>
 #include <array>
@@ -94,29 +94,45 @@ void openBrowser(const std::string& address) {
 #else
   const std::string command = "xdg-open '" + address + "' > /dev/null 2>&1 &";
 #endif
-  // Nothing but letters, digits and "._-:/?=" is in the address. A machine without a browser has
+  // Nothing but letters, digits and "._-:/?=%" is in the address. A machine without a browser has
   // the address on its terminal.
   if (std::system(command.c_str()) != 0) return;
 }
 
-Status view(const ViewArguments& arguments) {
-  const Result<std::vector<std::byte>> bytes = readCut(arguments.source);
-  if (!bytes.ok()) return bytes.status();
+bool isAddress(const std::string& path) {
+  return path.starts_with("http://") || path.starts_with("https://");
+}
+
+/// Serves the viewer, whose address ends so, and what was added to the server before.
+Status serveViewer(httplib::Server& server, const ViewArguments& arguments,
+                   const std::string& asked) {
   const Result<fs::path> folder = viewerFolder();
   if (!folder.ok()) return folder.status();
-  httplib::Server server;
   if (Status status = addViewer(server, *folder); !status.ok()) return status;
   answerLoopbackAlone(server);
-  const std::string name = nameInViewer(arguments.source.path);
-  addBytes(server, "/" + name, heldBytes(*bytes));
   const Result<int> port = bindServer(server, kLoopback, arguments.port);
   if (!port.ok()) return port.status();
-  const std::string address = "http://" + std::string(kLoopback) + ":" + std::to_string(*port) +
-                              "/?tks=" + percentEncoded(name);
+  const std::string address =
+      "http://" + std::string(kLoopback) + ":" + std::to_string(*port) + "/?" + asked;
   std::printf("%s\n", address.c_str());
   std::fflush(stdout);
   if (arguments.open_browser) openBrowser(address);
   return server.listen_after_bind() ? Status() : Status(TKS_IO, "the server ended unexpectedly");
+}
+
+Status view(const ViewArguments& arguments) {
+  httplib::Server server;
+  const StreamSource& source = arguments.source;
+  if (isAddress(source.path)) {
+    if (source.bytes || source.strict)
+      return Status(TKS_USAGE, "--bytes and --strict are of files, not of what is served");
+    return serveViewer(server, arguments, "live=" + valueInUrl(source.path));
+  }
+  const Result<std::vector<std::byte>> bytes = readCut(source);
+  if (!bytes.ok()) return bytes.status();
+  const std::string name = nameInViewer(source.path);
+  addBytes(server, "/" + name, heldBytes(*bytes));
+  return serveViewer(server, arguments, "tks=" + percentEncoded(name));
 }
 
 }  // namespace

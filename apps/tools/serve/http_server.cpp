@@ -16,7 +16,7 @@ namespace {
 /// The name in a Host field without its port, in lower case: names of hosts are the same in any
 /// case, and IPv6 addresses stand in brackets (RFC 3986, 3.2.2).
 std::string nameOfHost(std::string host) {
-  const size_t bracket = host.front() == '[' ? host.find(']') : 0;
+  const size_t bracket = host.starts_with('[') ? host.find(']') : 0;
   const size_t colon = bracket == std::string::npos ? bracket : host.find(':', bracket);
   host.resize(std::min(colon, host.size()));
   for (char& letter : host)
@@ -24,17 +24,27 @@ std::string nameOfHost(std::string host) {
   return host;
 }
 
-/// A page elsewhere may not read the stream through a name of its own that leads here.
-bool asksForLoopback(const httplib::Request& request) {
-  if (request.get_header_value_count("Host") != 1) return false;
-  const std::string host = request.get_header_value("Host");
-  if (host.empty()) return false;
-  const std::string name = nameOfHost(host);
-  return name == kLoopback || name == "localhost" || name == "[::1]";
-}
-
 bool isAscii(char letter) {
   return static_cast<unsigned char>(letter) < 0x80;
+}
+
+bool isPlain(char letter) {
+  return isAscii(letter) && (std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+                             std::string_view("._-").find(letter) != std::string::npos);
+}
+
+/// A text whose bytes are %XX but for those that are kept.
+std::string encodedBut(bool (*isKept)(char), const std::string& text) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::string encoded;
+  for (const char letter : text) {
+    const auto byte = static_cast<unsigned char>(letter);
+    if (isKept(letter))
+      encoded += letter;
+    else
+      encoded += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+  }
+  return encoded;
 }
 
 /// The one range that is asked for, cut to what there is. What is no such range, or several, counts
@@ -54,6 +64,16 @@ bool cutRanges(httplib::Ranges& ranges, ssize_t size) {
 }
 
 }  // namespace
+
+bool isLoopbackHost(const std::string& host) {
+  const std::string name = nameOfHost(host);
+  return name == kLoopback || name == "localhost" || name == "[::1]";
+}
+
+bool asksForLoopback(const httplib::Request& request) {
+  return request.get_header_value_count("Host") == 1 &&
+         isLoopbackHost(request.get_header_value("Host"));
+}
 
 void answerLoopbackAlone(httplib::Server& server) {
   server.set_pre_routing_handler([](const httplib::Request& request, httplib::Response& response) {
@@ -82,28 +102,17 @@ Result<int> bindServer(httplib::Server& server, const std::string& address, int 
 std::string nameInUrl(const std::string& path, const std::string& usual) {
   std::string name = std::filesystem::path(path).filename().string();
   const bool is_utf8 = isUtf8(name);
-  for (char& letter : name) {
-    const bool kept = isAscii(letter)
-                          ? std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
-                                std::string_view("._-").find(letter) != std::string::npos
-                          : is_utf8;
-    if (!kept) letter = '_';
-  }
+  for (char& letter : name)
+    if (isAscii(letter) ? !isPlain(letter) : !is_utf8) letter = '_';
   return name.empty() || name[0] == '.' ? usual : name;
 }
 
 std::string percentEncoded(const std::string& name) {
-  constexpr std::string_view kDigits = "0123456789ABCDEF";
-  std::string encoded;
-  for (const char letter : name) {
-    if (isAscii(letter)) {
-      encoded += letter;
-      continue;
-    }
-    const auto byte = static_cast<unsigned char>(letter);
-    encoded += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
-  }
-  return encoded;
+  return encodedBut(isAscii, name);
+}
+
+std::string valueInUrl(const std::string& text) {
+  return encodedBut(isPlain, text);
 }
 
 void addBytes(httplib::Server& server, const std::string& path, ServedBytes bytes) {

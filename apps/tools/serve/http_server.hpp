@@ -13,8 +13,14 @@ namespace tetrakis::tools {
 
 inline constexpr const char* kLoopback = "127.0.0.1";
 
-/// Refuses requests whose Host is not this machine: a page elsewhere may not read through a name of
+/// Whether a host, with or without a port, is a name of this machine to itself.
+bool isLoopbackHost(const std::string& host);
+
+/// Whether the Host of a request is this machine: a page elsewhere may not read through a name of
 /// its own that leads here.
+bool asksForLoopback(const httplib::Request& request);
+
+/// Refuses requests for other hosts.
 void answerLoopbackAlone(httplib::Server& server);
 
 /// Takes a port of an address; with 0 a free one.
@@ -26,6 +32,9 @@ std::string nameInUrl(const std::string& path, const std::string& usual);
 
 /// RFC 3986: bytes that are not ASCII as %XX.
 std::string percentEncoded(const std::string& name);
+
+/// The same of all bytes but letters, digits and "._-", which is what a value may hold in a query.
+std::string valueInUrl(const std::string& text);
 
 /// Bytes that may become more.
 struct ServedBytes {

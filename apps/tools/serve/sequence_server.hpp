@@ -15,9 +15,12 @@
 #include <span>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "apps/tools/serve/connections.hpp"
 #include "apps/tools/serve/growing_file.hpp"
 #include "apps/tools/serve/http_server.hpp"
+#include "apps/tools/serve/origins.hpp"
 #include "tetrakis/transmit.hpp"
 
 namespace tetrakis::tools {
@@ -25,8 +28,9 @@ namespace tetrakis::tools {
 struct ServeOptions {
   std::string path;
   std::string address = kLoopback;
-  int port = 0;       ///< 0: any free one
-  bool live = false;  ///< the file grows
+  int port = 0;                           ///< 0: any free one
+  bool live = false;                      ///< the file grows
+  std::vector<std::string> origins = {};  ///< whose pages are let in, as Origins takes them
   std::function<void(const std::string&)> tell =
       {};  ///< is told why a file is not followed any more
 };
@@ -45,24 +49,33 @@ class SequenceServer {
   void stop();
 
  private:
-  SequenceServer(const ServeOptions& options, GrowingFile file, Transmitter transmitter)
-      : options_(options), file_(std::move(file)), transmitter_(std::move(transmitter)) {}
+  struct Parts {
+    GrowingFile file;
+    Transmitter transmitter;
+    Origins origins;
+  };
+  SequenceServer(const ServeOptions& options, Parts parts);
 
+  std::string path() const;
   void addRoutes();
-  void takeMessage(const httplib::Request& request, httplib::Response& response);
+  /// Whether a request is answered before its body is read.
+  bool answersAtOnce(const httplib::Request& request, httplib::Response& response) const;
+  void takeMessage(const httplib::Request& request, httplib::Response& response,
+                   const httplib::ContentReader& read);
   Result<Buffer> answer(std::span<const uint8_t> control, std::optional<uint64_t> after);
   /// Takes the bytes that the file has more.
   Status follow();
   void followUntilStopped();
 
   ServeOptions options_;
+  Origins origins_;
   int port_ = 0;
   GrowingFile file_;
   std::mutex lock_;  ///< of the transmitter
   std::condition_variable grown_;
   Transmitter transmitter_;
   std::atomic<bool> stopped_ = false;
-  httplib::Server server_;
+  CrowdedServer server_;
   std::thread follower_;
 };
 

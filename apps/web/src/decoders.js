@@ -34,8 +34,8 @@ class RemoteDecoder {
     this.#waiting.clear();
     this.failed = error;
   }
-  start(module, memory) {
-    return this.call('start', {module, memory});
+  start(what) {
+    return this.call('start', what);
   }
   async call(operation, argument, signal) {
     signal?.throwIfAborted();
@@ -56,8 +56,8 @@ class RemoteDecoder {
 class LocalDecoder {
   #operations;
   #end = new AbortController();
-  async start(module, memory) {
-    this.#operations = new Operations(module, memory);
+  async start(what) {
+    this.#operations = new Operations(what);
   }
   async call(operation, argument, signal) {
     const end = this.#end.signal;
@@ -71,12 +71,13 @@ class LocalDecoder {
   }
 }
 
-/** A decoder whose thread starts while its module is fetched: `ready` resolves with both. */
-export function startDecoder({worker, wasm, memory = MEMORY} = {}) {
+/** A decoder whose thread starts while its module is fetched: `ready` resolves with both.
+ * `receives`: it decodes what a receiver of a served sequence gets. */
+export function startDecoder({worker, wasm, memory = MEMORY, receives = false} = {}) {
   const thread = threadOf(worker, assets);
   const decoder = thread ? new RemoteDecoder(thread) : new LocalDecoder();
-  decoder.ready = compile(assets, wasm, 'web_open')
-    .then((module) => decoder.start(module, memory));
+  decoder.ready = compile(assets, wasm, receives ? 'web_receiver_open' : 'web_open')
+    .then((module) => decoder.start({module, memory, receives}));
   decoder.ready.catch(() => {});
   return decoder;
 }

@@ -11,7 +11,8 @@ const PLACE_NUMBERS = 5;
 /** Of tks_status. */
 const USAGE = 1;
 
-function clockOf(numerator, denominator, text) {
+/** text: epoch and calendar, each with a 0 at its end. */
+export function clockOf(numerator, denominator, text) {
   if (numerator === 0) return null;
   const [epoch, calendar] = text.split('\0');
   return {numerator, denominator, epoch, calendar};

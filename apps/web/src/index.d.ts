@@ -339,6 +339,52 @@ export interface Sequence extends Terrain {
   forget(frame: number): void;
 }
 
+/** What a receiver tells a server that it wants. */
+export interface Wants {
+  /** The frame that is shown; those behind it come ahead of time. 'newest' (default): whichever
+   * that is. */
+  frame?: number | 'newest';
+  /** What is looked at: its bytes come first. Default: all ground counts alike. */
+  view?: View | null;
+  /** Of the meshes that are drawn: heights that these do not show are not sent. Default: any
+   * number. */
+  triangles?: number;
+  /** Bytes a second of the link, of which each group gets its share. Default, null: as fast as
+   * answers come. */
+  link?: number | null;
+}
+
+export interface ReceiveOptions extends Omit<OpenOptions, 'requestBytes'>, Wants {
+  /** So many frames stay behind the wanted one; the others are given up. Default 256. */
+  keep?: number;
+  /** Messages may fail for so many milliseconds, in which a server can restart. Then no more is
+   * asked for. Default 30000. */
+  patience?: number;
+  /** So many milliseconds without a byte of an answer are a failure. Default 15000. */
+  timeout?: number;
+}
+
+/** A sequence that `tetrakis serve` serves. Frames come as they help what is wanted. Numbers of
+ * frames, `frame` of calls included, are those of the server; `frame` is by default the newest one
+ * that is here, and one that is not here is asked for. decode() takes what is here, whatever
+ * `bytes` says; load() and refine() wait for more, as long as more helps. */
+export interface Reception extends Terrain {
+  readonly isSequence: true;
+  readonly isLive: true;
+  /** How many frames the server has. Those from `firstFrame` to below `frames` are here, but some
+   * between them may be missing. */
+  readonly sourceFrames: number;
+  /** Why no more comes; null: it does. What is here can be decoded in any case. */
+  readonly error: TksError | null;
+  /** Says what is wanted from now on; what is not given stays as it is. */
+  want(wants: Wants): void;
+  /** Resolves when the next answer has come, and rejects when no other will. */
+  changed(options?: Pick<FrameOptions, 'signal'>): Promise<void>;
+  /** The newest frame that is here, again and again: as soon as it can be decoded, and as more of
+   * it comes. Who is slow misses frames between. */
+  newest(options?: FrameOptions): AsyncGenerator<Frame, never, void>;
+}
+
 /** Where adapters put a stream on the globe. Default: where it says, if this package knows its CRS
  * (degrees, web Mercator, UTM) or the stream has positions. */
 export interface Placing {
@@ -359,6 +405,9 @@ export function open(
 
 /** A sequence whose bytes come from somewhere else, in pieces of any size. */
 export function openLive(options?: Omit<OpenOptions, 'request' | 'signal'>): Promise<Sequence>;
+
+/** Receives a sequence from an address that `tetrakis serve` prints, once there is a frame. */
+export function receive(url: string | URL, options?: ReceiveOptions): Promise<Reception>;
 
 /**
  * Metres of one unit of height, of one column and of one row: as the stream states them, or as its

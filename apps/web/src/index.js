@@ -9,6 +9,7 @@ import {KeptSource} from './kept_source.js';
 import {LiveSource} from './live_source.js';
 import {FIRST_BYTES, FIRST_FRAME} from './pace.js';
 import {gathered} from './pieces.js';
+import {Reception} from './reception.js';
 import {Sequence} from './sequence.js';
 import {BegunSource} from './slice_source.js';
 import {anyOrder, sourceOf} from './source.js';
@@ -56,4 +57,18 @@ export async function open(input, options = {}) {
 
 export async function openLive(options = {}) {
   return sequenceOf(new LiveSource(), startDecoder(options), options);
+}
+
+export async function receive(url, {signal, ...options} = {}) {
+  signal?.throwIfAborted();
+  const decoder = startDecoder({...options, receives: true});
+  let reception = decoder;
+  try {
+    reception = new Reception(url, decoder, options);
+    await reception.begin(signal);
+    return reception;
+  } catch (error) {
+    reception.dispose();
+    throw error;
+  }
 }

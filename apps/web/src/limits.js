@@ -9,7 +9,7 @@ function refuse(name, what) {
   throw new TksError('usage', `\`${name}\` is ${what}.`);
 }
 
-function checkNumber(name, value, least) {
+export function checkNumber(name, value, least) {
   if (typeof value !== 'number' || !(value >= least)) refuse(name, `a number from ${least} on`);
 }
 

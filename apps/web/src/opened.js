@@ -2,10 +2,8 @@
 // A stream that the decoder's module has open: what it holds, and the calls that decode its parts.
 import {DOMAINS} from './domains.js';
 import {TksError} from './error.js';
-import {MESSAGE_BYTES, SAMPLES} from './instance.js';
+import {SAMPLES} from './instance.js';
 
-/** Magic, version, profile, level and a varint: these tell how many bytes the header takes. */
-const MOST_BEFORE_BODY = 17;
 const BUDGET_MESH = 1;
 /** tks_globe: its size, and four numbers. */
 const GLOBE_BYTES = 40;
@@ -16,51 +14,13 @@ const TEXELS = 2 ** 18;
 
 /**
  * A stream that is open, as far as its bytes have come. It decodes on from where it was when more
- * of them do. Close it.
+ * of them do.
  */
 export class Opened {
-  #header;  // a copy, which the decoder reads until it gets more bytes
-  /** first: gives so many of the first bytes, as far as they are here; chain: the address of what
-   * the stream goes on from. */
-  constructor(instance, first, chain) {
-    this.instance = instance;
-    const {calls} = instance;
-    const needed = Opened.#headerBytes(instance, first(MOST_BEFORE_BODY));
-    const header = first(needed);
-    this.size = header.length;
-    this.#header = instance.allocate(this.size);
-    instance.view(Uint8Array, this.#header, this.size).set(header);
-    instance.with(4 + MESSAGE_BYTES, (out) => {
-      const status = calls.web_open(chain, this.#header, this.size, out, out + 4, MESSAGE_BYTES);
-      if (status !== 0) {
-        calls.free(this.#header);
-        throw Object.assign(TksError.ofStatus(status, instance.text(out + 4)), {needed});
-      }
-      [this.decoder] = instance.view(Uint32Array, out, 1);
-    });
-    this.hasIndex = calls.web_has_index(this.decoder) !== 0;
-  }
-  /** Of what is no header so many bytes that decoders refuse them. */
-  static #headerBytes(instance, first) {
-    return instance.with(8 + first.length, (out) => {
-      instance.view(Uint8Array, out + 8, first.length).set(first);
-      instance.calls.tks_header_bytes(out + 8, first.length, out);
-      return instance.view(Uint32Array, out, 1)[0] || first.length;  // below 2^21
-    });
-  }
-  /** More bytes, in parts one behind the other, from this place of the stream on. */
-  put(place, parts) {
-    const {instance} = this, size = parts.reduce((sum, {length}) => sum + length, 0);
-    instance.with(size, (address) => {
-      const all = instance.view(Uint8Array, address, size);
-      let at = 0;
-      for (const part of parts) {
-        all.set(part, at);
-        at += part.length;
-      }
-      this.check(instance.calls.web_put(this.decoder, place, address, size));
-    });
-    this.size += size;
+  /** decoder: the address of a tks_decoder; size: how many bytes of its stream have come. */
+  constructor(instance, decoder, size) {
+    [this.instance, this.decoder, this.size] = [instance, decoder, size];
+    this.hasIndex = instance.calls.web_has_index(decoder) !== 0;
   }
   /** Ranges {begin, end, gain} of a call that writes their count and their address. */
   #ranges(call) {
@@ -101,10 +61,6 @@ export class Opened {
       instance.view(Uint32Array, window, 4).set([x, y, width, height]);
       return this.#ranges((out) => instance.calls.web_needed(this.decoder, part, window, out));
     });
-  }
-  close() {
-    this.instance.calls.tks_close(this.decoder);
-    this.instance.calls.free(this.#header);
   }
   check(status) {
     if (status === 0) return;

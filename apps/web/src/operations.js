@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The calls of one decoder, one after another, on whichever thread. Between them and between the
 // parts of a frame messages come through, and a call whose signal has aborted goes no further.
+import {ReceivingDecoder} from './receiving_decoder.js';
 import {Decoder} from './stream_decoder.js';
 
 const messages = () => new Promise((resolve) => setTimeout(resolve));
@@ -9,11 +10,12 @@ export class Operations {
   #decoder;
   #last = Promise.resolve();
 
-  constructor(module, memory) {
-    this.#decoder = new Decoder(module, memory);
+  /** `receives`: of what a receiver gets, in place of one stream. */
+  constructor({module, memory, receives}) {
+    this.#decoder = new (receives ? ReceivingDecoder : Decoder)(module, memory);
   }
 
-  /** Resolves to what this method of Decoder gives. */
+  /** Resolves to what this method of the decoder gives. */
   call(method, argument, signal) {
     const result = this.#last.then(() => this.#run(method, argument, signal));
     this.#last = result.catch(() => {});

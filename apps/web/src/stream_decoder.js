@@ -5,7 +5,7 @@ import {TksError} from './error.js';
 import {partsOf} from './frame.js';
 import {locate, readHead} from './group_calls.js';
 import {Instance, failureOf} from './instance.js';
-import {Opened} from './opened.js';
+import {OpenedStream} from './opened_stream.js';
 
 export const EXHAUSTED =
   'The decoder ran out of memory. Ask for fewer texels, samples or triangles.';
@@ -87,7 +87,7 @@ export class Decoder {
   #openedTo(size) {
     if (this.#opened && this.#opened.size > size) this.#close();
     this.#instance ??= new Instance(this.module);
-    this.#opened ??= new Opened(
+    this.#opened ??= new OpenedStream(
       this.#instance, (bytes) => this.#first(Math.min(bytes, size)),
       this.#chain.addressIn(this.#instance));
     // The decoder looks through its index each time that it gets bytes.

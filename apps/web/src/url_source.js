@@ -4,12 +4,10 @@
 import {stoppedBy} from './abort.js';
 import {TksError} from './error.js';
 import {gathered, inLarger} from './pieces.js';
+import {BROKE, hasBroken, refusalOf} from './refusal.js';
 import {Version} from './version.js';
 import {WholeAnswer} from './whole_answer.js';
 
-const BROKE = ': the connection broke.';
-/** Of an answer that ended before it told what it is: codes of Node's errors. */
-const BROKEN = ['UND_ERR_SOCKET', 'ECONNRESET', 'EPIPE'];
 const MAGICS = ['TKS\x1a', 'TKG\x1a'];
 
 const textOf = (bytes) => String.fromCharCode(...bytes);
@@ -24,14 +22,6 @@ export function checkMagic(bytes, what) {
   if (MAGICS.some((magic) => magic.startsWith(first))) return;
   const text = textOf(bytes.subarray(0, 16)).replace(/[^ -~]/g, '.');
   throw new TksError('corrupt', `${what} is not a Tetrakis stream: it begins with "${text}".`);
-}
-
-function addressOf(text, page) {
-  try {
-    return new URL(text, page);
-  } catch {
-    return null;
-  }
 }
 
 export class UrlSource {
@@ -98,29 +88,9 @@ export class UrlSource {
       const {credentials} = this.#request, {signal} = stop;
       return await fetch(this.#url, {headers, credentials, signal});
     } catch (error) {
-      // Pages are not told; Node is.
-      const broke = BROKEN.includes(error?.cause?.code);
-      throw this.#failure(stop, broke ? BROKE : await this.#refusal(stop), error);
+      const why = hasBroken(error) ? BROKE : await refusalOf(this.#url, stop.signal);
+      throw this.#failure(stop, why, error);
     }
-  }
-  /** What there is to say where fetch() fails, which tells nobody why. */
-  async #refusal({signal}) {
-    const page = globalThis.document?.baseURI ?? globalThis.location?.href;
-    const address = addressOf(this.#url, page);
-    if (!address) {
-      return ' is no address. Outside of a page give all of it, or the bytes of a file.';
-    }
-    if (address.protocol === 'file:') {
-      return ' is a file, which cannot be fetched. Give its bytes or a Blob.';
-    }
-    const origin = page && new URL(page).origin;
-    // Of a server that lets no page read its answers a page still sees that it answers.
-    const answers = origin && address.origin !== origin &&
-      (await fetch(this.#url, {method: 'HEAD', mode: 'no-cors', signal}).catch(() => null));
-    return answers
-      ? ` cannot be read: its server answers, but does not allow pages of ${origin} to read what ` +
-        'it sends (CORS). It has to send the header Access-Control-Allow-Origin.'
-      : ' cannot be fetched: its server cannot be reached, or broke the connection.';
   }
 
   /** false: the answer is the whole file, which is now read from its beginning. */

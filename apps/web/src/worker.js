@@ -28,7 +28,7 @@ self.onmessage = ({data}) => {
   if (operation === 'stop') running.get(id)?.abort();
   else if (operation !== 'start') answer(data);
   else {
-    operations = new Operations(argument.module, argument.memory);
+    operations = new Operations(argument);
     self.postMessage({id});
   }
 };

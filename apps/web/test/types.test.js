@@ -33,6 +33,7 @@ const GIVEN = {
   'Any renderer': 'declare const signal: AbortSignal;',
   'Sequences': `import type {Scene} from 'three'; import type {Frame} from 'tetrakis';
     declare const scene: Scene, socket: AsyncIterable<Uint8Array>;
+    declare const clip: number[], width: number, height: number;
     declare function show(frame: Frame): void;`,
   'Encoding': `declare const data: Int16Array, width: number, height: number, nodata: number;
     declare const geotransform: number[], imageData: ImageData, bar: HTMLProgressElement;
@@ -60,7 +61,7 @@ test('the examples of README are accepted', async () => {
         await writeFile(web + files.at(-1), `${GIVEN[heading]}\n${besides}\n${example}`);
       }
     }
-    assert.equal(files.length, 13);
+    assert.equal(files.length, 14);
     assert.deepEqual(complaints(files, RESOLUTIONS[0]), []);
   } finally {
     await rm(folder, {recursive: true});

@@ -4,8 +4,8 @@ import type {Scene as Globe} from '@cesium/engine';
 import {load, loadInBatches} from '@loaders.gl/core';
 import {Map as WebMap, addProtocol} from 'maplibre-gl';
 import {
-  FIRST_FRAME, TksError, goesRound, groundAxes, groundScale, open, openLive, type Frame,
-  type Sequence,
+  FIRST_FRAME, TksError, goesRound, groundAxes, groundScale, open, openLive, receive,
+  type Frame, type Reception, type Sequence,
 } from 'tetrakis';
 import {TksTerrainProvider} from 'tetrakis/cesium';
 import {TksLoader as DeckLoader, imageOf, meshOf} from 'tetrakis/deck';
@@ -125,4 +125,17 @@ export async function codedScan(texture: ImageData): Promise<Uint8Array> {
   const {stream, report} = await encodeObject({...mesh, texture, unit: 'mm', bytes: 2e4});
   console.log(report.kind, report.error, report.droppedTriangles);
   return stream;
+}
+
+export async function served(url: URL, signal: AbortSignal): Promise<Reception> {
+  const reception = await receive(url, {
+    signal, frame: 'newest', link: 32000, keep: 64, patience: 5000, timeout: 1000, worker: false,
+    request: {headers: {Authorization: 'Bearer abc'}},
+  });
+  reception.want({frame: 12, triangles: 5000, view: null, link: null});
+  await reception.changed({signal});
+  for await (const {number, time} of reception.newest({signal, texture: false})) {
+    if (number + 1 === reception.sourceFrames && time > 0 && !reception.error) break;
+  }
+  return reception;
 }

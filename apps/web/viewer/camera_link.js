@@ -3,6 +3,8 @@
 // the same: behind #, as eye, target (metres around the middle of the terrain), height (the
 // slider's value) and frame (its number).
 
+import {framesOf} from './frame_time.js';
+
 const NAMES = ['eye', 'target'];
 
 /** What the address gives under a name, behind # or else behind ?; null: nothing. */
@@ -17,11 +19,14 @@ function place(name) {
   return numbers.length === 3 && numbers.every(isFinite) ? numbers : null;
 }
 
-/** The frame of a terrain that the address gives, else its first one. */
-export function givenFrame({firstFrame, frames}) {
-  const number = Number(given('frame') ?? NaN);
-  return Number.isInteger(number) && number >= firstFrame && number < frames ? number : firstFrame;
+/** The frame of a terrain that the address gives; null: none. */
+export function linkedFrame(terrain) {
+  const {first, end} = framesOf(terrain), number = Number(given('frame') ?? NaN);
+  return Number.isInteger(number) && number >= first && number < end ? number : null;
 }
+/** The same, else the first one, or of a server the newest. */
+export const givenFrame = (terrain) =>
+  linkedFrame(terrain) ?? (terrain.isLive ? terrain.frames - 1 : terrain.firstFrame);
 
 /** The value of the slider of heights that the address gives. */
 export function givenHeight() {

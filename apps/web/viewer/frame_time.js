@@ -29,6 +29,10 @@ export function frameTime(clock, time, number) {
   return `${withoutZeros(seconds)} s${since}`;
 }
 
+/** The frames of a terrain, from `first` on: of a server all that it has. */
+export const framesOf = ({isLive, firstFrame, frames, sourceFrames}) =>
+  (isLive ? {first: 0, end: sourceFrames} : {first: firstFrame, end: frames});
+
 /** How many frames a second are played where nothing says it, or says what cannot be watched. */
 const USUAL_RATE = 5, LEAST_RATE = 1, MOST_RATE = 60;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Plays the frames of a sequence: each is decoded while the one before is shown, and the first one
 // of the next group while this one plays.
-import {rateOf} from './frame_time.js';
+import {framesOf, rateOf} from './frame_time.js';
 
 /** Resolves after so many ms, or rejects when the signal aborts. */
 const wait = (ms, signal) => new Promise((resolve, reject) => {
@@ -50,10 +50,14 @@ export class Player {
     this.#stop = Object.assign(new AbortController(), {plays});
     return this.#stop.signal;
   }
+  /** What grows has no end to begin anew behind. */
+  get #loops() {
+    return this.loops && !this.#terrain.isLive;
+  }
   /** The frame behind this one; null: it is the last. */
   #after(number) {
-    const {firstFrame, frames} = this.#terrain;
-    return number + 1 < frames ? number + 1 : this.loops ? firstFrame : null;
+    const {first, end} = framesOf(this.#terrain);
+    return number + 1 < end ? number + 1 : this.#loops ? first : null;
   }
   /** Milliseconds until the next frame, or as many as since the one before. */
   get #period() {
@@ -63,18 +67,18 @@ export class Player {
   }
 
   async play() {
-    const signal = this.#begin(true), {firstFrame, frames} = this.#terrain;
+    const signal = this.#begin(true), {first, end} = framesOf(this.#terrain);
     const ask = (number) => {
       const asked = this.#decodeFrom(number, signal);
       asked.catch(() => {});
       return asked;
     };
     try {
-      let coming = ask(this.number + 1 < frames ? this.number + 1 : firstFrame);
+      let coming = ask(this.number + 1 < end ? this.number + 1 : first);
       for (let due = performance.now(); coming; due = Math.max(due, performance.now())) {
         const frame = await coming, next = this.#after(frame.number);
         coming = next === null ? null : ask(next);
-        this.#prepare(frame.number, ask);
+        this.#prepare(frame.number, ask).catch(() => {});  // the frame itself will tell
         await wait(due - performance.now(), signal);
         this.#shown(frame);
         due += this.#period;
@@ -92,7 +96,7 @@ export class Player {
     } catch (error) {
       if (error.code !== 'truncated') throw error;
       const {endFrame} = await this.#terrain.group(number);
-      if (endFrame >= this.#terrain.frames) throw error;
+      if (endFrame >= framesOf(this.#terrain).end) throw error;
       return this.#decodeFrom(endFrame, signal);
     }
   }
@@ -107,10 +111,10 @@ export class Player {
   }
   /** Has the group behind that of a frame decoded. */
   async #prepare(number, ask) {
-    const {firstFrame, frames} = this.#terrain, group = await this.#terrain.group(number);
-    const isLast = group.endFrame >= frames, next = isLast ? firstFrame : group.endFrame;
-    const isOnly = isLast && group.firstFrame === firstFrame;
-    if (isOnly || (isLast && !this.loops) || next === this.#prepared) return;
+    const {first, end} = framesOf(this.#terrain), group = await this.#terrain.group(number);
+    const isLast = group.endFrame >= end, next = isLast ? first : group.endFrame;
+    const isOnly = isLast && group.firstFrame === first;
+    if (isOnly || (isLast && !this.#loops) || next === this.#prepared) return;
     this.#prepared = next;
     ask(next);
   }

@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first script of the page: asks for the stream (?tks=URL) and decodes a first frame of it
-// while what draws it is still on its way.
-import {FIRST_FRAME, open} from '../src/index.js';
+// The first script of the page: asks for the stream (?tks=URL, or ?live=URL of a server) and
+// decodes a first frame of it while what draws it is still on its way.
+import {FIRST_FRAME} from '../src/index.js';
 import {givenFrame} from './camera_link.js';
-import {decoder} from './decoder.js';
 import {globeFor} from './globe_view.js';
+import {inputOfPage, opened} from './opening.js';
 import {hasTint} from './tint.js';
 
-const address = new URLSearchParams(location.search).get('tks');
+const input = inputOfPage();
 let asked = null;
-if (address) {
+if (input) {
   const stop = new AbortController();
-  const {signal} = stop, terrain = open(address, {...decoder, signal});
-  const first = terrain.then((opened) => opened.decode({
-    ...FIRST_FRAME, frame: givenFrame(opened), bytes: opened.loaded.bytes, samples: 1024,
-    normals: true,
-    surface: hasTint(opened.info), globe: globeFor(opened.info), signal,
+  const {signal} = stop, terrain = opened(input, {signal});
+  const first = terrain.then((its) => its.decode({
+    ...FIRST_FRAME, frame: givenFrame(its), bytes: its.loaded.bytes, samples: 1024, normals: true,
+    surface: hasTint(its.info), globe: globeFor(its.info), signal,
   }));
-  asked = {address, stop, terrain, first};
+  asked = {input, stop, terrain, first};
   for (const each of [terrain, first]) each.catch(() => {});  // the viewer tells why
 }
 try {

@@ -2,21 +2,22 @@
 // Opens a stream (of start.js, a drop, a file), has it refined, and listens to the panel.
 import {MeshLambertMaterial} from 'three';
 
-import {goesRound, open} from '../src/index.js';
+import {goesRound} from '../src/index.js';
 import {TksTerrain, textureOf} from '../src/three.js';
 import {nameOf} from './address.js';
 import {drawBearings} from './bearings.js';
 import {followLink, givenHeight, keepLook} from './camera_link.js';
 import {encodedFile, inputOf, isStream} from './coding.js';
 import {Comparison} from './comparison.js';
-import {decoder} from './decoder.js';
 import {FetchMap} from './fetch_map.js';
 import {listenToFiles} from './files.js';
 import {Globe} from './globe.js';
 import {globeDescriber} from './globe_pointer.js';
 import {exaggerationOf, globeFor, keepFlat} from './globe_view.js';
+import {LiveEdge} from './live_edge.js';
 import {listenToLooks, setWireframe} from './looks.js';
 import {ViewedObject, hideControls, isInMetres, objectDescriber} from './object_view.js';
+import {addressOf, opened} from './opening.js';
 import {$, entitle, explainMoves, freeArea, isSmallScreen, tell} from './page.js';
 import {decodePlayed, drawPlayed} from './played.js';
 import {describer, listenToPointer} from './pointer.js';
@@ -42,6 +43,8 @@ const timeline = new Timeline({
   decode: (asked) => decodePlayed({terrain, object}, asked),
   show: showPlayed, fail, onplay: () => refiner.hold(), onrest: restFrame,
 });
+
+const edge = new LiveEdge(timeline, (error) => tell(error.message, true));
 
 let terrain = null, object = null;
 let opening = new AbortController();
@@ -120,7 +123,10 @@ function setWanted() {
 }
 /** Where the camera rests, the address keeps it, and other bytes may help. */
 function rest() {
-  if (object?.frame) keep();
+  if (object?.frame) {
+    keep();
+    edge.look(object, picture);
+  }
   if (object?.isObject) setWanted();
   else refiner.replan();
 }
@@ -169,9 +175,9 @@ async function openInput(input, name, asked, original = null) {
   const title = `${name} – Tetrakis`;
   beginOpening(stop, {name, title, size: 'opening …'});
   try {
-    const opened = await (asked?.terrain ?? open(input, {...decoder, signal}));
-    if (signal.aborted) return opened.dispose();
-    terrain = opened;
+    const its = await (asked?.terrain ?? opened(input, {signal}));
+    if (signal.aborted) return its.dispose();
+    terrain = its;
     map.show(terrain);
     object = drawnOf(terrain);
     setWireframe(object);
@@ -183,11 +189,12 @@ async function openInput(input, name, asked, original = null) {
     timeline.begin(terrain);
     refiner.release();
     refiner.begin({terrain, object, first: asked?.first});
+    edge.begin(terrain, signal);
     reopen = () => openInput(input, name, null, original);
     called = {name, title, size: sizeOf(terrain.info)};
     entitle(called);
     setWanted();
-    if (asked && isFlat) comparison.ofLink(terrain.info, () => terrain === opened);
+    if (asked && isFlat) comparison.ofLink(terrain.info, () => terrain === its);
   } catch (error) {
     if (!signal.aborted) failToOpen(error);
   }
@@ -273,7 +280,7 @@ function listenToControls() {
   });
 }
 
-/** Takes over what the page has asked for already: {address, stop, terrain, first}, or nothing. */
+/** Takes over what the page has asked for already: {input, stop, terrain, first}, or nothing. */
 export function begin(asked) {
   picture.onrest = rest;
   picture.ondraw = () => {
@@ -285,7 +292,7 @@ export function begin(asked) {
   listenToSun(picture);
   addEventListener('hashchange', () => {
     if (object?.frame) followLink(picture);
-    timeline.follow();
+    timeline.followLink();
   });
   listenToPointer(picture, (point) => describe(point));
   listenToControls();
@@ -295,6 +302,6 @@ export function begin(asked) {
   if (isSmallScreen()) $('fold').click();
   const early = [...$('file').files];  // chosen while this script was on its way
   if (early.length > 0) openFiles(early);
-  else if (asked) openInput(asked.address, nameOf(asked.address), asked);
+  else if (asked) openInput(asked.input, nameOf(addressOf(asked.input)), asked);
   else $('welcome').hidden = false;
 }

@@ -18,6 +18,11 @@ Frames that follow one another in time:
     with tetrakis.open_sequence(stream) as sequence:
         series = sequence[:, 10, 20]
 
+As a server has them (`tetrakis serve`):
+
+    for frame in tetrakis.receive("http://127.0.0.1:8000/flood.tks", live=True):
+        print(frame.time, frame.stream.heights().max())
+
 Terrain that no machine holds, by windows of its source: `tetrakis.mosaic`.
 """
 
@@ -41,6 +46,7 @@ from ._errors import (
 from ._info import Info
 from ._objects import BaseMesh, ObjectMesh
 from ._rasterio import from_rasterio, to_geotiff
+from ._reception import Reception, TimedFrame, receive
 from ._sequence import Sequence, open_sequence
 from ._sequence_encoder import SequenceEncoder
 from ._stream import GlobeMesh, Mesh, Stream, open, truncate
@@ -57,10 +63,12 @@ __all__ = [
     "Mesh",
     "ObjectMesh",
     "ObjectReport",
+    "Reception",
     "Sequence",
     "SequenceEncoder",
     "Status",
     "Stream",
+    "TimedFrame",
     "TksCorruptError",
     "TksError",
     "TksIOError",
@@ -79,6 +87,7 @@ __all__ = [
     "mosaic",
     "open",
     "open_sequence",
+    "receive",
     "tks_check",
     "tks_decode",
     "tks_encode",

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// A stream whose bytes are handed over to the decoder's module. Close it.
+import {TksError} from './error.js';
+import {MESSAGE_BYTES} from './instance.js';
+import {Opened} from './opened.js';
+
+/** Magic, version, profile, level and a varint: these tell how many bytes the header takes. */
+const MOST_BEFORE_BODY = 17;
+
+export class OpenedStream extends Opened {
+  #header;  // a copy, which the decoder reads until it gets more bytes
+  /** first: gives so many of the first bytes, as far as they are here; chain: the address of what
+   * the stream goes on from. */
+  constructor(instance, first, chain) {
+    const {calls} = instance;
+    const needed = OpenedStream.#headerBytes(instance, first(MOST_BEFORE_BODY));
+    const header = first(needed), copy = instance.allocate(header.length);
+    instance.view(Uint8Array, copy, header.length).set(header);
+    const decoder = instance.with(4 + MESSAGE_BYTES, (out) => {
+      const status = calls.web_open(chain, copy, header.length, out, out + 4, MESSAGE_BYTES);
+      if (status !== 0) {
+        calls.free(copy);
+        throw Object.assign(TksError.ofStatus(status, instance.text(out + 4)), {needed});
+      }
+      return instance.view(Uint32Array, out, 1)[0];
+    });
+    super(instance, decoder, header.length);
+    this.#header = copy;
+  }
+  /** Of what is no header so many bytes that decoders refuse them. */
+  static #headerBytes(instance, first) {
+    return instance.with(8 + first.length, (out) => {
+      instance.view(Uint8Array, out + 8, first.length).set(first);
+      instance.calls.tks_header_bytes(out + 8, first.length, out);
+      return instance.view(Uint32Array, out, 1)[0] || first.length;  // below 2^21
+    });
+  }
+  /** More bytes, in parts one behind the other, from this place of the stream on. */
+  put(place, parts) {
+    const {instance} = this, size = parts.reduce((sum, {length}) => sum + length, 0);
+    instance.with(size, (address) => {
+      const all = instance.view(Uint8Array, address, size);
+      let at = 0;
+      for (const part of parts) {
+        all.set(part, at);
+        at += part.length;
+      }
+      this.check(instance.calls.web_put(this.decoder, place, address, size));
+    });
+    this.size += size;
+  }
+  close() {
+    this.instance.calls.tks_close(this.decoder);
+    this.instance.calls.free(this.#header);
+  }
+}
