@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SampleMarks says which samples of a plane exist: all, those of a BitPlane, or, for a view of a
-// plane that is too large for that, those of LevelMarks: at the multiples of 8^g, for some g = G, G +
-// 1, …, within rectangles that grow as the samples grow sparse. A transform that makes a window, or
-// a level of 3 G or more, reads no others.
+// plane that is too large for that, those of LevelMarks: at the multiples of 8^g, for all g from
+// some G on, within rectangles that grow as the samples grow sparse. A transform that makes a
+// window, or a level of 3 G or more, reads no others.
 #pragma once
 
 #include <algorithm>

@@ -125,9 +125,9 @@ struct GeometryLayers {
   /// The mask of the base opens the first track, and each region of coefficients begins with what
   /// its mask has beside that (codec/geometry/region_masks.hpp).
   bool region_masks = false;
-  uint64_t table_bytes = 0;     ///< 0: steps are multiples; else they count the values of a table
-  uint32_t table_values = 0;    ///< with a table only: how many it has
-  uint64_t table_after = 0;     ///< likewise: bytes of coefficients before it
+  uint64_t table_bytes = 0;   ///< 0: steps are multiples; else they count the values of a table
+  uint32_t table_values = 0;  ///< with a table only: how many it has
+  uint64_t table_after = 0;   ///< likewise: bytes of coefficients before it
   std::vector<TableKnot> table_knots = {};  ///< likewise, by rising places
   uint64_t flat_bytes = 0;                  ///< 0: there are no flat areas
   uint32_t flat_areas = 0;                  ///< with flat areas only: how many there are

@@ -228,7 +228,7 @@ std::vector<uint8_t> encodeValidity(const PlaneView<const uint8_t>& valid);
 /// The same of a plane of which nobody holds a byte for each sample.
 std::vector<uint8_t> encodeValidityBits(const BitPlane& valid);
 
-/// The same for decoders that know coarseMarks() of the mask. It is empty if they need nothing more.
+/// The same for decoders that know coarseMarks() of the mask. Empty: they need nothing more.
 std::vector<uint8_t> encodeFinerValidity(const BitPlane& valid);
 
 /// The same of a mask that comes late. lifted: marks at least the valid samples.

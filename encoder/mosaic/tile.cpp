@@ -141,8 +141,8 @@ void openTracks(const TaskInputs& inputs, const Block& block, Part& part) {
 
 /// Whether nothing exists of a block, as over the sea or abroad.
 bool isVoid(const Block& block) {
-  return !block.valid.empty() && std::find(block.valid.begin(), block.valid.end(), 1) ==
-                                     block.valid.end();
+  return !block.valid.empty() &&
+         std::find(block.valid.begin(), block.valid.end(), 1) == block.valid.end();
 }
 
 /// The tile of a block of which nothing exists: what coding it would make, without doing so.
