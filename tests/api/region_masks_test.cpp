@@ -5,7 +5,10 @@
 #include <cstring>
 #include <random>
 
+#include "base/bit_plane.hpp"
 #include "bitstream/stream/header.hpp"
+#include "bitstream/track/track.hpp"
+#include "codec/lattice/validity.hpp"
 #include "conformance/reference_decoder.hpp"
 #include "tests/support/mosaic_source.hpp"
 
@@ -156,6 +159,34 @@ TEST(RegionMasks, RangesOfAWindowGiveTheWindow) {
       ASSERT_EQ(validIn(stream, window), validIn(all, window));
     }
     EXPECT_TRUE(shape != VoidShape::kCoast || fetched < bytes.size());
+  }
+}
+
+/// Bytes of the masks of all regions and of the base.
+size_t bytesInRegions(const BitPlane& mask, int region_log2) {
+  size_t bytes = 0;
+  BitPlane sparse = mask;
+  for (const RegionGroup& group : regionGroups(mask.extent(), region_log2)) {
+    const RegionGroup here{region_log2, group.columns, group.rows, 0, sparse.extent()};
+    for (uint32_t row = 0; row < here.rows; ++row)
+      for (uint32_t column = 0; column < here.columns; ++column)
+        bytes += 1 + encodeFinerValidity(sparse.cut(here.samplesOf(column, row))).size();
+    sparse = coarseMarks(sparse);
+  }
+  return bytes + encodeValidityBits(sparse).size();
+}
+
+/// Each region has models of its own.
+TEST(RegionMasks, TakeLittleMoreThanOneMask) {
+  constexpr Extent kPlane{2048, 1800};
+  for (const auto& [shape, most] : {std::pair(VoidShape::kCoast, 1.15),
+                                    {VoidShape::kHoles, 1.1},
+                                    {VoidShape::kSpeckle, 1.02}}) {
+    const std::vector<uint8_t> valid = samples::validity(shape, kPlane.width, kPlane.height);
+    const BitPlane mask(valid, kPlane);
+    const auto whole = static_cast<double>(encodeValidityBits(mask).size());
+    EXPECT_LT(static_cast<double>(bytesInRegions(mask, 9)), most * whole + 40)
+        << static_cast<int>(shape) << ", " << whole;
   }
 }
 

@@ -120,7 +120,7 @@ TEST(HeldWavelet, WindowsAreThoseOfThePlane) {
     const Plane coefficients = coded(spec, pyramid, plane);
     for (const Window& window :
          {Window{0, 0, 83, 70}, Window{31, 8, 20, 33}, Window{82, 69, 1, 1}}) {
-      WindowSynthesis synthesis(spec, pyramid, window);
+      WindowSynthesis synthesis(spec, pyramid, {0, window});
       synthesis.allocate();
       // Blocks hold the coefficients that a window needs; the first of them stands for itself.
       if (window.width == size.width) {
