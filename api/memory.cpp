@@ -62,6 +62,11 @@ uint64_t joinedBytes(const tks_decoder& decoder, const MemoryRequest& request) {
 
 uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   const StreamHeader& header = decoder.parsed.header;
+  const bool texture = request.part == TKS_PART_TEXTURE;
+  // Where there are bytes the tracks are listed, and there may be more than memory holds.
+  const bool unsent = texture ? texelsAreUnsent(decoder) : heightsAreUnsent(decoder);
+  const uint64_t tracks = texture ? trackBytes(*header.texture) : trackBytes(*header.geometry);
+  if (!unsent && tracks > decoder.max_memory) return tracks;
   MemoryRequest decoded = request;
   decoded.view = decodedFor(header, request.part, request.view);
   const bool cut = decoded.view.window != request.view.window;

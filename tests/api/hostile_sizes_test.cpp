@@ -3,6 +3,7 @@
 // of what was never sent take next to nothing, and the rest is refused before it is allocated.
 #include <functional>
 
+#include "bitstream/stream/header.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/hostile_streams.hpp"
 #include "tests/support/stream_fixture.hpp"
@@ -80,6 +81,30 @@ TEST(HostileSizes, AnswerWithinTheLimit) {
           [&] { return tks_decode_texture_window(stream.get(), &window, texels.data(), bytes); });
     }
   }
+}
+
+/// A few bytes declare more regions than memory holds: they open, and no call lists them.
+TEST(HostileSizes, RegionsBeyondMemoryAreNotListed) {
+  tks_limits limits = limitsOf(kLimit);
+  limits.max_samples = uint64_t{1} << 40;
+  StreamHeader header;
+  GeometryHeader& heights = header.geometry.emplace();
+  heights.width = heights.height = 1 << 20;
+  heights.regions.side_log2 = 4;
+  heights.planes = 8;
+  header.payload_bytes = 4;
+  Bytes bytes = writeHeader(header);
+  bytes.insert(bytes.end(), {4, 0, 0, 77});  // a byte of the base
+  Stream stream(bytes, &limits);
+  ASSERT_EQ(stream.status(), TKS_OK) << stream.message();
+  const tks_window window = {1000, 1000, 8, 8};
+  std::vector<float> samples(64);
+  tks_status status = TKS_OK;
+  const uint64_t peak = peakBytes([&] {
+    status = tks_decode_surface_window(stream.get(), &window, samples.data(), samples.size());
+  });
+  EXPECT_EQ(status, TKS_LIMIT) << tks_message(stream.get());
+  EXPECT_LT(peak, 1u << 20);
 }
 
 /// Everything of a plane of which nothing was sent looks as at any other size.

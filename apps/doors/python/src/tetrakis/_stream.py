@@ -60,6 +60,9 @@ class GlobeMesh(NamedTuple):
     """uint32 (m, 3): places in `positions`, counter-clockwise seen from outside."""
 
 
+_ANY = 2**63  #: samples; memory bounds what is decoded of them
+
+
 def open(
     source: Source,
     *,
@@ -78,8 +81,9 @@ def open(
         once.
     bytes: read no more than so many; the rest is not fetched.
     threads: how many one call may use. What is decoded never depends on it.
-    max_samples, max_texels (2^28 each unless given), max_memory (bytes; 8 GiB unless given): what
-        goes beyond raises :class:`TksLimitError` before anything is allocated.
+    max_memory (bytes; 8 GiB unless given), max_samples, max_texels (any number unless given): what
+        goes beyond raises :class:`TksLimitError` before anything is allocated. Of a plane that
+        memory does not hold there are windows and coarse levels.
 
     Safe on any bytes: raises :class:`TksCorruptError`, :class:`TksTruncatedError` (the sentence
     says how many bytes the header takes), :class:`TksUnsupportedError`, :class:`TksLimitError`, or
@@ -87,8 +91,8 @@ def open(
     """
     limits = c.Limits(
         size=ctypes.sizeof(c.Limits),
-        max_samples=values.unsigned(max_samples, "max_samples", 64),
-        max_texels=values.unsigned(max_texels, "max_texels", 64),
+        max_samples=values.unsigned(max_samples, "max_samples", 64) or _ANY,
+        max_texels=values.unsigned(max_texels, "max_texels", 64) or _ANY,
         max_memory=values.unsigned(max_memory, "max_memory", 64),
     )
     threads = values.unsigned(threads, "threads")
@@ -100,7 +104,7 @@ def truncate(stream: BytesLike, bytes: int) -> builtins.bytes:
     about the best that so few bytes can hold. Raises :class:`TksTruncatedError` if they do not hold
     the header; the sentence says how many do."""
     cut = first_bytes(stream, bytes)
-    with Decoder(cut, c.Limits(size=ctypes.sizeof(c.Limits), max_samples=2**63, max_texels=2**63)):
+    with Decoder(cut, c.Limits(size=ctypes.sizeof(c.Limits), max_samples=_ANY, max_texels=_ANY)):
         return cut
 
 
