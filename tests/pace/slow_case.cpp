@@ -205,7 +205,12 @@ StreamHeader anyHeights(Dice& dice, uint64_t most_samples) {
   }
   if (dice.oneIn(4)) anyPriorities(dice, g.extent(), g.priorities);
   if (dice.oneIn(2)) g.regions.side_log2 = static_cast<uint8_t>(5 + dice.below(6));
-  anyLayers(dice, g, header.layers);
+  GeometryLayers& layers = header.layers;
+  anyLayers(dice, g, layers);
+  const bool plain = layers.validity_bytes > 0 && layers.bridge == 0 && !layers.late_mask &&
+                     layers.flat_bytes == 0 && !g.wavelet.ring;
+  if (plain && takesRegionMasks(g.extent(), g.regions.side_log2))
+    layers.region_masks = dice.oneIn(2);
   return header;
 }
 
@@ -282,11 +287,11 @@ std::string described(const StreamHeader& header) {
   return "heights " + std::to_string(g.shown().width) + " x " + std::to_string(g.shown().height) +
          ", planes " + std::to_string(g.planes) + (g.drawn ? " (drawn)" : "") + ", regions " +
          std::to_string(g.regions.side_log2) + ", validity " + std::to_string(l.validity_bytes) +
-         ", bridge " + std::to_string(l.bridge) + (l.late_mask ? " (late mask)" : "") + ", flat " +
-         std::to_string(l.flat_bytes) + ", table " + std::to_string(l.table_values) +
-         ", corrections " + std::to_string(static_cast<int>(l.corrections)) + "/" +
-         std::to_string(l.correction_step) + ", priorities " +
-         std::to_string(g.priorities.tile_log2) + described(g.wavelet.forest);
+         (l.region_masks ? " (of regions)" : "") + ", bridge " + std::to_string(l.bridge) +
+         (l.late_mask ? " (late mask)" : "") + ", flat " + std::to_string(l.flat_bytes) +
+         ", table " + std::to_string(l.table_values) + ", corrections " +
+         std::to_string(static_cast<int>(l.corrections)) + "/" + std::to_string(l.correction_step) +
+         ", priorities " + std::to_string(g.priorities.tile_log2) + described(g.wavelet.forest);
 }
 
 }  // namespace
