@@ -60,6 +60,26 @@ TEST_F(CliFiles, LevelsAreSmallerFilesOfTheSameGround) {
   EXPECT_EQ(cli("decode a.tks --level 1 --mesh x.glb").code, 1);
 }
 
+/// Of a window of a level: the samples that the level has there, where they lie.
+TEST_F(CliFiles, WindowsOfLevelsArePartsOfThem) {
+  makeStream();
+  ASSERT_EQ(cli("decode a.tks --level 1 --height l.tif").code, 0);
+  ASSERT_EQ(cli("decode a.tks --level 1 --window 2,3,5,4 --height w.tif --texture t.png").code, 0);
+  const auto level = tools::readHeights(path("l.tif")), window = tools::readHeights(path("w.tif"));
+  ASSERT_TRUE(level.ok() && window.ok());
+  ASSERT_EQ(level->width, 9u);
+  ASSERT_EQ(window->width, 5u);
+  ASSERT_EQ(window->height, 4u);
+  EXPECT_EQ(window->spacing_x, level->spacing_x);
+  const size_t bytes = level->data.size() / (size_t{9} * 9);
+  for (size_t y = 0; y < 4; ++y) {
+    const auto row = level->data.begin() + static_cast<ptrdiff_t>(((3 + y) * 9 + 2) * bytes);
+    EXPECT_TRUE(std::equal(row, row + static_cast<ptrdiff_t>(5 * bytes),
+                           window->data.begin() + static_cast<ptrdiff_t>(y * 5 * bytes)));
+  }
+  EXPECT_EQ(cli("decode a.tks --level 1 --window 2,3,8,4 --height x.tif").code, 1);
+}
+
 /// By a stream that promises something; what is there of it decodes all the same.
 TEST_F(CliFiles, DamageIsFound) {
   makeInputs();

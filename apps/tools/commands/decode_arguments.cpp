@@ -103,22 +103,21 @@ void addArguments(CLI::App& verb, DecodeArguments& arguments) {
   addFrame(verb, arguments.source);
   CLI::Option* const size = addGround(verb, arguments);
   CLI::Option* const mesh = addMesh(verb, arguments);
-  CLI::Option* const level =
-      verb.add_option("--level", arguments.level,
-                      "Heights and texture at 1/2^K of their resolution: 1 half, 2 a quarter, …")
-          ->check(wholeNumber())
-          ->type_name("K")
-          ->excludes(mesh)
-          ->excludes(size);
-  verb.add_option("--window", arguments.window, "Only these samples, and the texels over them")
+  verb.add_option("--level", arguments.level,
+                  "Heights and texture at 1/2^K of their resolution: 1 half, 2 a quarter, …")
+      ->check(wholeNumber())
+      ->type_name("K")
+      ->excludes(mesh)
+      ->excludes(size);
+  verb.add_option("--window", arguments.window,
+                  "Only these samples of the level, and the texels over them")
       ->delimiter(',')
       ->expected(4)
       ->check(wholeNumber())
       ->option_text("X,Y,W,H")  // the type's name would stand before "x 4"
       ->excludes(mesh)
       ->excludes(size)
-      ->excludes("--normal-map")
-      ->excludes(level);
+      ->excludes("--normal-map");
   addThreads(verb, arguments.threads);
   addForce(verb, arguments.force);
 }
