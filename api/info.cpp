@@ -210,7 +210,8 @@ void fillHeights(const tks_decoder& decoder, tks_info& info) {
   info.max_error = geometry.max_error;
   info.heights_drawn = codingOf(geometry);
   info.has_voids = header.layers.validity_bytes > 0;
-  info.voids_known = voidsAreKnown(decoder);
+  info.voids_known = header.layers.region_masks ? info.available_bytes >= info.stream_bytes
+                                                : voidsAreKnown(decoder);
   info.has_nodata = header.layers.has_nodata;
   info.nodata = header.layers.nodata;
   info.domain = domainOf(geometry);

@@ -654,7 +654,8 @@ typedef struct tks_info {
   tks_index index;    /* TKS_INDEX_WINDOWS: by how its packets lie */
   int texture_opaque; /* no channel is alpha (tks_image) */
   int voids_known;    /* 0: bytes of the mask of voids are missing, so that some voids may be
-                              shown as ground, filled in from around */
+                              shown as ground, filled in from around. Where each region has a mask
+                              of its own, 0 until all bytes are there */
   uint32_t texture_white_level; /* what pictures show as white (tks_image); 0: no texture */
   const uint8_t* positions;     /* as tks_heights takes them, for tks_locate and for encoders that
                                    keep them; NULL: there are none. Owned by the decoder */

@@ -126,6 +126,10 @@ TEST(RegionMasks, GrowingStreamsDecodeAsOthersDo) {
       const size_t more = std::min<size_t>(bytes.size() - end, 1 + random() % 5000);
       ASSERT_EQ(tks_append(growing.get(), bytes.data() + end, more), TKS_OK);
       end += more;
+      tks_info info = {};
+      info.size = sizeof info;
+      ASSERT_EQ(tks_get_info(growing.get(), &info), TKS_OK);
+      ASSERT_EQ(info.voids_known, end == bytes.size());
       Stream fresh(Prefix(bytes).first(end));
       const tks_window window = randomWindow(random);
       ASSERT_EQ(decodedWindow(growing, window), decodedWindow(fresh, window)) << end;
