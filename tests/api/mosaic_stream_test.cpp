@@ -391,7 +391,7 @@ TEST(MosaicStream, RefusesWhatItCannotPromise) {
   planOf(source, options, TKS_USAGE);
   source.heights.domain = TKS_DOMAIN_PLANE;
   const tks_heights small = source.heights;
-  source.heights.width = source.heights.height = 65537;
+  source.heights.width = (1 << 20) + 1;
   planOf(source, options, TKS_USAGE);
   source.heights = small;
   source.fails = true;

@@ -86,15 +86,18 @@ inline samples::Raster floatsOf(uint32_t width, uint32_t height,
   return raster;
 }
 
-/// Of each prefix: samples are restored one after the other; the others stay as they were. raster:
-/// floats, which the codeword restores. near: with voids. restore: what decoders make of a prefix.
+/// Of the first prefixes and each seventh behind: samples are restored one after the other; the
+/// others stay as they were. raster: floats, which the codeword restores. near: with voids.
+/// restore: what decoders make of a prefix.
 inline void expectPrefixesRestoreTheFirst(
     const samples::Raster& raster, const DecodedHeights& near, const GeometryHeader& header,
     std::span<const uint8_t> codeword,
     const std::function<DecodedHeights(std::span<const uint8_t> prefix)>& restore) {
   const std::vector<std::byte> before = samplesOf(near, header);
+  constexpr size_t kEach = 64;
   size_t known = 0;
-  for (size_t n = 0; n <= codeword.size(); ++n) {
+  for (size_t n = 0; n <= codeword.size();
+       n += n < kEach || n + 7 > codeword.size() ? size_t{1} : size_t{7}) {
     const std::vector<std::byte> out = samplesOf(restore(codeword.first(n)), header);
     size_t changed = 0;
     for (size_t i = 0; i < kSamples; ++i) {
