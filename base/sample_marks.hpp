@@ -21,8 +21,6 @@ namespace tetrakis::inline base {
 struct LevelMarks {
   Window samples;  ///< the rectangle, in numbers of these samples
   BitPlane marks;  ///< of its extent
-
-  bool operator==(const LevelMarks&) const = default;
 };
 
 class SampleMarks {

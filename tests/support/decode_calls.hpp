@@ -104,6 +104,23 @@ inline DecodeCall surfaceOf(const tks_info& info, const tks_window& window) {
           }};
 }
 
+/// A window of a level of either component.
+inline DecodeCall windowOf(const tks_info& info, tks_part part, uint32_t level,
+                           const tks_window& window) {
+  const bool texture = part == TKS_PART_TEXTURE;
+  const size_t place = texture ? info.texture_channels * tks_sample_bytes(info.texture_sample)
+                       : part == TKS_PART_VALIDITY ? 1
+                                                   : tks_sample_bytes(info.sample);
+  auto out = std::make_shared<std::vector<uint8_t>>(size_t{window.width} * window.height * place);
+  return {
+      "a window of level " + std::to_string(level), part, window, 0, level, [=](tks_decoder* d) {
+        if (part == TKS_PART_VALIDITY)
+          return tks_decode_validity_window(d, &window, out->data(), out->size());
+        return texture ? tks_decode_texture_window(d, &window, out->data(), out->size())
+                       : tks_decode_heights_window(d, &window, out->data(), out->size());
+      }};
+}
+
 inline DecodeCall textureOf(const tks_info& info, uint32_t level) {
   const size_t bytes =
       samplesAt({info.texture_width, info.texture_height}, info.texture_forest.patches, level) *
@@ -159,6 +176,23 @@ inline std::set<uint32_t> levelsUpTo(uint32_t coarsest) {
 }
 
 /// All that can be asked of a stream with such heights and such a texture.
+/// A window in the middle of a level of so many samples, of some level and of level 0.
+inline std::vector<DecodeCall> windowsOf(const tks_info& info, tks_part part) {
+  const bool texture = part == TKS_PART_TEXTURE;
+  const Extent whole =
+      texture ? Extent{info.texture_width, info.texture_height} : Extent{info.width, info.height};
+  const uint32_t patches = texture ? info.texture_forest.patches : info.forest.patches;
+  const uint32_t coarsest = texture ? info.texture_coarsest_level : info.coarsest_level;
+  std::vector<DecodeCall> calls;
+  for (const uint32_t level : {0u, std::min(coarsest, 2u), std::min(coarsest, 4u)}) {
+    const uint32_t rows = patches > 0 ? whole.height / patches : 0;
+    const Extent at = View{static_cast<int>(level), {}, 0, rows}.extentIn(whole);
+    const tks_window window{at.width / 3, at.height / 4, at.width / 5 + 1, at.height / 6 + 1};
+    calls.push_back(windowOf(info, part, level, window));
+  }
+  return calls;
+}
+
 inline std::vector<DecodeCall> callsOn(const tks_info& info) {
   std::vector<DecodeCall> calls;
   if (info.has_heights) {
@@ -169,6 +203,8 @@ inline std::vector<DecodeCall> callsOn(const tks_info& info) {
     for (const tks_window& window :
          {tks_window{0, 0, w, h}, {w / 3, h / 4, w / 5 + 1, h / 6 + 1}, {w - 1, h - 1, 1, 1}})
       calls.push_back(surfaceOf(info, window));
+    for (const tks_part part : {TKS_PART_HEIGHTS, TKS_PART_VALIDITY})
+      for (DecodeCall& call : windowsOf(info, part)) calls.push_back(std::move(call));
     calls.push_back(meshOf(TKS_MESH_CODED, 0));
     if (info.domain != TKS_DOMAIN_FOREST) {
       calls.push_back(treeOf(TKS_MESH_CODED, 0));
@@ -185,6 +221,7 @@ inline std::vector<DecodeCall> callsOn(const tks_info& info) {
     for (const tks_window& window :
          {tks_window{0, 0, w, h}, {w / 3, h / 4, w / 5 + 1, h / 6 + 1}, {w - 1, h - 1, 1, 1}})
       calls.push_back(textureOf(info, window));
+    for (DecodeCall& call : windowsOf(info, TKS_PART_TEXTURE)) calls.push_back(std::move(call));
   }
   return calls;
 }
