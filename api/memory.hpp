@@ -24,7 +24,7 @@ namespace tetrakis::inline api {
 
 inline constexpr uint64_t kOnceBytes = 256 << 10;         // models, plans, lists of levels
 inline constexpr uint64_t kDrawnOnceBytes = 7 << 19;      // models of drawings and overlays
-inline constexpr uint64_t kTrackBytes = 64;               // its region, and views of its bytes
+inline constexpr uint64_t kTrackBytes = 256;              // its region, views of its bytes, lists
 inline constexpr uint64_t kValueBytes = sizeof(int32_t);  // of a plane
 
 /// How many samples a rectangle has.

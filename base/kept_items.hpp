@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -38,15 +39,17 @@ class KeptItems {
     /// An item that is known, or has to be made.
     std::optional<T>& at(size_t number) {
       items_->used_[number] = items_->calls_;
-      return items_->items_[number];
+      std::unique_ptr<std::optional<T>>& item = items_->items_[number].item;
+      if (item == nullptr) item = std::make_unique<std::optional<T>>();
+      return *item;
     }
     /// An item that was made, or has grown, stays unless there is no room.
     void keepIfFits(size_t number) {
-      const uint64_t now = items_->items_[number]->bytes();
+      const uint64_t now = (*items_->items_[number].item)->bytes();
       const uint64_t more = now - std::exchange(items_->bytes_[number], now);
       if (bytes_.fetch_add(more) + more <= items_->most_bytes) return;
       bytes_ -= std::exchange(items_->bytes_[number], 0);
-      items_->items_[number].reset();
+      items_->items_[number].item.reset();
     }
 
    private:
@@ -71,11 +74,26 @@ class KeptItems {
     std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return used_[a] < used_[b]; });
     for (size_t i = 0; left > most; ++i) {
       left -= std::exchange(bytes_[order[i]], 0);
-      items_[order[i]].reset();
+      items_[order[i]].item.reset();
     }
   }
 
-  std::vector<std::optional<T>> items_;
+  /// There may be many numbers, few of which have an item: null for the others.
+  struct Slot {
+    std::unique_ptr<std::optional<T>> item;
+
+    Slot() = default;
+    Slot(const Slot& other)
+        : item(other.item ? std::make_unique<std::optional<T>>(*other.item) : nullptr) {}
+    Slot(Slot&&) noexcept = default;
+    Slot& operator=(Slot other) noexcept {
+      item = std::move(other.item);
+      return *this;
+    }
+    ~Slot() = default;
+  };
+
+  std::vector<Slot> items_;
   std::vector<uint64_t> bytes_;  ///< of each
   std::vector<uint64_t> used_;   ///< the last call that used it
   uint64_t calls_ = 0;

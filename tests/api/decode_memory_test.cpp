@@ -15,6 +15,7 @@
 #include "tests/support/decode_calls.hpp"
 #include "tests/support/forest_raster.hpp"
 #include "tests/support/forest_shapes.hpp"
+#include "tests/support/mosaic_source.hpp"
 #include "tests/support/sequences.hpp"
 #include "tests/support/stream_fixture.hpp"
 
@@ -194,6 +195,21 @@ TEST(DecodeMemory, BridgedHolesStayBelowTheBound) {
   const Bytes bytes = encodeHeights(holes, inRegions(budget(26000), 64));
   EXPECT_TRUE(readHeader(bytes)->header.layers.late_mask);
   expectWithinBounds(bytes, "bridged holes", true);
+}
+
+/// Mosaics with voids, whole and corrected behind a cut.
+TEST(DecodeMemory, MasksOfRegionsStayBelowTheBound) {
+  for (const double max_error : {0., 2.}) {
+    Source source(hills(TKS_I16, 300, 220));
+    dig(source, samples::VoidShape::kCoast);
+    tks_mosaic_options options = mosaicOptions();
+    options.regions = 16;
+    options.max_error = max_error;
+    options.lossless = max_error == 0;
+    const Bytes bytes = mosaicOf(source, options);
+    EXPECT_TRUE(readHeader(bytes)->header.layers.region_masks);
+    expectWithinBounds(bytes, "masks of regions", true);
+  }
 }
 
 /// Areas and heights between them in turns, or heights of few values.
