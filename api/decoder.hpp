@@ -61,6 +61,7 @@ struct tks_decoder {
   tetrakis::TextureMemory texture_windows;
   uint64_t most_of_windows = 0;  ///< bytes that tracks, or parts, of each may take
   uint32_t threads = 1;
+  tks_limits limits{};        ///< that it was opened with
   uint64_t max_memory = 0;    ///< of the decoder and any call
   tetrakis::Status refused;   ///< once bytes were: it takes no more
   bool is_lost = false;       ///< memory ended while it took bytes: it decodes nothing any more

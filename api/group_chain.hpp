@@ -23,9 +23,10 @@ struct References {
   ReferenceSource heights = {}, texture = {};
 };
 
-/// As tks_open. TKS_UNSUPPORTED: a component goes on from frames that are not there.
+/// As tks_open. TKS_UNSUPPORTED: a component goes on from frames that are not there. TKS_USAGE:
+/// there is no such component.
 Result<OwnedDecoder> openBehind(std::span<const uint8_t> data, const tks_limits* limits,
-                                const References& references);
+                                const References& references, const ComponentChoice& choice = {});
 
 /// The head of a group says of its depth what its stream does not.
 Status misledDepth();

@@ -162,6 +162,7 @@ void fillStream(const tks_decoder& decoder, tks_info& info) {
   info.triangles = header.triangles;
   info.object_triangles = static_cast<uint32_t>(header.triangle_mesh.triangles);
   info.index = decoder.index;
+  info.components = static_cast<uint32_t>(header.components.size());
 }
 
 /// Encoders may leave out up to four bytes at the end of a codeword, which its decoder reads ahead

@@ -81,14 +81,15 @@ Status takeReferences(const References& references, StreamHeader& header) {
 }
 
 Status open(std::span<const uint8_t> data, const tks_limits* limits, const References& references,
-            tks_decoder& decoder) {
+            const ComponentChoice& choice, tks_decoder& decoder) {
   decoder.data = data;
-  tks_limits known{};
+  tks_limits& known = decoder.limits;
+  known.size = sizeof known;
   if (limits != nullptr) {
     if (Status status = takeSized("the limits", *limits, sizeof limits->size, known); !status.ok())
       return status;
   }
-  Result<ParsedHeader> parsed = readHeader(data);
+  Result<ParsedHeader> parsed = readHeader(data, choice);
   if (!parsed.ok()) return parsed.status();
   decoder.parsed = std::move(*parsed);
   const StreamHeader& header = decoder.parsed.header;
@@ -219,9 +220,9 @@ Status takeMorePackets(tks_decoder& decoder, std::span<const ByteRange> ranges) 
 }
 
 Result<OwnedDecoder> openBehind(std::span<const uint8_t> data, const tks_limits* limits,
-                                const References& references) {
+                                const References& references, const ComponentChoice& choice) {
   OwnedDecoder decoder(new tks_decoder, tks_close);
-  if (Status status = open(data, limits, references, *decoder); !status.ok()) return status;
+  if (Status status = open(data, limits, references, choice, *decoder); !status.ok()) return status;
   return decoder;
 }
 

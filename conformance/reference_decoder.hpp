@@ -29,6 +29,11 @@ struct Levels {
   int heights = 0, texture = 0;
 };
 
+/// FORMAT 2: the numbers of components that were asked for in the place of the first of their kind.
+struct Choice {
+  std::optional<size_t> heights, texture;
+};
+
 /// Samples are rows from the top, channels interleaved, little endian, of the type in the header.
 /// A component that the stream does not announce stays empty.
 struct Decoded {
@@ -39,7 +44,7 @@ struct Decoded {
 
 /// Decodes the first bytes of a stream: all of them, or any prefix. Safe on any input.
 Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples = kMaxSamples,
-               Levels levels = {});
+               Levels levels = {}, const Choice& choice = {});
 
 /// FORMAT 14.
 struct DecodedGroup {

@@ -44,27 +44,60 @@ inline ListedComponent listed(const StreamHeader& header, Component component) {
 inline std::vector<ListedComponent> listOf(const StreamHeader& header) {
   std::array<bool, kComponents> left = {header.geometry.has_value(), header.texture.has_value()};
   std::vector<ListedComponent> list;
-  const auto add = [&](Component component) {
-    if (std::exchange(left[static_cast<size_t>(component)], false))
-      list.push_back(listed(header, component));
+  const auto add = [&](Component component, const ComponentDetails& details) {
+    if (!std::exchange(left[static_cast<size_t>(component)], false)) return;
+    list.push_back(listed(header, component));
+    list.back().details = details;
   };
   for (const ListedComponent& known : header.components) {
     if (known.component == Component::kOther)
       list.push_back(known);
     else
-      add(known.component);
+      add(known.component, known.details);
   }
-  add(Component::kGeometry);
-  add(Component::kTexture);
+  add(Component::kGeometry, {});
+  add(Component::kTexture, {});
   return list;
 }
 
 /// The component that a decoder takes one of the list for, given those before it.
-inline Component roleOf(const ListedComponent& one, const StreamHeader& before) {
-  if (!one.domain.isKnown()) return Component::kOther;
-  if (one.kind == ListedComponent::kHeights && !before.geometry) return Component::kGeometry;
-  if (one.kind == ListedComponent::kColours && !before.texture) return Component::kTexture;
+inline Component roleOf(const ListedComponent& one, size_t number, const StreamHeader& before) {
+  const auto takes = [&](const std::optional<size_t>& chosen, bool has_one) {
+    return chosen ? *chosen == number : !has_one;
+  };
+  if (one.isHeights() && takes(before.choice.heights, before.geometry.has_value()))
+    return Component::kGeometry;
+  if (one.isTexture() && takes(before.choice.texture, before.texture.has_value()))
+    return Component::kTexture;
   return Component::kOther;
+}
+
+/// The first heights of a list, or null.
+inline const ListedComponent* firstHeights(const std::vector<ListedComponent>& list) {
+  const auto first = std::find_if(list.begin(), list.end(),
+                                  [](const ListedComponent& one) { return one.isHeights(); });
+  return first != list.end() ? &*first : nullptr;
+}
+
+/// The first texture, or null.
+inline const ListedComponent* firstTexture(const std::vector<ListedComponent>& list) {
+  const auto first = std::find_if(list.begin(), list.end(),
+                                  [](const ListedComponent& one) { return one.isTexture(); });
+  return first != list.end() ? &*first : nullptr;
+}
+
+/// The transform of samples that cover the ground of others, of which that is the transform.
+inline GeoTransform over(const GeoTransform& transform, Extent others, Extent samples) {
+  return stretched(transform, static_cast<double>(others.width) / samples.width,
+                   static_cast<double>(others.height) / samples.height);
+}
+
+/// Whether a header that was read has what was chosen.
+inline bool has(const StreamHeader& header, const ComponentChoice& choice) {
+  const std::vector<ListedComponent>& list = header.components;
+  const auto [heights, texture] = choice;
+  return (!heights || (*heights < list.size() && list[*heights].isHeights())) &&
+         (!texture || (*texture < list.size() && list[*texture].isTexture()));
 }
 
 /// A forest of the list whose sides are glued as those of a domain.
@@ -177,13 +210,13 @@ void visitKnown(V& v, StreamHeader& header, const ListedComponent& one) {
 }
 
 template <class V>
-void visitComponent(V& v, StreamHeader& header, std::vector<Domain>& domains,
+void visitComponent(V& v, StreamHeader& header, std::vector<Domain>& domains, size_t number,
                     ListedComponent& one) {
   v.u8("component_kind", one.kind, 0, UINT8_MAX);
   v.u8("region_log2", one.region_log2, 0, kMostRegionLog2);
   visitDomain(v, domains, one.domain);
   if (!v.ok()) return;
-  if constexpr (V::kReads) one.component = roleOf(one, header);
+  if constexpr (V::kReads) one.component = roleOf(one, number, header);
   if (one.component == Component::kOther) return v.rest(one.rest);
   v.require("region_log2", one.region_log2 == 0 || one.region_log2 >= kLeastRegionLog2);
   visitKnown(v, header, one);
@@ -200,7 +233,7 @@ void visitComponents(V& v, StreamHeader& header) {
     const bool is_there = i < written.size();
     ListedComponent one = is_there ? written[i] : ListedComponent();
     if (!v.part(kComponentPart, is_there,
-                [&](auto& part) { visitComponent(part, header, domains, one); }))
+                [&](auto& part) { visitComponent(part, header, domains, i, one); }))
       break;
     if constexpr (V::kReads) read.push_back(std::move(one));
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bitstream/stream/component_details.hpp"
 #include "bitstream/stream/fields.hpp"
 #include "bitstream/stream/header_body.hpp"
 
@@ -61,13 +62,14 @@ Result<uint64_t> headerBytes(std::span<const uint8_t> bytes) {
   return kFixedBytes + size_reader.position() + body_bytes + kChecksumBytes;
 }
 
-Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes) {
+Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes, const ComponentChoice& choice) {
   const Result<uint64_t> needed = headerBytes(bytes);
   if (!needed.ok()) return needed.status();
   if (bytes.size() < *needed) return needMore(*needed);
   ParsedHeader parsed;
   parsed.bytes = *needed;
   StreamHeader& header = parsed.header;
+  header.choice = choice;
   header.version = bytes[4];
   header.profile = bytes[5];
   header.level = bytes[6];
@@ -83,10 +85,12 @@ Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes) {
   FieldReader body(bytes.subspan(body_start, crc_start - body_start), body_start);
   visitBody(body, header);
   if (!body.ok()) return body.status();
+  if (!has(header, choice)) return Status(TKS_USAGE, "The stream has no such component.");
   if (Status meaning = checkMeaning(header); !meaning.ok()) return meaning;
   if (header.level != levelFor(header)) {
     return Status(TKS_CORRUPT, "Corrupt stream: the level does not fit the sizes.");
   }
+  takeDetails(header);
   return parsed;
 }
 

@@ -75,6 +75,21 @@ struct Domain {
   }
 };
 
+/// What a component says of itself that its samples do not depend on. Of the first heights and the
+/// first texture of a stream the body has all of it but the name.
+struct ComponentDetails {
+  std::string name;
+  Metadata metadata;       ///< of heights
+  Georeference place;      ///< of heights, or of a texture
+  uint8_t lossless = 0;    ///< the complete stream restores every sample of the component
+  std::string later_parts;  ///< of kinds that are not known and inform, as they were read
+
+  bool none() const {
+    return name.empty() && metadata.isDefault() && !place.hasHeights() && !place.hasTexture() &&
+           lossless == 0 && later_parts.empty();
+  }
+};
+
 /// What every component of the header's list begins with, whoever knows its kind.
 struct ListedComponent {
   Component component = Component::kOther;
@@ -82,8 +97,17 @@ struct ListedComponent {
   Domain domain;
   uint8_t region_log2 = 0;  ///< RegionHeader::side_log2
   std::string rest;         ///< of kOther: all behind the domain, or behind its unknown kind
+  ComponentDetails details = {};
 
   static constexpr uint8_t kHeights = 0, kColours = 1;
+  bool isHeights() const { return kind == kHeights && domain.isKnown(); }
+  bool isTexture() const { return kind == kColours && domain.isKnown(); }
+};
+
+/// Which components are taken for the heights and for the texture, by their numbers in the header's
+/// list: those that are chosen, else the first of each kind.
+struct ComponentChoice {
+  std::optional<size_t> heights, texture;
 };
 
 struct StreamHeader {
@@ -111,6 +135,8 @@ struct StreamHeader {
   /// In the stream's order: of a header that was read. Of one that is made heights come before the
   /// texture, unless their order is stated here.
   std::vector<ListedComponent> components;
+  std::string later_details;  ///< of what details are not known and inform, as they were read
+  ComponentChoice choice;     ///< by which the header was read
 };
 
 /// Components and their tracks; see demultiplex().
@@ -130,8 +156,9 @@ struct ParsedHeader {
 Result<uint64_t> headerBytes(std::span<const uint8_t> bytes);
 
 /// TKS_TRUNCATED with the number of bytes needed if `bytes` ends early; TKS_CORRUPT,
-/// TKS_UNSUPPORTED.
-Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes);
+/// TKS_UNSUPPORTED. Metadata, place and promise of a chosen component that is not the first of its
+/// kind are its own; the header of such a choice is not for writing.
+Result<ParsedHeader> readHeader(std::span<const uint8_t> bytes, const ComponentChoice& choice = {});
 
 // checkMeaning() refuses a header whose fields contradict each other, once all fields are read; the
 // range of each is checked while it is read. A stream with a part that this decoder does not know

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "bitstream/stream/component_details.hpp"
 #include "bitstream/stream/component_list.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/header.hpp"
@@ -25,7 +26,8 @@ enum BodyPart : uint64_t {
   kIndex = 70,
   kHeightPositions = 71,
   kTexturePositions = 72,
-  kSourceGrid = 73
+  kSourceGrid = 73,
+  kDetails = 74
 };
 
 inline constexpr size_t kFixedBytes = kMagic.size() + 3;  // magic, version, profile, level
@@ -54,10 +56,10 @@ void visitPlaces(V& v, StreamHeader& header) {
   basis.spacing = northUp(header.metadata.spacing_x, header.metadata.spacing_y);
   v.part(kPlaceOfHeights, (header.geometry || !header.triangle_mesh.none()) && place.hasHeights(),
          [&](auto& part) { place.visitHeights(part, basis); });
-  if (header.geometry && header.texture && place.heights.has_transform) {
-    const double columns = header.texture->shown().width, rows = header.texture->shown().height;
-    basis.heights = stretched(place.heights.transform, header.geometry->shown().width / columns,
-                              header.geometry->shown().height / rows);
+  const std::vector<ListedComponent> list = listOf(header);
+  const ListedComponent *heights = firstHeights(list), *texture = firstTexture(list);
+  if (heights != nullptr && texture != nullptr && place.heights.has_transform) {
+    basis.heights = over(place.heights.transform, heights->domain.grid, texture->domain.grid);
     basis.has_heights = true;
   }
   v.part(kPlaceOfTexture, header.texture && place.hasTexture(),
@@ -94,6 +96,7 @@ void visitBody(V& v, StreamHeader& header) {
     part.varint("grid_width", header.grid.width, 1, kMaxSide);
     part.varint("grid_height", header.grid.height, 1, kMaxSide);
   });
+  v.part(kDetails, hasDetails(header), [&](auto& part) { visitDetails(part, header); });
   v.endParts(header.later_parts);
 }
 

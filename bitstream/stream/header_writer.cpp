@@ -11,6 +11,7 @@ std::vector<uint8_t> writeHeader(const StreamHeader& header) {
   assert(header.geometry || header.texture || !header.triangle_mesh.none());
   StreamHeader copy = header;
   copy.level = levelFor(header);
+  copy.components = listOf(header);
   FieldWriter body;
   visitBody(body, copy);
   FieldWriter out;

@@ -149,6 +149,18 @@ struct Demultiplexed {
   void add(Component component, uint32_t track, std::span<const uint8_t> more);
 };
 
+/// A packet where it stands: its head, and what is there of its payload.
+struct FoundPacket {
+  PacketHead head;
+  std::span<const uint8_t> bytes;
+
+  bool isCut() const { return bytes.size() < head.length; }
+};
+
+/// The packets of a payload, the last of which may be cut. TKS_CORRUPT.
+Result<std::vector<FoundPacket>> packetsIn(std::span<const uint8_t> payload, size_t origin,
+                                            const TrackCounts& counts);
+
 /// What a payload holds, for an idea of what it takes to take it apart.
 struct PayloadCount {
   uint64_t packets = 0, bytes = 0;  ///< begun; of all payloads

@@ -31,7 +31,7 @@ uint64_t openingBytes(const StreamHeader& header, Component component) {
 }
 
 ScatteredPackets::ScatteredPackets(const ParsedHeader& parsed, const Demultiplexed& taken)
-    : header_(parsed.header),
+    : header_(&parsed.header),
       counts_(taken.counts),
       begin_(parsed.bytes),
       end_(parsed.bytes + parsed.header.payload_bytes) {
@@ -39,8 +39,8 @@ ScatteredPackets::ScatteredPackets(const ParsedHeader& parsed, const Demultiplex
   const size_t complete = taken.heads.size() - (open ? 1 : 0);
   const uint64_t seen = open && !open->whole ? taken.end.seen : 0;
   std::array<std::map<uint32_t, uint32_t>, kRoles> last;
-  places_.reserve(header_.index.size());
-  for (const IndexedPacket& packet : IndexedPackets(header_, parsed.bytes)) {
+  places_.reserve(header_->index.size());
+  for (const IndexedPacket& packet : IndexedPackets(*header_, parsed.bytes)) {
     const PacketHead& head = packet.entry.packet;
     const auto number = static_cast<uint32_t>(packet.number);
     const auto component = static_cast<size_t>(head.component);
@@ -128,7 +128,7 @@ std::array<bool, kComponents> ScatteredPackets::settle(bool has_gap, Demultiplex
   for (size_t c = 0; c < kComponents; ++c) {
     const auto first = out.codewords[c].find(0);
     const uint64_t opened = first == out.codewords[c].end() ? 0 : first->second.size();
-    const bool waits = has_gap && opened < openingBytes(header_, static_cast<Component>(c));
+    const bool waits = has_gap && opened < openingBytes(*header_, static_cast<Component>(c));
     if (waits == waiting_[c].any) continue;
     withdrawn[c] = waits;
     exchangeWaiting(c, out);

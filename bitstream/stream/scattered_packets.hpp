@@ -114,14 +114,14 @@ class ScatteredPackets {
     uint64_t bytes = 0;
   };
 
-  const PacketHead& head(uint32_t packet) const { return header_.index[packet].packet; }
+  const PacketHead& head(uint32_t packet) const { return header_->index[packet].packet; }
   uint32_t packetAt(uint64_t place) const;
   Status checkHead(const Pieces& pieces, uint32_t packet) const;
   void advance(const Pieces& pieces, Frontier& frontier, Demultiplexed& out);
   void add(const PacketHead& head, std::span<const uint8_t> bytes, Demultiplexed& out);
   void exchangeWaiting(size_t component, Demultiplexed& out);
 
-  const StreamHeader& header_;
+  const StreamHeader* header_;  ///< so that decoders may be moved while they have none of these
   TrackCounts counts_;
   uint64_t begin_, end_;  ///< of the payload
   std::vector<Place> places_;

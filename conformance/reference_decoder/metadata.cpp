@@ -6,15 +6,6 @@
 namespace tetrakis::reference {
 namespace {
 
-/// Of a texture over the ground of the heights.
-Transform stretched(Transform t, const Stream& stream) {
-  const double columns = double(stream.geometry->shownWidth()) / stream.texture->shownWidth();
-  const double rows = double(stream.geometry->shownHeight()) / stream.texture->shownHeight();
-  for (const int i : {1, 4}) t[i] *= columns;
-  for (const int i : {2, 5}) t[i] *= rows;
-  return t;
-}
-
 void skipText(Reader& in) {
   if (!in.ends()) in.take(in.varint(0, UINT64_MAX));
 }
@@ -29,10 +20,36 @@ void skipByte(Reader& in, int largest) {
 
 }  // namespace
 
-/// FORMAT 2, the table of forms; forms 1 and 5 repeat what is known.
-Transform Places::readTransform(Reader& in, int form) const {
-  if (form == 0) return {};
-  Transform t = form == 5 ? heights_ : form == 1 ? spacing_ : Transform{};
+/// FORMAT 2, the first of a kind, which decoders take by themselves.
+const Component* Places::first(int kind) const {
+  for (const Component& one : stream_.components)
+    if (one.kind == kind && one.domain.known()) return &one;
+  return nullptr;
+}
+
+/// FORMAT 2, Places: whether form 5 is there for it.
+bool Places::liesOnHeights(const Component& component) const {
+  return heights_ && first(0) != nullptr && first(0) != &component;
+}
+
+/// Form 5.
+Transform Places::overHeights(const Component& component) const {
+  const Domain &heights = first(0)->domain, &own = component.domain;
+  const double columns = double(heights.width) / own.width,
+               rows = double(heights.height) / own.height;
+  Transform t = *heights_;
+  for (const int i : {1, 4}) t[i] *= columns;
+  for (const int i : {2, 5}) t[i] *= rows;
+  return t;
+}
+
+/// FORMAT 2, the table of forms; forms 1 and 5 repeat what is known. component: null: of a mesh.
+std::optional<Transform> Places::readPlace(Reader& in, const Component* component,
+                                           const Transform& spacing) const {
+  const bool over = component != nullptr && liesOnHeights(*component);
+  const int form = in.u8(0, over ? 5 : 4);
+  if (form == 0 || in.outcome() != Outcome::kDone) return {};  // no T
+  Transform t = form == 5 ? overHeights(*component) : form == 1 ? spacing : Transform{};
   if (form < 5) t[0] = in.f64();
   if (form < 5) t[3] = in.f64();
   if (form >= 2 && form <= 4) t[1] = in.f64();
@@ -46,7 +63,8 @@ Transform Places::readTransform(Reader& in, int form) const {
   return t;
 }
 
-void Places::skipMetadata(Reader& in) {
+/// Returns what form 1 takes.
+Transform Places::readSpacing(Reader& in) {
   skipText(in);  // unit
   skipText(in);  // crs
   const double spacingX = f64Or(0, in), spacingY = f64Or(spacingX, in);
@@ -54,14 +72,20 @@ void Places::skipMetadata(Reader& in) {
   const double scale = f64Or(1, in);
   f64Or(0, in);  // offset
   if (scale == 0 || spacingX < 0 || spacingY < 0) in.fail(Outcome::kCorrupt);
-  spacing_ = {0, spacingX, 0, 0, 0, -spacingY};
+  return {0, spacingX, 0, 0, 0, -spacingY};
+}
+
+/// Of further heights, or of a texture.
+void Places::skipPlace(Reader& in, const Component& component, const Transform& spacing) const {
+  readPlace(in, &component, spacing);
+  skipByte(in, 2);  // registration
+  skipText(in);     // geo_keys
+  skipText(in);     // description, or texture_crs
+  if (component.kind == 0) skipByte(in, 1);  // nan_nodata
 }
 
 void Places::skipHeights(Reader& in) {
-  const int form = in.u8(0, 4);
-  heights_ = readTransform(in, form);
-  has_heights_ = form > 0 && stream_.geometry && stream_.texture;
-  if (has_heights_) heights_ = stretched(heights_, stream_);
+  heights_ = readPlace(in, nullptr, spacing_);
   skipByte(in, 2);  // registration
   skipText(in);     // geo_keys
   skipText(in);     // description
@@ -69,10 +93,29 @@ void Places::skipHeights(Reader& in) {
 }
 
 void Places::skipTexture(Reader& in) {
-  readTransform(in, in.u8(0, has_heights_ ? 5 : 4));
-  skipByte(in, 2);  // registration
-  skipText(in);     // geo_keys
-  skipText(in);     // texture_crs
+  if (const Component* texture = first(1)) return skipPlace(in, *texture, spacing_);
+  readPlace(in, nullptr, spacing_);
+  skipByte(in, 2);
+  skipText(in);
+  skipText(in);
+}
+
+void Places::skipDetailsOf(Reader& in, const Component& component) const {
+  const bool known = component.domain.known() && (component.kind == 0 || component.kind == 1);
+  Transform spacing{0, 0, 0, 0, 0, -0.0};
+  Parts parts(in);
+  parts.take(64, [](Reader& p) { restOf(p); });  // name
+  if (known && component.kind == 0) parts.take(65, [&](Reader& p) { spacing = readSpacing(p); });
+  if (known) parts.take(66, [&](Reader& p) { skipPlace(p, component, spacing); });
+  parts.take(67, [](Reader&) {});  // lossless
+  parts.end();
+}
+
+void Places::skipDetails(Reader& in) {
+  Parts parts(in);
+  for (size_t i = 0; i < stream_.components.size(); ++i)
+    parts.take(i, [&](Reader& p) { skipDetailsOf(p, stream_.components[i]); });
+  parts.end();
 }
 
 }  // namespace tetrakis::reference

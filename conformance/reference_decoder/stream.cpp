@@ -105,9 +105,12 @@ void readComponent(Reader& in, std::vector<Domain>& domains, Stream& stream) {
   RegionHeader regions{in.u8(0, 20)};
   const Domain domain = readDomain(in, domains);
   if (in.outcome() != Outcome::kDone) return;
-  Component component{-1, regions.log2 > 0, domain};
-  if (domain.known() && kind == 0 && !stream.geometry) component.role = 0;
-  if (domain.known() && kind == 1 && !stream.texture) component.role = 1;
+  Component component{kind, -1, regions.log2 > 0, domain};
+  const auto taken = [&](const std::optional<size_t>& asked, bool first) {
+    return domain.known() && (asked ? *asked == stream.components.size() : first);
+  };
+  if (kind == 0 && taken(stream.choice.heights, !stream.geometry)) component.role = 0;
+  if (kind == 1 && taken(stream.choice.texture, !stream.texture)) component.role = 1;
   if (component.role >= 0 && regions.log2 > 0 && regions.log2 < 4) in.fail(Outcome::kCorrupt);
   if (component.role == 0) readHeights(in, component.domain, regions, stream);
   if (component.role == 1) readTexture(in, component.domain, regions, stream);
@@ -122,7 +125,7 @@ bool suits(const Stream& stream) {
          (stream.triangles->texcoordBits > 0 && stream.texture->wavelet.domain.kind == 0);
 }
 
-/// FORMAT 2, parts 64 to 73 of the body.
+/// FORMAT 2, parts 64 to 74 of the body.
 void skipInformation(Parts& parts, const Stream& stream) {
   parts.take(64, [](Reader&) {});                              // lossless
   parts.take(65, [](Reader& p) { p.littleEndian(4); });        // payload_crc
@@ -137,6 +140,7 @@ void skipInformation(Parts& parts, const Stream& stream) {
   parts.take(73, [](Reader& p) {  // source grid
     for (int side = 0; side < 2; ++side) p.varint(1, 1 << 20);
   });
+  parts.take(74, [&](Reader& p) { places.skipDetails(p); });
 }
 
 /// FORMAT 2, Body. Returns `payload_bytes`.
@@ -219,8 +223,9 @@ Outcome readPackets(std::span<const uint8_t> payload, Stream& stream) {
 
 }  // namespace
 
-Stream readStream(std::span<const uint8_t> prefix, uint64_t maxSamples) {
+Stream readStream(std::span<const uint8_t> prefix, uint64_t maxSamples, const Choice& choice) {
   Stream stream;
+  stream.choice = choice;
   const auto payload = readHeader(prefix, stream);
   if (stream.outcome != Outcome::kDone) return stream;
   const bool tooLarge = samplesOf(stream) > maxSamples;
@@ -228,8 +233,9 @@ Stream readStream(std::span<const uint8_t> prefix, uint64_t maxSamples) {
   return stream;
 }
 
-Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples, Levels levels) {
-  return decode(readStream(prefix, maxSamples), levels);
+Decoded decode(std::span<const uint8_t> prefix, uint64_t maxSamples, Levels levels,
+               const Choice& choice) {
+  return decode(readStream(prefix, maxSamples, choice), levels);
 }
 
 Decoded decode(const Stream& stream, Levels levels) {

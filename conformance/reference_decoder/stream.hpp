@@ -159,6 +159,7 @@ using Codewords = std::vector<std::vector<uint8_t>>;
 
 /// FORMAT 2, what every component begins with.
 struct Component {
+  int kind = 0;
   int role = -1;  ///< 0 heights, 1 texture, -1: passed over
   bool named = false;
   Domain domain;
@@ -173,11 +174,12 @@ struct Stream {
   std::vector<Component> components;
   std::optional<TriangleMeshHeader> triangles;
   bool suits = true;                   ///< what the parts of the header say fits together
+  Choice choice;
   std::array<Codewords, 2> codewords;  ///< by role
 };
 
 /// Header and packets of a prefix.
-Stream readStream(std::span<const uint8_t> prefix, uint64_t maxSamples);
+Stream readStream(std::span<const uint8_t> prefix, uint64_t maxSamples, const Choice& choice = {});
 /// The samples of a stream. kUnsupported: nobody gave what its frames go on from.
 Decoded decode(const Stream& stream, Levels levels);
 

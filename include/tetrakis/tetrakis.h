@@ -675,6 +675,7 @@ typedef struct tks_info {
                                        them, which tks_decode_object gives; 0: others */
   uint32_t frames;                  /* how many the stream has; 1: it is no group of a sequence */
   uint32_t frame;                   /* the one that is set (tks_set_frame), from 0 */
+  uint32_t components;              /* how many the stream has (components.h) */
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);

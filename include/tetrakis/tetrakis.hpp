@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "tetrakis/components.h"
 #include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.h"
 
@@ -181,6 +182,17 @@ inline Result<Buffer> encode(const tks_heights* heights, const tks_image* image,
   return Buffer(buffer);
 }
 
+/// One stream of the components of several (tks_combine).
+inline Result<Buffer> combine(std::span<const tks_combined> streams,
+                              const tks_combine_options& options = {sizeof(tks_combine_options), 0, nullptr}) {
+  char message[512] = "";
+  tks_buffer buffer{};
+  const tks_status status = tks_combine(streams.data(), static_cast<uint32_t>(streams.size()),
+                                        &options, &buffer, message, sizeof message);
+  if (status != TKS_OK) return Status(status, message);
+  return Buffer(buffer);
+}
+
 /// Encodes a mesh of triangles as an object, with its image unless that is null. report, unless
 /// null: becomes what became of the mesh. Errors: see tks_encode_object.
 inline Result<Buffer> encodeObject(const tks_triangle_mesh& mesh, const tks_image* image,
@@ -275,6 +287,18 @@ class Decoder {
   Status setLevels(uint32_t heights, uint32_t texture) {
     return taken(tks_set_levels(decoder_.get(), heights, texture));
   }
+
+  /// One of info().components components (tks_get_component); its name lives until another
+  /// component is chosen.
+  Result<tks_component> component(uint32_t number) const {
+    tks_component component{};
+    component.size = sizeof component;
+    const tks_status status = tks_get_component(decoder_.get(), number, &component);
+    if (status != TKS_OK) return Status(status, "The stream has no such component.");
+    return component;
+  }
+  /// Takes a component for the heights, or for the texture (tks_choose_component). info() follows.
+  Status choose(uint32_t number) { return taken(tks_choose_component(decoder_.get(), number)); }
 
   /// The frame that is shown from now on, of a stream of several (tks_set_frame). info() follows.
   Status setFrame(uint32_t frame) { return taken(tks_set_frame(decoder_.get(), frame)); }

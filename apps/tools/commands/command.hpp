@@ -27,6 +27,7 @@ void addInfo(CLI::App& app, CommandLine& line);
 void addCompare(CLI::App& app, CommandLine& line);
 void addVerify(CLI::App& app, CommandLine& line);
 void addPlan(CLI::App& app, CommandLine& line);
+void addCombine(CLI::App& app, CommandLine& line);
 void addReorder(CLI::App& app, CommandLine& line);
 void addMosaic(CLI::App& app, CommandLine& line);
 void addProfile(CLI::App& app, CommandLine& line);

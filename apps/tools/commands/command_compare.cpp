@@ -308,6 +308,7 @@ void addCompare(CLI::App& app, CommandLine& line) {
   CLI::App& verb = *app.add_subcommand("compare", "Measure a stream against what was encoded");
   addSource(verb, arguments->source);
   addFrame(verb, arguments->source);
+  addComponent(verb, arguments->source);
   CLI::Option* const height =
       verb.add_option("--height", arguments->height, "The original heights")->type_name("REF");
   verb.add_option("--texture", arguments->texture, "The original texture")->type_name("REF");

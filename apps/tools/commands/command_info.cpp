@@ -150,6 +150,24 @@ Json textureJson(const tks_info& info) {
 /// What tks_info.index stands for.
 constexpr std::array<const char*, 3> kIndexes = {"none", "packets", "windows"};
 
+/// What tks_component_kind stands for.
+constexpr std::array<const char*, 3> kComponents = {"heights", "texture", "unknown"};
+
+Json componentsJson(const Decoder& decoder) {
+  Json list = Json::array();
+  for (uint32_t i = 0; i < decoder.info().components; ++i) {
+    const tks_component one = *decoder.component(i);
+    list.push_back({{"number", i},
+                    {"name", textOrNull(one.name)},
+                    {"kind", kComponents.at(static_cast<size_t>(one.kind))},
+                    {"width", one.width},
+                    {"height", one.height},
+                    {"bytes", one.available_bytes},
+                    {"taken", one.is_taken != 0}});
+  }
+  return list;
+}
+
 Json infoJson(const tks_info& info) {
   return {{"format_version", info.format_version},
           {"profile", info.profile},
@@ -196,7 +214,11 @@ Json sequenceJson(const SequencePlace& place) {
 Status info(const InfoArguments& arguments) {
   const Result<OpenStream> stream = openStream(arguments.source);
   if (!stream.ok()) return stream.status();
-  Json json = infoJson(stream->decoder.info());
+  const tks_info& told = stream->decoder.info();
+  Json json = infoJson(told);
+  const uint32_t taken = (told.has_heights != 0) + (told.has_texture != 0);
+  if (told.components > taken || !arguments.source.components.empty())
+    json["components"] = componentsJson(stream->decoder);
   if (stream->sequence) json["sequence"] = sequenceJson(*stream->sequence);
   return print(arguments.json ? dump(json) : table(json));
 }
@@ -208,6 +230,7 @@ void addInfo(CLI::App& app, CommandLine& line) {
   CLI::App& verb = *app.add_subcommand("info", "Say what a stream holds");
   addSource(verb, arguments->source);
   addFrame(verb, arguments->source);
+  addComponent(verb, arguments->source);
   verb.add_flag("--json", arguments->json, "JSON instead of a table");
   verb.callback([arguments, &line] { line.action = [arguments] { return info(*arguments); }; });
 }

@@ -58,6 +58,7 @@ void addVerbs(CLI::App& app, CommandLine& line) {
   addCompare(app, line);
   addVerify(app, line);
   addReorder(app, line);
+  addCombine(app, line);
   addPlan(app, line);
   addMosaic(app, line);
   addProfile(app, line);

@@ -133,6 +133,7 @@ void addProfile(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<ProfileArguments>();
   CLI::App& verb = *app.add_subcommand("profile", "Print the heights along a line, in few points");
   addSource(verb, arguments->source);
+  addComponent(verb, arguments->source);
   verb.add_option("--line", arguments->line, "Where it runs, in columns and rows of the heights")
       ->required()
       ->type_name("\"X,Y X,Y …\"");

@@ -108,6 +108,7 @@ void addTiles(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<TilesArguments>();
   CLI::App& verb = *app.add_subcommand("tiles", "Make terrain tiles for a globe out of a stream");
   addSource(verb, arguments->source);
+  addComponent(verb, arguments->source);
   verb.add_option("-o,--output", arguments->folder, "Folder for the tiles")
       ->required()
       ->type_name("DIR");

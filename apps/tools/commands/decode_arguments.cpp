@@ -101,6 +101,7 @@ CLI::Option* addMesh(CLI::App& verb, DecodeArguments& arguments) {
 void addArguments(CLI::App& verb, DecodeArguments& arguments) {
   addSource(verb, arguments.source);
   addFrame(verb, arguments.source);
+  addComponent(verb, arguments.source);
   CLI::Option* const size = addGround(verb, arguments);
   CLI::Option* const mesh = addMesh(verb, arguments);
   verb.add_option("--level", arguments.level,

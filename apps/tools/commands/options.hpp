@@ -118,6 +118,16 @@ inline void addSource(CLI::App& app, StreamSource& source) {
   app.add_flag("--strict", source.strict, "Refuse a stream that ends early");
 }
 
+/// --component NAME, as often as one likes.
+inline void addComponent(CLI::App& app, StreamSource& source) {
+  app.add_option("--component", source.components,
+                 "Take this component, by its name or its number, in the place of the first of its "
+                 "kind (may be repeated)")
+      ->type_name("NAME")
+      ->expected(1)
+      ->take_all();
+}
+
 /// --frame N or --time SECONDS, of a sequence.
 inline void addFrame(CLI::App& app, StreamSource& source) {
   CLI::Option* const frame =

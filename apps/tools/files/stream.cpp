@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -135,17 +136,43 @@ Result<Decoder> openDecoder(std::span<const uint8_t> bytes) {
 
 namespace {
 
+/// The numbers of the components that have a name, or the one that has that number.
+std::vector<uint32_t> componentsNamed(const Decoder& decoder, const std::string& name) {
+  std::vector<uint32_t> found;
+  for (uint32_t i = 0; i < decoder.info().components; ++i)
+    if (decoder.component(i)->name == name) found.push_back(i);
+  if (!found.empty()) return found;
+  uint32_t number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (error == std::errc() && end == name.data() + name.size()) found.push_back(number);
+  return found;
+}
+
+/// Heights and a texture may have one name, and are then both chosen.
+Status choose(Decoder& decoder, const std::string& name) {
+  const std::vector<uint32_t> numbers = componentsNamed(decoder, name);
+  if (numbers.empty())
+    return {TKS_USAGE, "the stream has no component " + quoted(name) + ": tetrakis info names them"};
+  for (const uint32_t number : numbers)
+    if (Status status = decoder.choose(number); !status.ok()) return status;
+  return {};
+}
+
 /// bytes: of the whole file.
 Result<OpenStream> openCut(const StreamSource& source, std::vector<std::byte> bytes) {
   const bool is_sequence = isSequence(bytes);
   if (source.strict && !is_sequence)
     if (Status status = checkWhole(octets(bytes)); !status.ok()) return status;
   if (source.bytes && *source.bytes < bytes.size()) bytes.resize(*source.bytes);
+  if (is_sequence && !source.components.empty())
+    return Status(TKS_USAGE, quoted(source.path) + " is a sequence, which has no --component");
   if (is_sequence) return openFrame(source, std::move(bytes));
   if (source.seconds)
     return Status(TKS_USAGE, quoted(source.path) + " is no sequence, so that no --time is in it");
   Result<Decoder> decoder = openDecoder(octets(bytes));
   if (!decoder) return decoder.status();
+  for (const std::string& component : source.components)
+    if (Status status = choose(*decoder, component); !status.ok()) return status;
   if (const uint64_t frame = source.frame.value_or(0); frame > 0) {
     const auto asked = static_cast<uint32_t>(std::min<uint64_t>(frame, UINT32_MAX));
     if (Status status = decoder->setFrame(asked); !status.ok()) return status;

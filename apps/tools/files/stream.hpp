@@ -24,6 +24,8 @@ struct StreamSource {
   bool strict = false;            ///< refuse a file that ends early or breaks the syntax anywhere
   std::optional<uint64_t> frame = {};  ///< of a sequence, or a group of one; nothing: the first
   std::optional<double> seconds = {};  ///< of a sequence: behind its epoch, in the place of that
+  /// Names or numbers of components to take for the heights and the texture, of one stream.
+  std::vector<std::string> components = {};
 };
 
 /// Where a stream lies that is a group of a sequence.
