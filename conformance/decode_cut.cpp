@@ -74,10 +74,11 @@ void decodeSequence(std::span<const uint8_t> prefix, Cut& cut) {
 
 }  // namespace
 
-Cut decodeCut(std::span<const uint8_t> prefix, int level) {
+Cut decodeCut(std::span<const uint8_t> prefix, int level, std::optional<uint32_t> component) {
   Cut cut;
   cut.bytes = prefix.size();
   cut.level = level;
+  cut.component = component;
   if (isSequence(prefix)) {
     decodeSequence(prefix, cut);
     return cut;
@@ -87,6 +88,8 @@ Cut decodeCut(std::span<const uint8_t> prefix, int level) {
     cut.status = decoder.status().code();
     return cut;
   }
+  if (component) cut.status = decoder->choose(*component).code();
+  if (cut.status != TKS_OK) return cut;
   if (level > 0) setLevel(*decoder, level, cut.status);
   FrameSamples samples;
   for (uint32_t t = 0; t < decoder->info().frames; ++t) {

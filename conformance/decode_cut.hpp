@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "conformance/manifest.hpp"
@@ -11,7 +12,8 @@
 namespace tetrakis::conformance {
 
 /// What this library's decoder makes of `prefix` at a mip level (Cut::level); the manifest's
-/// digests come from here.
-Cut decodeCut(std::span<const uint8_t> prefix, int level = 0);
+/// digests come from here. component: Cut::component.
+Cut decodeCut(std::span<const uint8_t> prefix, int level = 0,
+              std::optional<uint32_t> component = {});
 
 }  // namespace tetrakis::conformance

@@ -62,6 +62,22 @@ void addLevels(std::span<const uint8_t> stream, Vector& vector) {
   for (int level = 1; level <= coarsest; ++level) vector.cuts.push_back(decodeCut(stream, level));
 }
 
+/// Quarters of the stream, for each component that decoders take only if they are asked to.
+void addComponents(std::span<const uint8_t> stream, Vector& vector) {
+  const auto decoder = Decoder::open(stream);
+  if (!decoder) return;
+  const size_t header = static_cast<size_t>(decoder->info().header_bytes);
+  for (uint32_t i = 0; i < decoder->info().components; ++i) {
+    const tks_component one = *decoder->component(i);
+    if (one.is_taken || one.kind == TKS_COMPONENT_UNKNOWN) continue;
+    for (size_t part = 0; part <= 4; ++part) {
+      const size_t cut = header + (stream.size() - header) * part / 4;
+      vector.cuts.push_back(decodeCut(stream.first(cut), 0, i));
+    }
+    vector.cuts.push_back(decodeCut(stream, 1, i));
+  }
+}
+
 Result<Vector> makeVector(const VectorCase& vector_case, const std::string& directory) {
   const auto stream = encodeCase(vector_case);
   if (!stream.ok()) return stream.status();
@@ -70,6 +86,7 @@ Result<Vector> makeVector(const VectorCase& vector_case, const std::string& dire
   for (const size_t cut : cutsOf(*stream, vector_case.dense))
     vector.cuts.push_back(decodeCut(std::span(*stream).first(cut)));
   addLevels(*stream, vector);
+  addComponents(*stream, vector);
   const Status written =
       writeFile(directory + "/" + vector.file, std::string(stream->begin(), stream->end()));
   if (!written.ok()) return written;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Manifest as JSON: {"vectors": [{name, file, purpose, cuts: [{bytes, level?, status,
-// heights?, texture?, triangles?}]}]}.
+// Manifest as JSON: {"vectors": [{name, file, purpose, cuts: [{bytes, level?, component?,
+// status, heights?, texture?, triangles?}]}]}.
 #include "conformance/manifest.hpp"
 
 #include <fstream>
@@ -15,6 +15,7 @@ using Json = nlohmann::ordered_json;
 Json toJson(const Cut& cut) {
   Json json{{"bytes", cut.bytes}};
   if (cut.level > 0) json["level"] = cut.level;
+  if (cut.component) json["component"] = *cut.component;
   json["status"] = cut.status;
   if (!cut.heights.empty()) json["heights"] = cut.heights;
   if (!cut.texture.empty()) json["texture"] = cut.texture;
@@ -32,8 +33,10 @@ Json toJson(const Vector& vector) {
 }
 
 Cut cutOf(const Json& json) {
-  return {json.at("bytes").get<uint64_t>(), json.value("level", 0),    json.at("status").get<int>(),
+  Cut cut{json.at("bytes").get<uint64_t>(), json.value("level", 0),    json.at("status").get<int>(),
           json.value("heights", ""),        json.value("texture", ""), json.value("triangles", "")};
+  if (json.contains("component")) cut.component = json.at("component").get<uint32_t>();
+  return cut;
 }
 
 Vector vectorOf(const Json& json) {

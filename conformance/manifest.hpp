@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct Cut {
   std::string heights;    ///< sampleDigest of the height samples; "" when there are none
   std::string texture;    ///< sampleDigest of the texture samples; "" when there are none
   std::string triangles;  ///< cornerDigest of a triangle mesh; "" when there is none
+  /// Number of the component that the decoder takes in the place of the first of its kind.
+  std::optional<uint32_t> component = {};
 };
 
 struct Vector {

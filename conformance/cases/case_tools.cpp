@@ -414,12 +414,28 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"refused_long_head", "heights by wavelet, levels of several filters"},
     {"refused_varint", "heights by wavelet, levels of several filters"},
     {"list_other_9x9", "heights by wavelet, levels of several filters"},
-    {"list_second_9x9", "heights by wavelet, levels of several filters"},
+    {"list_second_9x9", "further components, heights by wavelet, levels of several filters"},
     {"list_five_11x7",
      "heights by wavelet, levels of several filters, regions of heights, texture by wavelet"},
     {"list_index_11x7",
      "heights by wavelet, index, levels of several filters, regions of heights, texture by "
      "wavelet"},
+    {"components_40x30",
+     "details, doubled low bands, further components, georeference, heights by wavelet, levels of "
+     "several filters, shears of coefficients, texture by wavelet"},
+    {"components_cut_40x30",
+     "details, doubled low bands, further components, georeference, heights by wavelet, levels of "
+     "several filters, shears of coefficients, texture by wavelet"},
+    {"components_index_70x60",
+     "details, doubled low bands, further components, heights by wavelet, index, regions of "
+     "heights"},
+    {"details_18x11",
+     "details, further components, georeference, heights by wavelet, levels of several filters, "
+     "texture by wavelet"},
+    {"details_later_9x9",
+     "details, further components, heights by wavelet, levels of several filters"},
+    {"details_over_9x9",
+     "details, further components, georeference, heights by wavelet, levels of several filters"},
     {"part_of_heights_9x9", "heights by wavelet, levels of several filters"},
 };
 

@@ -44,6 +44,8 @@ std::vector<VectorCase> damagedCases();
 // Streams that are written out (VectorCase::stream).
 // region_mask_cases.cpp
 std::vector<VectorCase> regionMaskCases();
+// component_cases.cpp
+std::vector<VectorCase> componentCases();
 // frame_cases.cpp
 std::vector<VectorCase> frameCases();
 // crafted_cases.cpp: all of these.

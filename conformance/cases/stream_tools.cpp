@@ -94,6 +94,11 @@ Tools toolsOf(std::span<const uint8_t> stream) {
     tools.insert("georeference");
   if (!header.height_positions.empty() || !header.texture_positions.empty())
     tools.insert("positions");
+  for (const ListedComponent& one : header.components) {
+    const bool known = one.isHeights() || one.isTexture();
+    if (known && one.component == Component::kOther) tools.insert("further components");
+    if (!one.details.none()) tools.insert("details");
+  }
   return tools;
 }
 
@@ -106,6 +111,7 @@ Tools allTools() {
           "cut-out",
           "cylinder of heights",
           "cylinder of texels",
+          "details",
           "doubled low bands",
           "drawn heights",
           "drawn texture",
@@ -118,6 +124,7 @@ Tools allTools() {
           "frames of heights",
           "frames of texels",
           "further colour",
+          "further components",
           "georeference",
           "heights by wavelet",
           "hidden colours",

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "conformance/reference_decoder/parts.hpp"
+
 namespace tetrakis::reference {
 namespace {
 
