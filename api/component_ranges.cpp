@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <memory>
+#include <new>
 
 #include "api/decoder.hpp"
 #include "api/group_chain.hpp"
@@ -25,14 +25,16 @@ uint32_t levelOf(uint64_t width, uint64_t height, uint32_t coarsest) {
   return level;
 }
 
+/// Exhausted memory is what the caller's guard answers for.
 Status failureOf(const tks_decoder& decoder, tks_status code) {
+  if (code == TKS_NO_MEMORY) throw std::bad_alloc();
   return {code, tks_message(&decoder)};
 }
 
 tks_info infoOf(const tks_decoder& decoder) {
   tks_info info{};
   info.size = sizeof info;
-  tks_get_info(&decoder, &info);
+  if (tks_get_info(&decoder, &info) != TKS_OK) throw std::bad_alloc();
   return info;
 }
 
@@ -98,7 +100,7 @@ Result<std::vector<ComponentRange>> componentRanges(std::span<const uint8_t> str
   for (uint32_t i = 0; i < decoder.parsed.header.components.size(); ++i) {
     tks_component component{};
     component.size = sizeof component;
-    tks_get_component(&decoder, i, &component);
+    if (tks_get_component(&decoder, i, &component) != TKS_OK) throw std::bad_alloc();
     if (component.kind == TKS_COMPONENT_UNKNOWN) {
       ranges.emplace_back();
       continue;

@@ -12,6 +12,7 @@
 
 #include "tests/support/ending_memory.hpp"
 #include "tests/support/indexed_terrain.hpp"
+#include "tetrakis/components.h"
 
 namespace tetrakis::test {
 namespace {
@@ -95,6 +96,14 @@ std::vector<Called> decoderCalls() {
           {"tks_set_levels", [](Desk& d) { return tks_set_levels(d.decoder, 0, 0); }},
           {"tks_set_threads", [](Desk& d) { return tks_set_threads(d.decoder, 3); }},
           {"tks_verify", [](Desk& d) { return tks_verify(d.decoder); }},
+          {"tks_get_component",
+           [](Desk& d) {
+             tks_component component = {};
+             component.size = sizeof component;
+             return tks_get_component(d.decoder, 0, &component);
+           },
+           [](Desk&) {}, [](Desk&) {}, false},
+          {"tks_choose_component", [](Desk& d) { return tks_choose_component(d.decoder, 0); }},
           {"tks_fed_level",
            [](Desk& d) {
              uint32_t level = 0;
@@ -611,6 +620,19 @@ std::vector<Called> frameCalls() {
   return {called, {"tks_set_frame", [](Desk& d) { return tks_set_frame(d.decoder, 1); }}};
 }
 
+std::vector<Called> combiningCalls() {
+  Called combine{"tks_combine", [](Desk& d) {
+                   tks_free_buffer(&d.buffer);
+                   const Bytes& small = indexedStream();
+                   const tks_combined streams[] = {
+                       {sizeof(tks_combined), small.data(), small.size(), nullptr, 0},
+                       {sizeof(tks_combined), small.data(), small.size(), "again", 2}};
+                   return tks_combine(streams, 2, nullptr, &d.buffer, d.message, sizeof d.message);
+                 }};
+  combine.remembers = false;
+  return {combine};
+}
+
 void exhaustAll(const std::vector<Called>& calls, Prefix stream) {
   for (const Called& called : calls) exhaust(called, stream);
 }
@@ -626,6 +648,10 @@ TEST(ExhaustedMemory, OfGlobes) {
 TEST(ExhaustedMemory, OfCallsAboutAStream) {
   exhaustAll(decoderCalls(), indexedStream());
   exhaustAll(indexCalls(), indexedStream());
+}
+
+TEST(ExhaustedMemory, OfCombining) {
+  exhaustAll(combiningCalls(), {});
 }
 
 TEST(ExhaustedMemory, OfPositions) {
@@ -708,11 +734,11 @@ TEST(ExhaustedMemory, IsTriedOfEveryFunction) {
        {firstCalls(), decoderCalls(), indexCalls(), givingCalls(), meshCalls(), globeCalls(),
         objectCalls(), fittingCalls(), positionCalls(), cubeCalls(), encodingCalls(), heightCalls(),
         textureCalls(), sequenceEncoderCalls(), sequenceCalls(), frameCalls(), receiverCalls(),
-        transmitterCalls()})
+        transmitterCalls(), combiningCalls()})
     for (const Called& called : calls) tried.insert(called.name);
   const std::regex declared("\\n[a-z][A-Za-z0-9_ *]*[ *](tks_[a-z_]+)\\(");
   std::set<std::string> functions;
-  for (const char* name : {"tetrakis.h", "sequence.h", "transmit.h"}) {
+  for (const char* name : {"tetrakis.h", "components.h", "sequence.h", "transmit.h"}) {
     std::ifstream file(std::string(TETRAKIS_HEADERS "/") + name);
     const std::string header{std::istreambuf_iterator<char>(file), {}};
     for (std::sregex_iterator at(header.begin(), header.end(), declared), end; at != end; ++at)

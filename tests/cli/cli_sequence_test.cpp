@@ -55,6 +55,26 @@ TEST_F(CliSequence, FramesComeBackByNumberAndByTime) {
   }
 }
 
+/// However many threads there are, heights and texture of one call are those of one frame.
+TEST_F(CliSequence, HeightsAndTextureAreOfOneFrame) {
+  synth("flood", 4);
+  synth("clouds", 4);
+  ASSERT_EQ(cliOf({"encode", "flood/*.tif", "--texture", "clouds/*.png", "--group", "2",
+                   "--reference", "all", "--lossless", "-q", "-o", "f.tks"})
+                .code,
+            0);
+  for (const char* threads : {"1", "3"}) {
+    ASSERT_EQ(cli(std::string("decode -q f.tks --frame 3 --height o.tif --texture o.png -f ") +
+                  "--threads " + threads)
+                  .code,
+              0);
+    const auto original = tools::readImage(path(file("clouds", 3, ".png")));
+    const auto copy = tools::readImage(path("o.png"));
+    ASSERT_TRUE(original.ok() && copy.ok());
+    EXPECT_TRUE(sameBytes(copy->data, original->data)) << threads;
+  }
+}
+
 TEST_F(CliSequence, EveryFrameKeepsItsPromise) {
   synth("flood", 5);
   ASSERT_EQ(cliOf({"encode", "flood/*.tif", "--max-error", "1m", "-q", "-o", "f.tks"}).code, 0);

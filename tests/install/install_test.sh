@@ -50,7 +50,7 @@ for name in tetrakis tetrakis_decoder; do
   "${CC:-cc}" "$source/consumer.c" -o "$scratch/from_c" "${flags[@]}"
   LD_LIBRARY_PATH="$libraries" "$scratch/from_c" "$stream" || fail "C with $name.pc fails"
 done
-for header in mosaic sequence transmit; do  # and what they include
+for header in components mosaic sequence transmit; do  # and what they include
   printf '#include <tetrakis/%s.h>\n' "$header" |
     "${CXX:-c++}" -x c++ -std=c++98 -Wno-long-long -pedantic -Werror -fsyntax-only \
       -I"$prefix/include" -
@@ -66,9 +66,11 @@ for library in "$libraries"/libtetrakis*.so; do
   [[ -z "$others" ]] || fail "$library exports $others"
 done
 if [[ -e "$libraries/libtetrakis_decoder.so" ]]; then
-  declared="$(sed -n 's/.*\b\(tks_[a-z_]*\)(.*/\1/p' "$prefix"/include/tetrakis/{tetrakis,sequence,transmit}.h |
+  headers=("$prefix"/include/tetrakis/{tetrakis,components,sequence,transmit}.h)
+  declared="$(sed -n 's/.*\b\(tks_[a-z_]*\)(.*/\1/p' "${headers[@]}" |
     grep -vx 'tks_cube_from_grid\|tks_encode\|tks_encode_object\|tks_fit_positions\|tks_find_[a-z_]*' |
-    grep -vx 'tks_free_buffer\|tks_reorder\|tks_encode_frames\|tks_sequence_encoder_[a-z]*' |
+    grep -vx 'tks_free_buffer\|tks_combine\|tks_reorder\|tks_encode_frames' |
+    grep -vx 'tks_sequence_encoder_[a-z]*' |
     grep -vx 'tks_sequence_push\|tks_sequence_flush\|tks_sequence_take\|tks_sequence_thin' |
     grep -vx 'tks_receiver_write\|tks_transmitter_[a-z_]*' |
     sort -u)"

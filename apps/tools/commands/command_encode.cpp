@@ -15,6 +15,7 @@
 #include "apps/tools/commands/encode_sequence.hpp"
 #include "apps/tools/commands/encode_surface.hpp"
 #include "apps/tools/commands/explained_plans.hpp"
+#include "apps/tools/commands/named_files.hpp"
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/file_bytes.hpp"
@@ -209,8 +210,6 @@ Result<tks_encode_options> encodeOptions(const EncodeArguments& arguments,
   return options;
 }
 
-namespace {}  // namespace
-
 /// The rows of a cube have no latitudes.
 tks_heights encodedHeights(const EncodeArguments& arguments, const HeightFile& file) {
   tks_heights heights = asHeights(file);
@@ -287,6 +286,54 @@ Status printPlans(const EncodeArguments& arguments, const ExplainedPlans& plans)
   return print(arguments.json ? dump(plans.json()) : plans.table());
 }
 
+/// What is asked of a further texture: the target of the stream, but the last bit where that is
+/// about heights.
+EncodeArguments argumentsOf(const NamedFile& file, const EncodeArguments& arguments) {
+  EncodeArguments one;
+  one.texture = file.path;
+  one.bytes = arguments.bytes;
+  one.psnr = arguments.psnr;
+  one.lossless = arguments.lossless || !arguments.max_error.empty();
+  one.threads = arguments.threads;
+  one.regions = arguments.regions;
+  one.weights = arguments.weights;
+  one.index = arguments.index;
+  one.windows = arguments.windows;
+  return one;
+}
+
+/// Of a further texture, which lies where the heights do unless it says otherwise.
+Result<Buffer> encodeAlso(const NamedFile& file, const EncodeArguments& arguments,
+                          const Reference& beside, bool quiet) {
+  const EncodeArguments one = argumentsOf(file, arguments);
+  Result<Reference> inputs = readInputs(one, quiet);
+  if (!inputs.ok()) return inputs.status();
+  if (beside.heights && !inputs->image->place.geotransform)
+    inputs->image->place.domain = beside.heights->domain;
+  if (Status status = checkEncodeMemory(one, *inputs); !status.ok()) return status;
+  ExplainedPlans plans;
+  return encodeInputs(one, *inputs, quiet, plans);
+}
+
+/// The stream with the further textures that are asked for.
+Result<Buffer> withFurther(const EncodeArguments& arguments, Result<Buffer> stream,
+                           const Reference& inputs, bool quiet) {
+  if (!stream.ok() || arguments.also.empty()) return stream;
+  std::vector<NamedFile> files = namedFiles(arguments.also);
+  if (Status status = takeWeights(arguments.weights_of_also, files); !status.ok()) return status;
+  std::vector<Buffer> others;
+  std::vector<tks_combined> streams = {
+      {sizeof(tks_combined), stream->bytes().data(), stream->bytes().size(), nullptr, 0}};
+  for (const NamedFile& file : files) {
+    Result<Buffer> other = encodeAlso(file, arguments, inputs, quiet);
+    if (!other.ok()) return other.status();
+    others.push_back(*std::move(other));
+    streams.push_back(asCombined(file, others.back().bytes()));
+  }
+  const tks_limits limits = limitsOfTools();
+  return combine(streams, {sizeof(tks_combine_options), arguments.bytes, &limits});
+}
+
 /// The outputs, planned before any work is done.
 struct EncodeOutputs {
   Output stream;
@@ -295,7 +342,9 @@ struct EncodeOutputs {
 };
 
 Result<EncodeOutputs> planOutputs(const EncodeArguments& arguments) {
-  const Status stay = checkInputsStay({arguments.height, arguments.texture}, arguments.output);
+  std::vector<std::string> inputs = {arguments.height, arguments.texture};
+  for (const NamedFile& file : namedFiles(arguments.also)) inputs.push_back(file.path);
+  const Status stay = checkInputsStay(inputs, arguments.output);
   if (!stay.ok()) return stay;
   if (!arguments.report.empty()) {
     const Status distinct = checkDistinct({arguments.output, arguments.report});
@@ -334,7 +383,8 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
   if (Status status = resample(arguments, *inputs, quiet); !status.ok()) return status;
   if (Status status = checkEncodeMemory(arguments, *inputs); !status.ok()) return status;
   ExplainedPlans plans;
-  const Result<Buffer> stream = encodeInputs(arguments, *inputs, quiet, plans);
+  const Result<Buffer> stream =
+      withFurther(arguments, encodeInputs(arguments, *inputs, quiet, plans), *inputs, quiet);
   if (!stream.ok()) return stream.status();
   const std::span<const uint8_t> bytes = stream->bytes();
   if (Status status = outputs->stream.stage(std::as_bytes(bytes)); !status.ok()) return status;

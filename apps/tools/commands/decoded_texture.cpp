@@ -10,14 +10,14 @@ namespace tetrakis::tools {
 uint64_t DecodedTexture::begin(DecodeMemory& memory) {
   const tks_info& info = stream_.decoder.info();
   const bool wants_heights = !arguments_.height.empty() || !arguments_.mesh.empty();
-  if (arguments_.threads < 2 || !wantsTexture(arguments_) || !wants_heights || !info.has_texture)
+  if (stream_.groups || arguments_.threads < 2 || !wantsTexture(arguments_) || !wants_heights || !info.has_texture)
     return 0;
   const std::optional<uint64_t> bytes = memory.textureBeside();
   if (!bytes) return 0;
   const auto decode = [&stream = stream_, &arguments = arguments_,
                        window = textureWindow(arguments_, info),
                        copies = memory.texture()]() -> Result<ImageFile> {
-    Result<Decoder> decoder = openDecoder(octets(stream.bytes));
+    Result<Decoder> decoder = openAgain(stream);
     if (!decoder) return decoder.status();
     decoder->setThreads(arguments.threads);
     if (const Status set = decoder->setLevels(0, arguments.level); !set.ok()) return set;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tools/commands/encode_arguments.hpp"
-#include "apps/tools/files/positive.hpp"
 
 #include <charconv>
 #include <system_error>
 #include <utility>
+
+#include "apps/tools/commands/named_files.hpp"
+#include "apps/tools/files/positive.hpp"
+#include "apps/tools/files/text.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -17,6 +20,14 @@ void addInputs(CLI::App& verb, EncodeArguments& arguments) {
       ->type_name("");
   verb.add_option("--texture", arguments.texture, "Texture over the same ground, or on the mesh")
       ->type_name("IMAGE");
+  CLI::Option* const also =
+      verb.add_option("--also", arguments.also,
+                      "A further texture of that name, such as classes or normals (may be "
+                      "repeated)")
+          ->type_name("NAME=IMAGE")
+          ->expected(1)
+          ->take_all();
+  addWeights(verb, "--also-weight", arguments.weights_of_also)->needs(also);
   verb.add_option("-o,--output", arguments.output, "Where to write; - is standard output")
       ->required()
       ->type_name("OUT.tks");
@@ -220,6 +231,10 @@ Status checkArguments(const EncodeArguments& arguments) {
     return Status(TKS_USAGE, "heights and texture cannot both come from standard input");
   if (arguments.explain && arguments.output == "-")
     return Status(TKS_USAGE, "the stream and --explain cannot both go to standard output");
+  for (const NamedFile& file : namedFiles(arguments.also))
+    if (file.name.empty())
+      return Status(TKS_USAGE, "--also " + quoted(file.path) +
+                                   " has no name: write for example --also classes=" + file.path);
   if (Status status = checkMaxError(arguments.max_error); !status.ok()) return status;
   if (arguments.white_level > 0 && arguments.texture.empty())
     return Status(TKS_USAGE, "--white-level is about a texture: give --texture");

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/tools/commands/options.hpp"
 
@@ -29,6 +30,7 @@ struct SequenceArguments {
 
 struct EncodeArguments {
   std::string height, texture, output, report;
+  std::vector<std::string> also, weights_of_also;  ///< NAME=IMAGE, NAME=WEIGHT
   uint64_t bytes = 0;
   double psnr = 0;
   std::string max_error;

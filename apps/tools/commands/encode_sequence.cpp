@@ -184,6 +184,7 @@ class SequenceWriting {
 Status checkSequence(const EncodeArguments& arguments) {
   const std::pair<const char*, bool> others[] = {
       {"--report", !arguments.report.empty()},
+      {"--also", !arguments.also.empty()},
       {"--explain", arguments.explain},
       {"--triangles", arguments.triangles > 0},
       {"--domain cube", arguments.domain == "cube"},

@@ -170,6 +170,7 @@ Status checkSurfaceArguments(const EncodeArguments& arguments) {
     return {TKS_USAGE, "cameras share bytes between a mesh and its texture: give --bytes"};
   const std::pair<const char*, bool> options[] = {
       {"--triangles", arguments.triangles > 0},
+      {"--also", !arguments.also.empty()},
       {"--engine", arguments.engine != "modelled"},
       {"--regions", arguments.regions != "auto" && arguments.regions != "off"},
       {"--windows", arguments.windows},

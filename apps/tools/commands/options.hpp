@@ -118,6 +118,17 @@ inline void addSource(CLI::App& app, StreamSource& source) {
   app.add_flag("--strict", source.strict, "Refuse a stream that ends early");
 }
 
+/// NAME=W, as often as one likes.
+inline CLI::Option* addWeights(CLI::App& app, const std::string& option,
+                               std::vector<std::string>& weights) {
+  return app
+      .add_option(option, weights,
+                  "What errors of the components of a name count beside those of others (1)")
+      ->type_name("NAME=W")
+      ->expected(1)
+      ->take_all();
+}
+
 /// --component NAME, as often as one likes.
 inline void addComponent(CLI::App& app, StreamSource& source) {
   app.add_option("--component", source.components,

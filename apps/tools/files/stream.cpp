@@ -183,6 +183,18 @@ Result<OpenStream> openCut(const StreamSource& source, std::vector<std::byte> by
 
 }  // namespace
 
+Result<Decoder> openAgain(const OpenStream& stream) {
+  if (stream.groups) return Status(TKS_USAGE, "the stream is a part of a sequence");
+  Result<Decoder> decoder = openDecoder(octets(stream.bytes));
+  if (!decoder) return decoder.status();
+  for (uint32_t i = 0; i < decoder->info().components; ++i) {
+    if (!stream.decoder.component(i)->is_taken || decoder->component(i)->is_taken) continue;
+    if (Status status = decoder->choose(i); !status.ok()) return status;
+  }
+  if (Status status = decoder->setFrame(stream.decoder.info().frame); !status.ok()) return status;
+  return decoder;
+}
+
 Status showFrame(OpenStream& stream, uint64_t frame) {
   if (!stream.groups)
     return stream.decoder.setFrame(static_cast<uint32_t>(std::min<uint64_t>(frame, UINT32_MAX)));

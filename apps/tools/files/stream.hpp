@@ -57,6 +57,10 @@ tks_limits limitsOfTools();
 /// A decoder with these limits.
 Result<Decoder> openDecoder(std::span<const uint8_t> bytes);
 
+/// Another decoder of the stream, which takes the same components and shows the same frame. Of a
+/// sequence there is none, whose frames may go on from other groups.
+Result<Decoder> openAgain(const OpenStream& stream);
+
 /// Whether the bytes begin as a sequence does, and not as a stream.
 bool isSequence(std::span<const std::byte> bytes);
 
