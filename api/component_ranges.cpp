@@ -18,9 +18,7 @@ constexpr uint64_t kMostSamples = 1 << 16;
 /// The finest level of so few samples, or the coarsest one.
 uint32_t levelOf(uint64_t width, uint64_t height, uint32_t coarsest) {
   uint32_t level = 0;
-  const auto samples = [&] {
-    return (((width - 1) >> level) + 1) * (((height - 1) >> level) + 1);
-  };
+  const auto samples = [&] { return (((width - 1) >> level) + 1) * (((height - 1) >> level) + 1); };
   while (level < coarsest && samples() > kMostSamples) ++level;
   return level;
 }
@@ -73,8 +71,7 @@ Result<ComponentRange> rangeOfTexture(tks_decoder& decoder) {
   if (const tks_status code = tks_set_levels(&decoder, 0, level); code != TKS_OK)
     return failureOf(decoder, code);
   const tks_info info = infoOf(decoder);
-  const size_t count =
-      size_t{info.texture_width} * info.texture_height * info.texture_channels;
+  const size_t count = size_t{info.texture_width} * info.texture_height * info.texture_channels;
   const bool is_wide = info.texture_sample == TKS_U16;
   std::vector<uint8_t> texels(count * (is_wide ? 2 : 1));
   if (const tks_status code = tks_decode_texture(&decoder, texels.data(), texels.size());
@@ -107,9 +104,8 @@ Result<std::vector<ComponentRange>> componentRanges(std::span<const uint8_t> str
     }
     if (const tks_status code = tks_choose_component(&decoder, i); code != TKS_OK)
       return failureOf(decoder, code);
-    Result<ComponentRange> range = component.kind == TKS_COMPONENT_HEIGHTS
-                                       ? rangeOfHeights(decoder)
-                                       : rangeOfTexture(decoder);
+    Result<ComponentRange> range =
+        component.kind == TKS_COMPONENT_HEIGHTS ? rangeOfHeights(decoder) : rangeOfTexture(decoder);
     if (!range.ok()) return range.status();
     ranges.push_back(*range);
   }

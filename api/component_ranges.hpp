@@ -7,15 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "encoder/combination/combined_part.hpp"
 #include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::inline api {
-
-struct ComponentRange {
-  double quality_unit = 1;  ///< rmseOf() of a packet over it is the error in units of the range
-  double unsent = 0;        ///< squared error while nothing of it is there, likewise: its variance
-};
 
 /// By the numbers of the components; of unknown ones without an error. It decodes a level of at
 /// most 2^16 samples of each. The statuses are those of tks_open and of the calls that decode.

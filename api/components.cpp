@@ -92,6 +92,5 @@ tks_status tks_get_component(const tks_decoder* decoder, uint32_t number, tks_co
 }
 
 tks_status tks_choose_component(tks_decoder* decoder, uint32_t number) {
-  return tetrakis::keeping(decoder,
-                           [&] { return tetrakis::chooseComponent(*decoder, number); });
+  return tetrakis::keeping(decoder, [&] { return tetrakis::chooseComponent(*decoder, number); });
 }

@@ -197,8 +197,9 @@ tks_status tks_reorder(tks_decoder* decoder, const tks_screen_camera* cameras,
           TKS_USAGE,
           "The stream has no front index, which says what its packets are worth: encode with one."};
     if (header.choice.heights || header.choice.texture)
-      return {TKS_USAGE, "Packets are put in order for the first heights and the first texture of "
-                         "a stream: do so before others are chosen."};
+      return {TKS_USAGE,
+              "Packets are put in order for the first heights and the first texture of "
+              "a stream: do so before others are chosen."};
     if (!tetrakis::describes(header.index, decoder->packets.payload.heads))
       return tetrakis::wrongIndex();
     if (camera_count == 0) return {TKS_USAGE, "The cameras are missing."};

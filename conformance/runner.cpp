@@ -32,7 +32,8 @@ bool runVector(const Vector& vector, std::span<const uint8_t> stream, std::ostre
       passed = false;
       continue;
     }
-    const Cut got = decodeCut(stream.first(static_cast<size_t>(wanted.bytes)), wanted.level, wanted.component);
+    const Cut got =
+        decodeCut(stream.first(static_cast<size_t>(wanted.bytes)), wanted.level, wanted.component);
     if (same(wanted, got)) continue;
     log << "  " << vector.name << " at " << wanted.bytes << " bytes, level " << wanted.level
         << "\n    wanted " << describe(wanted) << "\n    got    " << describe(got) << "\n";

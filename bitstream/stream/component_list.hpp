@@ -86,12 +86,6 @@ inline const ListedComponent* firstTexture(const std::vector<ListedComponent>& l
   return first != list.end() ? &*first : nullptr;
 }
 
-/// The transform of samples that cover the ground of others, of which that is the transform.
-inline GeoTransform over(const GeoTransform& transform, Extent others, Extent samples) {
-  return stretched(transform, static_cast<double>(others.width) / samples.width,
-                   static_cast<double>(others.height) / samples.height);
-}
-
 /// Whether a header that was read has what was chosen.
 inline bool has(const StreamHeader& header, const ComponentChoice& choice) {
   const std::vector<ListedComponent>& list = header.components;

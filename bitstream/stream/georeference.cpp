@@ -25,6 +25,11 @@ GeoTransform stretched(const GeoTransform& t, double columns, double rows) {
   return {t[0], t[1] * columns, t[2] * rows, t[3], t[4] * columns, t[5] * rows};
 }
 
+GeoTransform over(const GeoTransform& transform, Extent others, Extent samples) {
+  return stretched(transform, static_cast<double>(others.width) / samples.width,
+                   static_cast<double>(others.height) / samples.height);
+}
+
 TransformForm formOf(const GeoTransform& t, const TransformBasis& basis) {
   if (basis.has_heights && std::equal(t.begin(), t.end(), basis.heights.begin(), same))
     return TransformForm::kHeights;

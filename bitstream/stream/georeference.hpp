@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/plane.hpp"
 #include "bitstream/stream/fields.hpp"
 #include "tetrakis/result.hpp"
 
@@ -44,6 +45,9 @@ GeoTransform northUp(double size_x, double size_y);
 
 /// The transform of a raster over the same ground whose samples are so many times as large.
 GeoTransform stretched(const GeoTransform& transform, double columns, double rows);
+
+/// The transform of samples that cover the ground of others, of which that is the transform.
+GeoTransform over(const GeoTransform& transform, Extent others, Extent samples);
 
 /// The least form that gives the transform back bit for bit.
 TransformForm formOf(const GeoTransform& transform, const TransformBasis& basis);

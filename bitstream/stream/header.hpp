@@ -79,9 +79,9 @@ struct Domain {
 /// first texture of a stream the body has all of it but the name.
 struct ComponentDetails {
   std::string name;
-  Metadata metadata;       ///< of heights
-  Georeference place;      ///< of heights, or of a texture
-  uint8_t lossless = 0;    ///< the complete stream restores every sample of the component
+  Metadata metadata;        ///< of heights
+  Georeference place;       ///< of heights, or of a texture
+  uint8_t lossless = 0;     ///< the complete stream restores every sample of the component
   std::string later_parts;  ///< of kinds that are not known and inform, as they were read
 
   bool none() const {

@@ -229,12 +229,12 @@ std::span<const uint8_t> newBytes(const PacketPart& part) {
 }  // namespace
 
 Result<std::vector<FoundPacket>> packetsIn(std::span<const uint8_t> payload, size_t origin,
-                                            const TrackCounts& counts) {
+                                           const TrackCounts& counts) {
   std::vector<FoundPacket> packets;
   PayloadPlace place;
-  const Status status = forEachPacket(
-      payload, origin, counts, place,
-      [&](const PacketPart& part) { packets.push_back({part.head, part.bytes}); });
+  const Status status = forEachPacket(payload, origin, counts, place, [&](const PacketPart& part) {
+    packets.push_back({part.head, part.bytes});
+  });
   if (!status.ok()) return status;
   return packets;
 }

@@ -159,7 +159,7 @@ struct FoundPacket {
 
 /// The packets of a payload, the last of which may be cut. TKS_CORRUPT.
 Result<std::vector<FoundPacket>> packetsIn(std::span<const uint8_t> payload, size_t origin,
-                                            const TrackCounts& counts);
+                                           const TrackCounts& counts);
 
 /// What a payload holds, for an idea of what it takes to take it apart.
 struct PayloadCount {

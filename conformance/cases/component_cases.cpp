@@ -46,9 +46,9 @@ VectorCase placed(VectorCase input) {
 std::vector<VectorCase> combinedCases() {
   VectorCase both = heightsCase("", "", {Pattern::kRidges, 40, 30, 1, TKS_I16}, lossless());
   both.texture = Recipe{Pattern::kRidges, 61, 47, 3, TKS_U8, 7};
-  const VectorCase later = withVoids(
-      heightsCase("", "", {Pattern::kRidges, 40, 30, 1, TKS_I16, 9}, lossless()),
-      samples::VoidShape::kCoast, -9999);
+  const VectorCase later =
+      withVoids(heightsCase("", "", {Pattern::kRidges, 40, 30, 1, TKS_I16, 9}, lossless()),
+                samples::VoidShape::kCoast, -9999);
   const VectorCase classes =
       textureCase("", "", {Pattern::kChecker, 40, 30, 1, TKS_U8}, lossless());
   const VectorCase normals =
@@ -95,8 +95,7 @@ StreamHeader withDetails() {
   heights.details.place.heights = {
       true, {500, 5, 0, 900, 0, -10}, 2, header.georeference.heights.geo_keys};
   heights.details.lossless = 1;
-  ListedComponent texture =
-      asOther(textureHeader(7, 11, 3, TKS_U8, 8), Component::kTexture);
+  ListedComponent texture = asOther(textureHeader(7, 11, 3, TKS_U8, 8), Component::kTexture);
   texture.details.place.texture = {true, {1, 2, 3, 4, 5, 6}, 0, ""};
   texture.details.place.texture_crs = "EPSG:4326";
   ListedComponent unknown;
@@ -151,31 +150,30 @@ std::vector<VectorCase> craftedDetails() {
       details.add(1, partsOf([&](HeaderParts& parts) { parts.add(kind, bytes); }));
     };
   };
-  return {
-      crafted("details_18x11", "names, places and promises of five components",
-              noisy(withDetails())),
-      detailed("details_later_9x9", "parts of details that nobody knows yet, and nothing of one",
-               false,
-               [](HeaderParts& details) {
-                 details.add(0, {});
-                 details.add(1, partsOf([](HeaderParts& parts) { parts.add(90, {1, 2}); }));
-                 details.add(64, {7});
-               }),
-      detailed("details_over_9x9", "heights on the ground of the first ones", true,
-               second(66, {5, 1})),
-      detailed("refused_details_over", "the same where the first ones lie nowhere", false,
-               second(66, {5, 1})),
-      detailed("refused_details_number", "details of a component that there is not", false,
-               [](HeaderParts& details) { details.add(2, {}); }),
-      detailed("refused_details_own", "first heights on the ground of themselves", true,
-               [](HeaderParts& details) {
-                 details.add(0, partsOf([](HeaderParts& parts) { parts.add(66, {5, 1}); }));
-               }),
-      detailed("refused_details_scale", "metadata with a scale of 0", false,
-               second(65, {0, 0, 0, 0, 0, 0})),
-      detailed("refused_details_lossless", "a promise with a field", false, second(67, {1})),
-      detailed("refused_details_part", "a part of details that a decoder has to know", false,
-               second(40, {1}))};
+  return {crafted("details_18x11", "names, places and promises of five components",
+                  noisy(withDetails())),
+          detailed("details_later_9x9",
+                   "parts of details that nobody knows yet, and nothing of one", false,
+                   [](HeaderParts& details) {
+                     details.add(0, {});
+                     details.add(1, partsOf([](HeaderParts& parts) { parts.add(90, {1, 2}); }));
+                     details.add(64, {7});
+                   }),
+          detailed("details_over_9x9", "heights on the ground of the first ones", true,
+                   second(66, {5, 1})),
+          detailed("refused_details_over", "the same where the first ones lie nowhere", false,
+                   second(66, {5, 1})),
+          detailed("refused_details_number", "details of a component that there is not", false,
+                   [](HeaderParts& details) { details.add(2, {}); }),
+          detailed("refused_details_own", "first heights on the ground of themselves", true,
+                   [](HeaderParts& details) {
+                     details.add(0, partsOf([](HeaderParts& parts) { parts.add(66, {5, 1}); }));
+                   }),
+          detailed("refused_details_scale", "metadata with a scale of 0", false,
+                   second(65, {0, 0, 0, 0, 0, 0})),
+          detailed("refused_details_lossless", "a promise with a field", false, second(67, {1})),
+          detailed("refused_details_part", "a part of details that a decoder has to know", false,
+                   second(40, {1}))};
 }
 
 }  // namespace

@@ -80,9 +80,9 @@ Transform Places::readSpacing(Reader& in) {
 /// Of further heights, or of a texture.
 void Places::skipPlace(Reader& in, const Component& component, const Transform& spacing) const {
   readPlace(in, &component, spacing);
-  skipByte(in, 2);  // registration
-  skipText(in);     // geo_keys
-  skipText(in);     // description, or texture_crs
+  skipByte(in, 2);                           // registration
+  skipText(in);                              // geo_keys
+  skipText(in);                              // description, or texture_crs
   if (component.kind == 0) skipByte(in, 1);  // nan_nodata
 }
 

@@ -173,7 +173,7 @@ struct Stream {
   std::optional<TextureHeader> texture;
   std::vector<Component> components;
   std::optional<TriangleMeshHeader> triangles;
-  bool suits = true;                   ///< what the parts of the header say fits together
+  bool suits = true;  ///< what the parts of the header say fits together
   Choice choice;
   std::array<Codewords, 2> codewords;  ///< by role
 };

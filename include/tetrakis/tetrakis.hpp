@@ -184,7 +184,8 @@ inline Result<Buffer> encode(const tks_heights* heights, const tks_image* image,
 
 /// One stream of the components of several (tks_combine).
 inline Result<Buffer> combine(std::span<const tks_combined> streams,
-                              const tks_combine_options& options = {sizeof(tks_combine_options), 0, nullptr}) {
+                              const tks_combine_options& options = {sizeof(tks_combine_options), 0,
+                                                                    nullptr}) {
   char message[512] = "";
   tks_buffer buffer{};
   const tks_status status = tks_combine(streams.data(), static_cast<uint32_t>(streams.size()),

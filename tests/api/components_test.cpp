@@ -91,8 +91,8 @@ Bytes normals() {
 }
 
 const Bytes& everything() {
-  static const Bytes stream = *combined(
-      {{base()}, {later(), "later"}, {classes(), "classes"}, {normals(), "normals"}});
+  static const Bytes stream =
+      *combined({{base()}, {later(), "later"}, {classes(), "classes"}, {normals(), "normals"}});
   return stream;
 }
 
@@ -194,10 +194,8 @@ TEST(Components, PrefixesAgreeWithTheReferenceDecoder) {
       const bool heights = decoder->component(i)->kind == TKS_COMPONENT_HEIGHTS;
       const auto expected = reference::decode(
           cut, 1 << 20, {}, heights ? reference::Choice{i, {}} : reference::Choice{{}, i});
-      ASSERT_EQ(firstDifference(expected.heights, *decoder->heights()),
-                expected.heights->size());
-      ASSERT_EQ(firstDifference(expected.texture, *decoder->texture()),
-                expected.texture->size());
+      ASSERT_EQ(firstDifference(expected.heights, *decoder->heights()), expected.heights->size());
+      ASSERT_EQ(firstDifference(expected.texture, *decoder->texture()), expected.texture->size());
     }
   }
 }
@@ -306,7 +304,8 @@ TEST(Components, OfPrefixesHoldWhatTheseHold) {
 TEST(Components, StayWithinABudget) {
   const std::vector<Named> all = {{base()}, {later(), "later"}, {classes(), "classes"}};
   const size_t whole = combined(all)->size();
-  for (const size_t bytes : {size_t{400}, size_t{1000}, size_t{3333}, whole - 1, whole, whole + 1}) {
+  for (const size_t bytes :
+       {size_t{400}, size_t{1000}, size_t{3333}, whole - 1, whole, whole + 1}) {
     const Result<Bytes> stream = combined(all, bytes);
     ASSERT_TRUE(stream.ok()) << stream.status().message();
     EXPECT_LE(stream->size(), bytes);
@@ -376,8 +375,8 @@ TEST(Components, OfDamagedStreamsAreSafe) {
 }
 
 TEST(Components, AreOrderedForTheFirstAlone) {
-  const Bytes both = *combined({{indexedHeights(Pattern::kRidges, 1)},
-                                {indexedHeights(Pattern::kHills, 4), "second"}});
+  const Bytes both = *combined(
+      {{indexedHeights(Pattern::kRidges, 1)}, {indexedHeights(Pattern::kHills, 4), "second"}});
   Decoder taken = chosen(both, "second");
   tks_screen_camera camera = makeScreenCamera();
   camera.width = camera.height = 40;

@@ -63,13 +63,13 @@ TEST_F(CliComponent, AreEncodedAtOnce) {
             0);
   EXPECT_EQ(nlohmann::json::parse(cli("info all.tks --json").out)["lossless"], true);
   for (const std::string name : {"a", "b"})
-    EXPECT_EQ(nlohmann::json::parse(cli("compare all.tks --component " + name +
-                                        " --texture texture.png --json")
-                                        .out)["texture_exact"],
+    EXPECT_EQ(nlohmann::json::parse(
+                  cli("compare all.tks --component " + name + " --texture texture.png --json")
+                      .out)["texture_exact"],
               true);
-  ASSERT_EQ(cli("encode height.tif --also a=texture.png --also-weight a=3 --bytes 1k -o cut.tks")
-                .code,
-            0);
+  ASSERT_EQ(
+      cli("encode height.tif --also a=texture.png --also-weight a=3 --bytes 1k -o cut.tks").code,
+      0);
   EXPECT_LE(content("cut.tks").size(), 1024u);
   expectRefused("encode height.tif --also texture.png --lossless -o b.tks", 1, "has no name");
   expectRefused("encode height.tif --also a=gone.png --lossless -o b.tks", 2, "gone.png");

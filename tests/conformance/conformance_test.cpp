@@ -83,9 +83,9 @@ TEST_F(Vectors, ReferenceDecoderPasses) {
     ASSERT_TRUE(stream.ok());
     for (const Cut& cut : vector.cuts) {
       SCOPED_TRACE(vector.name + " at " + std::to_string(cut.bytes) + " bytes");
-      const reference::Decoded decoded = reference::decode(
-          std::span(*stream).first(static_cast<size_t>(cut.bytes)), reference::kMaxSamples,
-          {cut.level, cut.level}, choiceOf(*stream, cut));
+      const reference::Decoded decoded =
+          reference::decode(std::span(*stream).first(static_cast<size_t>(cut.bytes)),
+                            reference::kMaxSamples, {cut.level, cut.level}, choiceOf(*stream, cut));
       const auto triangles =
           reference::decodeTriangles(std::span(*stream).first(static_cast<size_t>(cut.bytes)));
       const bool sound = !triangles || triangles->sound;

@@ -161,6 +161,19 @@ void showFrames(tetrakis::Decoder& decoder) {
   }
 }
 
+/// Each component that is not the first of its kind, and the first ones of those kinds again.
+void chooseComponents(std::span<const uint8_t> bytes) {
+  auto decoder = tetrakis::Decoder::open(bytes, fuzzLimits());
+  if (!decoder) return;
+  for (uint32_t i = 0; i < decoder->info().components; ++i) {
+    if (decoder->component(i)->is_taken || !decoder->choose(i).ok()) continue;
+    if (!decoder->component(i)->is_taken) std::abort();
+    if (decoder->info().has_heights) static_cast<void>(decoder->heights());
+    if (decoder->info().has_texture) static_cast<void>(decoder->texture());
+  }
+  for (uint32_t i = decoder->info().components; i-- > 0;) static_cast<void>(decoder->choose(i));
+}
+
 /// The bytes as a sequence, or the end of one.
 void passGroups(std::span<const uint8_t> bytes) {
   if (auto sequence = tetrakis::Sequence::open({}, fuzzLimits())) {
@@ -219,6 +232,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (info.has_heights) static_cast<void>(decoder->heights());
   if (info.has_texture) static_cast<void>(decoder->texture());
   static_cast<void>(decoder->verify());
+  if (info.components > 1) chooseComponents({data, size});
   growAndDecode({data, size});
   return 0;
 }

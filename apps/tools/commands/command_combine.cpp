@@ -59,8 +59,7 @@ Status combineFiles(const CombineArguments& arguments) {
 
 void addCombine(CLI::App& app, CommandLine& line) {
   const auto arguments = std::make_shared<CombineArguments>();
-  CLI::App& verb =
-      *app.add_subcommand("combine", "Make one stream of the components of several");
+  CLI::App& verb = *app.add_subcommand("combine", "Make one stream of the components of several");
   verb.add_option("IN", arguments->inputs, "Streams (.tks); NAME=IN names the components of one")
       ->required()
       ->type_name("[NAME=]IN...");

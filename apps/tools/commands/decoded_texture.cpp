@@ -10,7 +10,8 @@ namespace tetrakis::tools {
 uint64_t DecodedTexture::begin(DecodeMemory& memory) {
   const tks_info& info = stream_.decoder.info();
   const bool wants_heights = !arguments_.height.empty() || !arguments_.mesh.empty();
-  if (stream_.groups || arguments_.threads < 2 || !wantsTexture(arguments_) || !wants_heights || !info.has_texture)
+  if (stream_.groups || arguments_.threads < 2 || !wantsTexture(arguments_) || !wants_heights ||
+      !info.has_texture)
     return 0;
   const std::optional<uint64_t> bytes = memory.textureBeside();
   if (!bytes) return 0;

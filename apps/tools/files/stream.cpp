@@ -152,7 +152,8 @@ std::vector<uint32_t> componentsNamed(const Decoder& decoder, const std::string&
 Status choose(Decoder& decoder, const std::string& name) {
   const std::vector<uint32_t> numbers = componentsNamed(decoder, name);
   if (numbers.empty())
-    return {TKS_USAGE, "the stream has no component " + quoted(name) + ": tetrakis info names them"};
+    return {TKS_USAGE,
+            "the stream has no component " + quoted(name) + ": tetrakis info names them"};
   for (const uint32_t number : numbers)
     if (Status status = decoder.choose(number); !status.ok()) return status;
   return {};
