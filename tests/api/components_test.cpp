@@ -46,7 +46,7 @@ Raster dem() {
 constexpr double kPlace[6] = {500000, 30, 0, 5200000, 0, -30};
 
 /// Heights with voids, in feet, on the ground of the DEM.
-Bytes later() {
+Bytes laterAnew() {
   Raster raster = samples::make({Pattern::kHills, 50, 41, 1, TKS_I16, 5});
   const auto valid = samples::validity(samples::VoidShape::kCoast, 50, 41);
   for (size_t i = 0; i < valid.size(); ++i) {
@@ -65,7 +65,7 @@ Bytes later() {
   return encodeHeights(heights, lossless());
 }
 
-Bytes base() {
+Bytes baseAnew() {
   const Raster raster = dem(), picture = photograph();
   tks_heights heights = raster.heights();
   heights.unit = "m";
@@ -76,7 +76,7 @@ Bytes base() {
   return encodeGiven(&heights, &image, budget(6000));
 }
 
-Bytes classes() {
+Bytes classesAnew() {
   const Raster raster = samples::make({Pattern::kSteps, 50, 41, 1, TKS_U8, 3});
   tks_image image = raster.image();
   image.has_geotransform = 1;
@@ -85,9 +85,27 @@ Bytes classes() {
   return encodeGiven(nullptr, &image, lossless());
 }
 
-Bytes normals() {
+Bytes normalsAnew() {
   const Raster raster = samples::make({Pattern::kRidges, 61, 33, 3, TKS_U8, 8});
   return encode(nullptr, &raster, budget(2000));
+}
+
+/// Each is encoded once.
+const Bytes& base() {
+  static const Bytes stream = baseAnew();
+  return stream;
+}
+const Bytes& later() {
+  static const Bytes stream = laterAnew();
+  return stream;
+}
+const Bytes& classes() {
+  static const Bytes stream = classesAnew();
+  return stream;
+}
+const Bytes& normals() {
+  static const Bytes stream = normalsAnew();
+  return stream;
 }
 
 const Bytes& everything() {
@@ -135,7 +153,7 @@ TEST(Components, AreListed) {
 }
 
 TEST(Components, FirstOnesAreThoseOfTheFirstStream) {
-  Stream alone(base()), among(everything());
+  Stream alone{Prefix(base())}, among{Prefix(everything())};
   EXPECT_EQ(alone.heights(), among.heights());
   EXPECT_EQ(alone.texture(), among.texture());
   EXPECT_STREQ(among.info().unit, "m");
