@@ -74,6 +74,8 @@ class JoinedHeader {
         header.lossless = 0;
         if (header.geometry) header.geometry->max_error = GeometryHeader::kNotStated;
       }
+      if (one.isHeights() && header_.geometry && header.grid.samples() > 0)
+        return {TKS_USAGE, "A grid on a cube comes before all other heights, or not at all."};
       one.isHeights() ? joinHeights(header, one) : joinTexture(header, one);
     }
     header_.components.push_back(std::move(one));

@@ -52,8 +52,9 @@ tks_status tks_get_component(const tks_decoder* decoder, uint32_t number, tks_co
  * decoder is as before.
  *
  * TKS_USAGE: there is no such component; or the decoder was given bytes by tks_append or tks_put
- * before, or belongs to a sequence or a receiver. TKS_UNSUPPORTED: this library does not know the
- * component's kind or the surface that it lies on. TKS_CORRUPT, TKS_LIMIT: as of tks_open. */
+ * before. TKS_UNSUPPORTED: this library does not know the component's kind or the surface that it
+ * lies on; or the frames of the stream go on from those of another one. TKS_CORRUPT, TKS_LIMIT: as
+ * of tks_open. */
 tks_status tks_choose_component(tks_decoder* decoder, uint32_t number);
 
 /* A stream, or a prefix of one, of which tks_combine takes all components. */
@@ -84,10 +85,10 @@ typedef struct tks_combine_options {
  * result has one.
  *
  * options: NULL: none. TKS_USAGE: a list without streams; more than 16 components; two of a kind
- * with the same name; a triangle mesh or frames behind the first stream, frames in the first one; a
- * weight that is negative or not finite; a budget that the header alone exceeds. TKS_CORRUPT,
- * TKS_UNSUPPORTED, TKS_LIMIT, TKS_TRUNCATED: as of tks_open, by the first such stream, whose number
- * the message says. */
+ * with the same name; frames; a mesh of triangles behind the first stream; a grid on a cube behind
+ * other heights; a weight that is negative or not finite; a budget that the header alone exceeds.
+ * TKS_CORRUPT, TKS_UNSUPPORTED, TKS_LIMIT, TKS_TRUNCATED: as of tks_open, by the first such stream,
+ * whose number the message says. */
 tks_status tks_combine(const tks_combined* streams, uint32_t count,
                        const tks_combine_options* options, tks_buffer* out, char* message,
                        size_t message_size);

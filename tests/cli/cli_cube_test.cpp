@@ -46,6 +46,18 @@ TEST_F(CliCube, GivesWindowsOfTheGrid) {
     EXPECT_EQ(cli(std::string("decode s.tks -f ") + other).code, 1) << other;
 }
 
+/// What a cube was made of is said of the first heights alone.
+TEST_F(CliCube, ComesBeforeOtherHeights) {
+  ASSERT_EQ(encodeCube(" --bytes 3000 --depth 4").code, 0);
+  ASSERT_EQ(cli("combine s.tks again=s.tks -o two.tks").code, 1);
+  makeInputs();
+  ASSERT_EQ(cli("encode height.tif --lossless -o plane.tks").code, 0);
+  EXPECT_EQ(cli("combine plane.tks cube=s.tks -o two.tks").code, 1);
+  ASSERT_EQ(cli("combine s.tks plane=plane.tks -o two.tks").code, 0);
+  ASSERT_EQ(cli("decode two.tks -f --height again.tif").code, 0);
+  EXPECT_TRUE(sameBytes(tools::readHeights(path("again.tif"))->data, decoded().data));
+}
+
 TEST_F(CliCube, LevelsAreCoarserGridsOfTheSameGround) {
   ASSERT_EQ(encodeCube(" --psnr 70").code, 0);
   const tools::HeightFile half = decoded(" --level 1");
