@@ -2,6 +2,7 @@
 #include "encoder/combination/combined_part.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "ratecontrol/curves/component_curve.hpp"
@@ -15,16 +16,25 @@ std::span<const uint8_t> behindHeader(std::span<const uint8_t> stream, const Par
 
 namespace {
 
-/// What is left of a cut packet is a packet of its own, which shows no more than the one before; or
-/// nothing, if it counts only when complete.
-void endCut(std::vector<FoundPacket>& packets) {
-  if (packets.empty() || !packets.back().isCut()) return;
+/// What is left of a cut packet is a packet of its own, or nothing if it counts only when complete.
+/// Errors fall faster at first: they lie below a line between both of its ends.
+/// Returns whether there is such a packet.
+bool endCut(std::vector<FoundPacket>& packets) {
+  if (packets.empty() || !packets.back().isCut()) return false;
   FoundPacket& cut = packets.back();
-  if (cut.head.whole || cut.bytes.empty()) return packets.pop_back();
-  cut.head.length = cut.bytes.size();
-  cut.head.quality = 255;
+  if (cut.head.whole || cut.bytes.empty()) {
+    packets.pop_back();
+    return false;
+  }
+  uint8_t before = 255;
   for (const FoundPacket& packet : std::span(packets).first(packets.size() - 1))
-    if (packet.head.number == cut.head.number) cut.head.quality = packet.head.quality;
+    if (packet.head.number == cut.head.number) before = packet.head.quality;
+  const auto squares = [](uint8_t quality) { return rmseOf(quality) * rmseOf(quality); };
+  const double share = static_cast<double>(cut.bytes.size()) / static_cast<double>(cut.head.length);
+  const double left = squares(before) + share * (squares(cut.head.quality) - squares(before));
+  cut.head.quality = std::min(before, qualityOf(std::sqrt(left)));
+  cut.head.length = cut.bytes.size();
+  return true;
 }
 
 /// Each packet's slope on the lower hull of the error of all components together.
@@ -63,7 +73,7 @@ Status takePackets(CombinedPart& part, const std::vector<ComponentRange>& ranges
       packetsIn(payload, part.parsed.bytes, trackCounts(part.parsed.header));
   if (!packets.ok()) return packets.status();
   part.packets = *std::move(packets);
-  endCut(part.packets);
+  part.ends_cut = endCut(part.packets);
   part.is_whole = payload.size() == part.parsed.header.payload_bytes;
   part.slopes = slopesOf(part.packets, ranges);
   return {};

@@ -30,6 +30,7 @@ struct CombinedPart {
   std::vector<FoundPacket> packets;
   std::vector<double> slopes;  ///< of each packet, on the hull of the stream's error
   bool is_whole = false;       ///< all of its bytes are there
+  bool ends_cut = false;       ///< the last packet is what is left of a longer one
 };
 
 /// Sets packets, slopes and is_whole, of a part whose header is parsed. ranges: of its components,

@@ -18,7 +18,9 @@ bool haveIndices(const std::vector<CombinedPart>& parts) {
   return std::all_of(parts.begin(), parts.end(), [](const CombinedPart& part) {
     std::vector<PacketHead> heads;
     for (const FoundPacket& packet : part.packets) heads.push_back(packet.head);
-    return describes(part.parsed.header.index, heads);
+    if (part.ends_cut) heads.pop_back();  // whose length has changed
+    const std::vector<IndexEntry>& index = part.parsed.header.index;
+    return index.size() >= part.packets.size() && describes(index, heads);
   });
 }
 

@@ -277,6 +277,24 @@ TEST(Components, WindowsOfTheChosenTakeItsRangesAlone) {
   EXPECT_EQ(*taken.heights(window), *alone->heights(window));
 }
 
+/// A budget cuts streams inside a packet, which the index of the combined stream says.
+TEST(Components, OfCutStreamsKeepTheirIndex) {
+  const Raster raster = samples::make({Pattern::kRidges, 150, 130, 1, TKS_U16, 1});
+  tks_encode_options options = inRegions(budget(6000), 32);
+  options.index = TKS_INDEX_PACKETS;
+  const Bytes own = encode(&raster, nullptr, options);
+  const Result<Bytes> both = combined({{own}, {own, "second"}});
+  ASSERT_TRUE(both.ok());
+  const size_t header = Stream{Prefix(*both)}.info().header_bytes;
+  Decoder taken = chosen(Prefix(*both).first(header), "second");
+  ASSERT_EQ(taken.info().index, TKS_INDEX_PACKETS);
+  const auto ranges = taken.neededRanges(TKS_PART_HEIGHTS);
+  ASSERT_TRUE(ranges.ok());
+  for (const tks_range& range : *ranges)
+    ASSERT_TRUE(taken.put(range.offset, Prefix(*both).subspan(range.offset, range.size)).ok());
+  EXPECT_EQ(*taken.heights(), *Decoder::open(own)->heights());
+}
+
 TEST(Components, JoinHeightsAndATextureThatWereCodedApart) {
   const Raster heights = dem(), image = photograph();
   const Bytes ground = encode(&heights, nullptr, lossless()),
