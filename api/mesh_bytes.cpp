@@ -12,13 +12,13 @@ namespace tetrakis::inline api {
 
 namespace {
 
-/// Of a mesh on a forest, which shows a mip level where its budget is fitted.
+/// Of a mesh on a forest, whose vertices are fitted within a budget: of heights to a mip level, of
+/// an object to every sample.
 uint64_t forestBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   const GeometryHeader& geometry = *decoder.parsed.header.geometry;
   const Forest& forest = *geometry.wavelet.forest;
-  const bool fitted =
-      request.part == TKS_PART_BUDGET_MESH && request.max_triangles > 0 && !decoder.base_mesh;
-  const int level = fitted ? spareLevels(forest, request.max_triangles) : 0;
+  const bool fitted = request.part == TKS_PART_BUDGET_MESH && request.max_triangles > 0;
+  const int level = fitted && !decoder.base_mesh ? spareLevels(forest, request.max_triangles) : 0;
   const HeightsBytes heights(decoder, levelOf(geometry, level));
   const bool there = level == 0 && decoder.heights;
   const Forest of_level(forest.depth() - level, forest.sides());

@@ -16,6 +16,7 @@
 #include "api/written.hpp"
 #include "codec/basemesh/base_mesh.hpp"
 #include "codec/basemesh/bent_base.hpp"
+#include "codec/mesh/forest/object_gains.hpp"
 #include "codec/mesh/meshes.hpp"
 
 namespace tetrakis::inline api {
@@ -25,8 +26,12 @@ namespace {
 /// by which vertices are chosen.
 struct ObjectPlaces {
   std::vector<std::array<double, 3>> places;
-  std::array<std::vector<int32_t>, 3> units;
+  ObjectRasters units;
 };
+
+bool hasBudget(const ForestMeshing& meshing) {
+  return meshing.kind == TKS_MESH_BUDGET && meshing.max_triangles > 0;
+}
 
 ObjectPlaces placesOf(const BaseMesh& mesh, std::span<const float> heights) {
   const BentBase base(mesh);
@@ -50,6 +55,29 @@ ObjectPlaces placesOf(const BaseMesh& mesh, std::span<const float> heights) {
     }
   }
   return all;
+}
+
+std::vector<ForestVertex> chosenPlaces(const ForestLattice& lattice,
+                                       const DecodedGeometry& geometry,
+                                       const ForestMeshing& meshing, const ObjectPlaces& all) {
+  if (!hasBudget(meshing)) return chosenVertices(lattice, geometry, meshing, {});
+  const auto rasters = coordinatesOfErrors(lattice.forest(), all.units);
+  const std::vector<std::span<const int32_t>> coordinates(rasters.begin(), rasters.end());
+  return chosenVertices(lattice, geometry, meshing, coordinates);
+}
+
+/// Moves the vertices of a mesh to where their triangles come nearest to all samples, which takes
+/// coordinate by coordinate what fitted heights take (codec/mesh/forest/forest_mesh.hpp).
+void fitPlaces(const ForestLattice& lattice, std::span<const float> heights, double unit,
+               std::span<const ForestVertex> vertices, ObjectPlaces& all) {
+  std::vector<uint8_t> known;
+  for (const float height : heights) known.push_back(std::isnan(height) ? 0 : 1);
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const std::vector<int32_t>& units = all.units[axis];
+    const std::vector<double> fitted = fittedHeights(lattice, units, known, vertices);
+    for (size_t sample = 0; sample < fitted.size(); ++sample)
+      all.places[sample][axis] += (fitted[sample] - units[sample]) * unit;
+  }
 }
 
 /// Where a sample of the heights lies on the texture: in the middle of a texel of its raster.
@@ -94,11 +122,12 @@ Status decodeObject(tks_decoder& decoder, const ForestMeshing& meshing, tks_obje
   if (!decoded.ok()) return decoded.status();
   std::vector<float> heights(base.forest->raster().samples());
   writeSurface(decoder, **decoded, heights.data());
-  const ObjectPlaces places = placesOf(base, heights);
+  ObjectPlaces places = placesOf(base, heights);
   const ForestLattice lattice(*base.forest);
-  const std::vector<std::span<const int32_t>> coordinates(places.units.begin(), places.units.end());
   const std::vector<ForestVertex> vertices =
-      chosenVertices(lattice, (*decoded)->geometry, meshing, coordinates);
+      chosenPlaces(lattice, (*decoded)->geometry, meshing, places);
+  if (hasBudget(meshing) && vertices.size() < lattice.vertexCount())
+    fitPlaces(lattice, heights, base.cell / (1 << BentBase::kPlaceBits), vertices, places);
   ForestSurface surface{meshing.apart ? patchesOf(lattice, vertices) : meshOf(lattice, vertices),
                         {}};
   for (const uint32_t sample : surface.mesh.vertices) surface.heights.push_back(heights[sample]);

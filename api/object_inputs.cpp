@@ -14,6 +14,10 @@ namespace {
 
 constexpr uint32_t kMostElements = 1u << 26;  ///< points, and triangles
 
+/// Powers of distances beyond these are infinite or 0, so that no tree of triangles tells places
+/// apart, and searches would look at all of them.
+constexpr double kFarthest = 1e30, kSmallest = 1e-30;
+
 }  // namespace
 
 Status misusedObject(const std::string& sentence) {
@@ -30,11 +34,16 @@ Result<TriangleMesh> meshOf(const tks_triangle_mesh& given) {
   for (uint32_t v = 0; v < given.vertex_count; ++v) {
     std::copy_n(given.positions + 3 * size_t{v}, 3, mesh.points[v].begin());
     for (const double value : mesh.points[v]) {
-      if (!(std::abs(value) <= 1e30))
+      if (!(std::abs(value) <= kFarthest))
         return misusedObject("Vertex " + std::to_string(v) +
                              " of the mesh lies at no finite place.");
     }
   }
+  const Box box = boxAround(mesh.points);
+  const Point extent = box.high - box.low;
+  const double longest = std::max({extent[0], extent[1], extent[2]});
+  if (longest > 0 && longest < kSmallest)
+    return misusedObject("The mesh is smaller than 1e-30 of its unit: take a smaller unit.");
   mesh.triangles.resize(given.triangle_count);
   for (uint32_t t = 0; t < given.triangle_count; ++t) {
     std::copy_n(given.triangles + 3 * size_t{t}, 3, mesh.triangles[t].begin());

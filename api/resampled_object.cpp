@@ -57,6 +57,10 @@ using SharedTrial = std::shared_ptr<const Trial>;
 /// Samples for each patch: more show the mesh better, and take time.
 constexpr int kDepth = 4;
 
+/// The same of a mesh most of whose triangles do not hold together, such as a soup: its patches are
+/// of a triangle or two, and there are as many patches as triangles.
+constexpr int kDepthOfParts = 1;
+
 /// Coarse bases need fewer bits: heights make up for what their corners are off.
 int positionBits(uint32_t triangles) {
   return triangles <= 1000 ? 8 : triangles <= 4000 ? 9 : 10;
@@ -89,7 +93,7 @@ class ResampledSearch {
   /// ones, as long as they are better.
   Result<SharedTrial> withinBytes() {
     const double wished = static_cast<double>(heightBytes()) / kBytesForTriangle;
-    uint32_t triangles = kCoarsestBase;
+    uint32_t triangles = leastTriangles();
     while (triangles < mostTriangles() && triangles * std::sqrt(2.0) < wished) triangles *= 2;
     Result<SharedTrial> best = inBudget(triangles);
     const auto better = [&](const Result<SharedTrial>& trial) {
@@ -103,7 +107,8 @@ class ResampledSearch {
       best = std::move(trial);
       found_finer = true;
     }
-    for (uint32_t coarser = triangles / 2; !found_finer && coarser >= kCoarsestBase; coarser /= 2) {
+    for (uint32_t coarser = triangles / 2; !found_finer && coarser >= leastTriangles();
+         coarser /= 2) {
       Result<SharedTrial> trial = inBudget(coarser);
       const bool unmet = !best.ok();
       if (better(trial))
@@ -112,6 +117,13 @@ class ResampledSearch {
         break;
     }
     return best;
+  }
+
+  /// The last size of a base that gives the smallest one there is.
+  uint32_t leastTriangles() const {
+    uint32_t least = kCoarsestBase;
+    while (2 * least <= std::min(given_.source.fewestTriangles(), mostTriangles())) least *= 2;
+    return least;
   }
 
   /// The first size of a base that all triangles of the mesh fit in, or the largest one.
@@ -186,7 +198,7 @@ class ResampledSearch {
     Result<SharedTrial> best =
         misusedObject("No base mesh of up to " + std::to_string(kFinestBase) +
                       " triangles comes as near to the mesh as asked for: ask for a larger error.");
-    for (uint32_t triangles = kCoarsestBase; triangles <= mostTriangles(); triangles *= 2) {
+    for (uint32_t triangles = leastTriangles(); triangles <= mostTriangles(); triangles *= 2) {
       Trial trial{resampled(triangles), {}, {}};
       trial.coded.resampling_error =
           distanceOf(*trial.object, trial.object->surface.heights, kTrialPlaces).error;
@@ -222,8 +234,11 @@ class ResampledSearch {
   }
 
   std::shared_ptr<const ResampledObject> resampled(uint32_t triangles) {
+    const bool is_of_parts =
+        2 * size_t{given_.source.fewestTriangles()} > given_.source.cleaned().mesh.triangles.size();
+    const int depth = is_of_parts ? kDepthOfParts : kDepth;
     return std::make_shared<const ResampledObject>(
-        given_.source.resampled({triangles, kDepth, positionBits(triangles)}));
+        given_.source.resampled({triangles, depth, positionBits(triangles)}));
   }
 
   MeshDistance distanceOf(const ResampledObject& object, const std::vector<float>& heights,

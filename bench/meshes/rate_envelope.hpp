@@ -11,14 +11,18 @@ namespace tetrakis::bench {
 
 struct ErrorPoint {
   double error = 0;  ///< above 0
-  double bytes = 0;
+  double cost = 0;   ///< bytes, or triangles
 };
 
 /// Codings that differ in one setting alone, in its order: there are settings between them.
 using ErrorCurve = std::vector<ErrorPoint>;
 
-/// The least bytes of all curves at an error. Between neighbours of a curve bytes follow straight
+/// The least cost of all curves at an error. Between neighbours of a curve costs follow straight
 /// lines of the logarithms; and what errs less serves as well. Nothing where no curve passes.
-std::optional<double> bytesAt(const std::vector<ErrorCurve>& curves, double error);
+std::optional<double> costAt(const std::vector<ErrorCurve>& curves, double error);
+
+/// The same, and where no curve reaches so large an error, the least cost of what errs less.
+/// Nothing where all err more.
+std::optional<double> leastAt(const std::vector<ErrorCurve>& curves, double error);
 
 }  // namespace tetrakis::bench

@@ -4,66 +4,41 @@
 #include <draco/compression/decode.h>
 #include <draco/compression/encode.h>
 #include <draco/mesh/mesh.h>
-#include <meshoptimizer.h>
 
-#include <algorithm>
 #include <array>
-#include <cfloat>
-#include <cmath>
+#include <map>
 #include <memory>
 #include <utility>
-
-#include "codec/remesh/mesh_distance.hpp"
 
 namespace tetrakis::bench {
 namespace {
 
 using draco::GeometryAttribute;
 
-constexpr uint32_t kFewest = 250, kMost = 120000;        ///< triangles
-constexpr uint32_t kCoarsestBits = 8, kFinestBits = 12;  ///< of positions
+/// Of positions: the finer ones are for the small errors that go with a texture.
+constexpr uint32_t kCoarsestBits = 8, kFinestBits = 12, kMoreBits = 2;
+constexpr int kTexcoordBits = 11;
 
-std::vector<std::array<float, 3>> floatsOf(const TriangleMesh& mesh) {
-  std::vector<std::array<float, 3>> points;
-  for (const Point& p : mesh.points)
-    points.push_back(
-        {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
-  return points;
-}
-
-/// Numbers of points of the simplified mesh; whatever error that makes.
-std::vector<uint32_t> simplified(const TriangleMesh& mesh,
-                                 const std::vector<std::array<float, 3>>& points, uint32_t budget) {
-  std::vector<uint32_t> corners;
-  for (const Triangle& t : mesh.triangles) corners.insert(corners.end(), t.begin(), t.end());
-  if (budget >= mesh.triangles.size()) return corners;
-  std::vector<uint32_t> fewer(corners.size());
-  fewer.resize(meshopt_simplify(fewer.data(), corners.data(), corners.size(), points[0].data(),
-                                points.size(), sizeof points[0], size_t{3} * budget, FLT_MAX));
-  return fewer;
-}
-
-/// With the points that triangles name.
-std::unique_ptr<draco::Mesh> dracoMesh(const std::vector<std::array<float, 3>>& points,
-                                       const std::vector<uint32_t>& corners) {
-  std::vector<uint32_t> numbers(points.size(), UINT32_MAX), used;
-  for (const uint32_t corner : corners) {
-    if (numbers[corner] != UINT32_MAX) continue;
-    numbers[corner] = static_cast<uint32_t>(used.size());
-    used.push_back(corner);
-  }
-  auto mesh = std::make_unique<draco::Mesh>();
-  mesh->set_num_points(static_cast<uint32_t>(used.size()));
+template <size_t N>
+void addAttribute(draco::Mesh& mesh, GeometryAttribute::Type type,
+                  const std::vector<std::array<float, N>>& values) {
   GeometryAttribute attribute;
-  attribute.Init(GeometryAttribute::POSITION, nullptr, 3, draco::DT_FLOAT32, false,
-                 sizeof points[0], 0);
-  const int id = mesh->AddAttribute(attribute, true, mesh->num_points());
-  for (uint32_t i = 0; i < used.size(); ++i)
-    mesh->attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), points[used[i]].data());
-  for (size_t i = 0; i < corners.size(); i += 3)
-    mesh->AddFace({draco::PointIndex(numbers[corners[i]]),
-                   draco::PointIndex(numbers[corners[i + 1]]),
-                   draco::PointIndex(numbers[corners[i + 2]])});
+  attribute.Init(type, nullptr, N, draco::DT_FLOAT32, false, sizeof values[0], 0);
+  const int id = mesh.AddAttribute(attribute, true, mesh.num_points());
+  for (uint32_t i = 0; i < values.size(); ++i)
+    mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), values[i].data());
+}
+
+/// Places that points share are one value, so that seams of textures leave the surface closed.
+std::unique_ptr<draco::Mesh> dracoMesh(const FloatMesh& from) {
+  auto mesh = std::make_unique<draco::Mesh>();
+  mesh->set_num_points(static_cast<uint32_t>(from.points.size()));
+  addAttribute(*mesh, GeometryAttribute::POSITION, from.points);
+  if (!from.texcoords.empty()) addAttribute(*mesh, GeometryAttribute::TEX_COORD, from.texcoords);
+  for (size_t i = 0; i < from.corners.size(); i += 3)
+    mesh->AddFace({draco::PointIndex(from.corners[i]), draco::PointIndex(from.corners[i + 1]),
+                   draco::PointIndex(from.corners[i + 2])});
+  if (!from.texcoords.empty()) mesh->DeduplicateAttributeValues();
   return mesh;
 }
 
@@ -88,59 +63,44 @@ Result<TriangleMesh> decoded(const draco::EncoderBuffer& coded) {
   return out;
 }
 
-/// A mesh to measure others against.
-struct Original {
-  TriangleTree tree;
-  double diagonal;
-};
-
-Result<PeerCoding> codeDraco(const Original& original, const draco::Mesh& mesh, uint32_t bits) {
-  constexpr double kUnit = 1e-4;
+Result<PeerCoding> codeDraco(const SurfaceModel& model, const draco::Mesh& mesh, uint32_t bits) {
   draco::Encoder encoder;
   encoder.SetSpeedOptions(0, 0);
   encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
   encoder.SetAttributeQuantization(GeometryAttribute::POSITION, static_cast<int>(bits));
+  encoder.SetAttributeQuantization(GeometryAttribute::TEX_COORD, kTexcoordBits);
   draco::EncoderBuffer buffer;
   const draco::Status status = encoder.EncodeMeshToBuffer(mesh, &buffer);
   if (!status.ok()) return Status(TKS_MISMATCH, status.error_msg_string());
   const Result<TriangleMesh> received = decoded(buffer);
   if (!received.ok()) return received.status();
-  const TriangleTree tree(*received);
-  const MeshDistance distance = meshDistance(original.tree, tree);
   return PeerCoding{
-      mesh.num_faces(),
-      bits,
-      {distance.error / original.diagonal / kUnit, static_cast<double>(buffer.size())}};
-}
-
-/// From the most triangles down.
-std::vector<uint32_t> budgetsOf(const TriangleMesh& mesh, uint32_t sizes) {
-  const auto all = static_cast<uint32_t>(mesh.triangles.size());
-  const double most = std::min(all, kMost), fewest = std::min(all, kFewest);
-  std::vector<uint32_t> budgets;
-  for (uint32_t i = 0; i < sizes; ++i) {
-    const double share = sizes > 1 ? double{1} * i / (sizes - 1) : 0;
-    budgets.push_back(static_cast<uint32_t>(most * std::pow(fewest / most, share)));
-  }
-  budgets.erase(std::unique(budgets.begin(), budgets.end()), budgets.end());
-  return budgets;
+      mesh.num_faces(), bits, {errorOf(model, *received), static_cast<double>(buffer.size())}};
 }
 
 }  // namespace
 
-Result<std::vector<PeerCoding>> surfacePeers(const TriangleMesh& mesh, uint32_t sizes) {
-  const Original original{TriangleTree(mesh), diagonal(mesh)};
-  const std::vector<std::array<float, 3>> points = floatsOf(mesh);
+Result<std::vector<PeerCoding>> surfacePeers(const SurfaceModel& model, const FloatMesh& mesh,
+                                             uint32_t sizes) {
   std::vector<PeerCoding> codings;
+  const uint32_t more = mesh.texcoords.empty() ? 0 : kMoreBits;
   for (const uint32_t budget : budgetsOf(mesh, sizes)) {
-    const auto simple = dracoMesh(points, simplified(mesh, points, budget));
-    for (uint32_t bits = kCoarsestBits; bits <= kFinestBits; ++bits) {
-      Result<PeerCoding> coding = codeDraco(original, *simple, bits);
+    const auto simple = dracoMesh(simplified(mesh, budget));
+    for (uint32_t bits = kCoarsestBits + more; bits <= kFinestBits + more; ++bits) {
+      Result<PeerCoding> coding = codeDraco(model, *simple, bits);
       if (!coding.ok()) return coding.status();
       codings.push_back(std::move(*coding));
     }
   }
   return codings;
+}
+
+std::vector<ErrorCurve> curvesOf(const std::vector<PeerCoding>& codings) {
+  std::map<uint32_t, ErrorCurve> by_bits;
+  for (const PeerCoding& coding : codings) by_bits[coding.bits].push_back(coding.point);
+  std::vector<ErrorCurve> curves;
+  for (auto& [bits, curve] : by_bits) curves.push_back(std::move(curve));
+  return curves;
 }
 
 }  // namespace tetrakis::bench

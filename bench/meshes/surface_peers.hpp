@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "bench/meshes/rate_envelope.hpp"
-#include "codec/remesh/triangle_mesh.hpp"
+#include "bench/meshes/surface_model.hpp"
+#include "bench/meshes/surface_simplified.hpp"
 #include "tetrakis/result.hpp"
 
 namespace tetrakis::bench {
@@ -15,13 +16,16 @@ namespace tetrakis::bench {
 struct PeerCoding {
   uint32_t triangles = 0;  ///< of the simplified mesh
   uint32_t bits = 0;
-  ErrorPoint point;  ///< bytes of the buffer; error in 1e-4 of the mesh's diagonal
+  ErrorPoint point;  ///< bytes of the buffer; error in 1e-4 of the model's diagonal
 };
 
-/// Meshes of `sizes` numbers of triangles, from 250 to 120 000, evenly spaced by logarithm, but of
-/// no more than the mesh has; each with positions of 8 to 12 bits. Of positions alone, by
-/// edgebreaker at the slowest speed, errors measured on what is decoded (mesh_distance.hpp). The
-/// mesh has an area and no equal points.
-Result<std::vector<PeerCoding>> surfacePeers(const TriangleMesh& mesh, uint32_t sizes);
+/// Meshes of `sizes` numbers of triangles (budgetsOf()), by edgebreaker at the slowest speed;
+/// errors are measured on what is decoded. mesh: of the model, without texture coordinates, with
+/// positions of 8 to 12 bits; or with texture coordinates of 11 bits and positions of 10 to 14.
+Result<std::vector<PeerCoding>> surfacePeers(const SurfaceModel& model, const FloatMesh& mesh,
+                                             uint32_t sizes);
+
+/// One for each precision: the sizes of a curve have others between them, its precision has not.
+std::vector<ErrorCurve> curvesOf(const std::vector<PeerCoding>& codings);
 
 }  // namespace tetrakis::bench

@@ -452,7 +452,7 @@ typedef enum tks_object_kind {
 typedef struct tks_triangle_mesh {
   size_t size;                           /* sizeof(tks_triangle_mesh) */
   uint32_t vertex_count, triangle_count; /* to 2^26 */
-  const double* positions;               /* 3 * vertex_count finite numbers, in any unit */
+  const double* positions;               /* 3 * vertex_count numbers up to 1e30, in any unit */
   const uint32_t* triangles;             /* 3 * triangle_count, below vertex_count;
                                              counter-clockwise seen from outside */
   const char* unit;                      /* UTF-8, NULL: unknown */
@@ -912,12 +912,12 @@ void tks_free_globe_mesh(tks_globe_mesh* mesh);
 /* The mesh of an object. Vertex i lies at the point position[3 i], in `unit`. Triangles are
  * counter-clockwise seen from outside.
  *
- * Of heights over a base mesh (tks_base_mesh) it lies on sample pixel[2 i], pixel[2 i + 1] of the
- * raster of the forest, counted as in tks_pixel. Without a texture each sample is one vertex;
- * beside a texture vertices on sides come once for each patch, with the same position to the last
- * bit, so that the texture can be laid over the mesh. Of triangles that are coded as they are
- * vertices come once for each texcoord that they have. Taken for one where they are equal, vertices
- * leave no edge open but at borders of the object. */
+ * Of heights over a base mesh (tks_base_mesh) it is sample pixel[2 i], pixel[2 i + 1] of the raster
+ * of the forest, counted as in tks_pixel, moved by TKS_MESH_BUDGET to where the triangles come
+ * nearest to all samples. Without a texture a sample is one vertex; beside one vertices on sides
+ * come once for each patch, with the same position to the last bit. Of triangles that are coded as
+ * they are vertices come once for each texcoord that they have. Taken for one where they are equal,
+ * vertices leave no edge open but at borders of the object. */
 typedef struct tks_object_mesh {
   uint32_t vertex_count, triangle_count;
   double* position;    /* 3 a vertex */
@@ -926,7 +926,7 @@ typedef struct tks_object_mesh {
                           corner and (1, 1) the lower right one; NULL where there is no texture.
                           With a base mesh it is the middle of a texel of the forest's raster; else
                           the texture repeats beyond its corners */
-  float* height;       /* NULL where there is no base mesh */
+  float* height;       /* of that sample; NULL where there is no base mesh */
   uint32_t* triangles; /* 3 a triangle */
 } tks_object_mesh;
 

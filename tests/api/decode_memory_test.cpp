@@ -12,12 +12,14 @@
 #include "conformance/samples/patches.hpp"
 #include "conformance/samples/void_masks.hpp"
 #include "tests/support/allocation_count.hpp"
+#include "tests/support/coded_object.hpp"
 #include "tests/support/decode_calls.hpp"
 #include "tests/support/forest_raster.hpp"
 #include "tests/support/forest_shapes.hpp"
 #include "tests/support/mosaic_source.hpp"
 #include "tests/support/sequences.hpp"
 #include "tests/support/stream_fixture.hpp"
+#include "tests/support/triangle_meshes.hpp"
 
 namespace tetrakis::test {
 namespace {
@@ -511,6 +513,32 @@ TEST(DecodeMemory, GlobesStayBelowTheLimitThatLetsThemPass) {
       }
       EXPECT_EQ(measured.status, TKS_OK);
     }
+}
+
+/// And meshes of objects, whose places are fitted within a budget.
+TEST(DecodeMemory, ObjectsStayBelowTheLimitThatLetsThemPass) {
+  const Bytes bytes = encodeMesh(made::torus(128, 64), budget(6000), TKS_OBJECT_RESAMPLED).stream;
+  for (const uint32_t triangles : {0u, 3000u, 40000u}) {
+    MeasuredCall measured;
+    measured.status = TKS_LIMIT;
+    for (measured.limit = 4 << 20; measured.status == TKS_LIMIT;
+         measured.limit += measured.limit / 4) {
+      tks_limits limits = {};
+      limits.size = sizeof limits;
+      limits.max_memory = measured.limit;
+      Stream stream(bytes, &limits);
+      if (stream.status() != TKS_OK) continue;
+      measured.peak = peakBytes([&] {
+        tks_object_mesh mesh = {};
+        measured.status = tks_decode_object(stream.get(), TKS_MESH_BUDGET, triangles, &mesh);
+        tks_free_object_mesh(&mesh);
+      });
+      if (measured.status == TKS_OK) {
+        EXPECT_LE(measured.peak, measured.limit) << triangles;
+      }
+    }
+    EXPECT_EQ(measured.status, TKS_OK);
+  }
 }
 
 /// Levels and windows of streams in regions take memory in proportion to themselves.

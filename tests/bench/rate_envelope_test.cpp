@@ -11,22 +11,22 @@ namespace {
 
 TEST(RateEnvelopes, AreStraightBetweenLogarithms) {
   const std::vector<ErrorCurve> curves{{{1, 1600}, {4, 100}}};
-  EXPECT_NEAR(*bytesAt(curves, 2), 400, 1e-9);
-  EXPECT_NEAR(*bytesAt(curves, 1), 1600, 1e-9);
-  EXPECT_NEAR(*bytesAt(curves, 4), 100, 1e-9);
+  EXPECT_NEAR(*costAt(curves, 2), 400, 1e-9);
+  EXPECT_NEAR(*costAt(curves, 1), 1600, 1e-9);
+  EXPECT_NEAR(*costAt(curves, 4), 100, 1e-9);
 }
 
 TEST(RateEnvelopes, EndWhereCurvesEnd) {
   const std::vector<ErrorCurve> curves{{{4, 100}, {1, 1600}}, {{9, 10}, {8, 20}}, {{20, 5}}, {}};
-  for (const double error : {0.99, 4.01, 7.9, 9.1, 20.0}) EXPECT_FALSE(bytesAt(curves, error));
-  for (const double error : {1.01, 3.9, 8.1}) EXPECT_TRUE(bytesAt(curves, error));
-  EXPECT_FALSE(bytesAt({}, 1));
+  for (const double error : {0.99, 4.01, 7.9, 9.1, 20.0}) EXPECT_FALSE(costAt(curves, error));
+  for (const double error : {1.01, 3.9, 8.1}) EXPECT_TRUE(costAt(curves, error));
+  EXPECT_FALSE(costAt({}, 1));
 }
 
 TEST(RateEnvelopes, TakeTheLeastOfAllCurves) {
-  EXPECT_NEAR(*bytesAt({{{1, 1600}, {4, 100}}, {{1, 900}, {4, 300}}}, 4), 100, 1e-9);
-  EXPECT_NEAR(*bytesAt({{{1, 1600}, {4, 100}}, {{1, 900}, {4, 300}}}, 1), 900, 1e-9);
-  EXPECT_NEAR(*bytesAt({{{1, 1600}, {4, 100}}, {{0.5, 50}}}, 2), 50, 1e-9);
+  EXPECT_NEAR(*costAt({{{1, 1600}, {4, 100}}, {{1, 900}, {4, 300}}}, 4), 100, 1e-9);
+  EXPECT_NEAR(*costAt({{{1, 1600}, {4, 100}}, {{1, 900}, {4, 300}}}, 1), 900, 1e-9);
+  EXPECT_NEAR(*costAt({{{1, 1600}, {4, 100}}, {{0.5, 50}}}, 2), 50, 1e-9);
 }
 
 TEST(RateEnvelopes, AreNoMoreThanWhatServes) {
@@ -37,10 +37,10 @@ TEST(RateEnvelopes, AreNoMoreThanWhatServes) {
     for (ErrorCurve& curve : curves)
       for (int i = 0; i < 8; ++i) curve.push_back({draw(), draw()});
     for (double error = 1; error <= 64; ++error) {
-      const auto bytes = bytesAt(curves, error);
+      const auto bytes = costAt(curves, error);
       for (const ErrorCurve& curve : curves)
         for (const ErrorPoint& point : curve)
-          EXPECT_TRUE(!bytes || point.error > error || *bytes <= point.bytes * (1 + 1e-12));
+          EXPECT_TRUE(!bytes || point.error > error || *bytes <= point.cost * (1 + 1e-12));
     }
   }
 }
