@@ -55,6 +55,22 @@ TEST_F(CliSequence, FramesComeBackByNumberAndByTime) {
   }
 }
 
+/// Times are rounded numbers: each is still that of its own frame.
+TEST_F(CliSequence, TimesThatInfoTellsFindTheirFrames) {
+  synth("erosion", 9, 5);
+  for (const std::string fps : {"29.97", "3", "7", "59.94"}) {
+    ASSERT_EQ(
+        cliOf({"encode", "erosion/*.tif", "--fps", fps, "--lossless", "-q", "-f", "-o", "e.tks"})
+            .code,
+        0);
+    for (uint32_t frame = 0; frame < 9; ++frame) {
+      const Json told = json("info e.tks --frame " + std::to_string(frame))["sequence"];
+      const Json found = json("info e.tks --time " + told["seconds"].dump())["sequence"];
+      EXPECT_EQ(found["frame"], frame) << fps << " frames a second";
+    }
+  }
+}
+
 /// However many threads there are, heights and texture of one call are those of one frame.
 TEST_F(CliSequence, HeightsAndTextureAreOfOneFrame) {
   synth("flood", 4);
@@ -207,6 +223,12 @@ TEST_F(CliSequence, MistakesAreSentences) {
   ASSERT_EQ(cliOf({"encode", "rover/*.tif", "--lossless", "-q", "-o", "r.tks"}).code, 0);
   EXPECT_EQ(cli("decode r.tks --frame 3 --height o.tif").code, 1);
   EXPECT_EQ(cli("decode r.tks --time 1 --height o.tif").code, 1);  // nobody knows its ticks
+  for (const uint32_t bytes : {0u, 1u, 2u, 3u, 4u, 30u, 80u}) {
+    std::filesystem::copy_file(path("r.tks"), path("cut.tks"),
+                               std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::resize_file(path("cut.tks"), bytes);
+    EXPECT_EQ(cli("info cut.tks").code, 4) << bytes;
+  }
 }
 
 }  // namespace
