@@ -208,6 +208,31 @@ TEST_F(CliSequence, AreThinnedForAChannel) {
   EXPECT_EQ(cli("truncate f.tks -o x.tks").code, 1);
 }
 
+/// A sequence has one place, reference system and unit. What a frame leaves unsaid is as before.
+TEST_F(CliSequence, FramesLieOnTheSameGround) {
+  synth("erosion", 3, 9);
+  const std::string name = path("erosion/frame-001.tif");
+  const tools::HeightFile original = *tools::readHeights(name);
+  tools::HeightFile moved = original, elsewhere = original, feet = original, silent = original;
+  (*moved.geotransform)[0] += 30;
+  elsewhere.crs = "EPSG:32633";
+  feet.unit = "ft";
+  silent.geotransform.reset();
+  silent.crs.clear();
+  silent.unit.clear();
+  ASSERT_EQ(cliOf({"encode", "erosion/frame-00[0].tif", "--lossless", "-q", "-o", "a.tks"}).code, 0);
+  for (const tools::HeightFile& other : {moved, elsewhere, feet, silent}) {
+    ASSERT_TRUE(tools::writeHeights(name, other).ok());
+    const int expected = other.geotransform ? 1 : 0;
+    const Outcome all = cliOf({"encode", "erosion/*.tif", "--lossless", "-q", "-f", "-o", "x.tks"});
+    EXPECT_EQ(all.code, expected) << all.err;
+    if (expected != 0) EXPECT_NE(all.err.find("frame-001.tif"), std::string::npos) << all.err;
+    const Outcome appended =
+        cliOf({"encode", "erosion/frame-00[1].tif", "--lossless", "-q", "--append", "-o", "a.tks"});
+    EXPECT_EQ(appended.code, expected) << appended.err;
+  }
+}
+
 TEST_F(CliSequence, MistakesAreSentences) {
   synth("erosion", 2);
   synth("rover", 3, 17);
