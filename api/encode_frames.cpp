@@ -45,9 +45,8 @@ Status checkFrame(const tks_heights* heights, const tks_image* image,
                     (image == nullptr || alike(*image, before.images.front()));
   if (!same)
     return misuse("The frame has another size, type, scale or nodata value than the first one.");
-  const bool same_ground =
-      (heights == nullptr || sameGround(*heights, before.heights.front())) &&
-      (image == nullptr || sameGround(*image, before.images.front()));
+  const bool same_ground = (heights == nullptr || sameGround(*heights, before.heights.front())) &&
+                           (image == nullptr || sameGround(*image, before.images.front()));
   if (same_ground) return {};
   return misuse("The frame has another place, reference system or unit than the first one.");
 }

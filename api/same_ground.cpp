@@ -24,8 +24,7 @@ bool samePlace(const Raster& raster, const Raster& first) {
   if (raster.has_geotransform == 0) return true;
   if (first.has_geotransform == 0) return false;
   const double *a = raster.geotransform, *b = first.geotransform;
-  const double sample =
-      std::max({std::abs(b[1]), std::abs(b[2]), std::abs(b[4]), std::abs(b[5])});
+  const double sample = std::max({std::abs(b[1]), std::abs(b[2]), std::abs(b[4]), std::abs(b[5])});
   const auto shift = [&](int i) {
     return std::abs(a[i] - b[i]) + raster.width * std::abs(a[i + 1] - b[i + 1]) +
            raster.height * std::abs(a[i + 2] - b[i + 2]);
@@ -37,8 +36,7 @@ bool samePlace(const Raster& raster, const Raster& first) {
 
 bool sameGround(const tks_heights& frame, const tks_heights& first) {
   return samePlace(frame, first) && sameText(frame.crs, first.crs) &&
-         sameText(frame.unit, first.unit) &&
-         sameText(frame.vertical_datum, first.vertical_datum);
+         sameText(frame.unit, first.unit) && sameText(frame.vertical_datum, first.vertical_datum);
 }
 
 bool sameGround(const tks_image& frame, const tks_image& first) {

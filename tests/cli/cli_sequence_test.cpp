@@ -222,7 +222,8 @@ TEST_F(CliSequence, FramesLieOnTheSameGround) {
   silent.sample = original.sample;
   silent.data = original.data;
   silent.scale = original.scale;
-  ASSERT_EQ(cliOf({"encode", "erosion/frame-00[0].tif", "--lossless", "-q", "-o", "a.tks"}).code, 0);
+  ASSERT_EQ(cliOf({"encode", "erosion/frame-00[0].tif", "--lossless", "-q", "-o", "a.tks"}).code,
+            0);
   for (const tools::HeightFile& other : {moved, elsewhere, feet, silent}) {
     ASSERT_TRUE(tools::writeHeights(name, other).ok());
     const int expected = other.geotransform ? 1 : 0;

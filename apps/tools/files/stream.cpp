@@ -56,8 +56,8 @@ Result<std::vector<std::byte>> gridSamples(Decoder& decoder,
 /// The last tick that is not later than so many seconds. Its time may be a rounded number: the tick
 /// is the one whose time is printed as these seconds, not the one before it.
 int64_t lastTick(double seconds, const tks_clock& clock) {
-  const double ticks = seconds * static_cast<double>(clock.denominator) /
-                       static_cast<double>(clock.numerator);
+  const double ticks =
+      seconds * static_cast<double>(clock.denominator) / static_cast<double>(clock.numerator);
   const auto secondsAt = [&](int64_t tick) {
     return secondsOf(tick, clock.numerator, clock.denominator);
   };

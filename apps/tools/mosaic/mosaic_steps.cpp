@@ -219,8 +219,9 @@ Status mergeMosaic(const MergeRequest& request) {
 
 Status joinMosaic(const JoinRequest& request, Notes& notes, bool quiet) {
   if (request.windows && !request.plan.lossless && request.plan.max_error.empty())
-    return {TKS_USAGE, "--windows takes --lossless or --max-error: a shorter stream would lack "
-                       "whole regions"};
+    return {TKS_USAGE,
+            "--windows takes --lossless or --max-error: a shorter stream would lack "
+            "whole regions"};
   const Result<std::vector<std::string>> sources = sourceFiles(request.plan.sources);
   if (!sources.ok()) return sources.status();
   if (Status stays = checkInputsStay(*sources, request.plan.output); !stays.ok()) return stays;

@@ -150,8 +150,9 @@ class SourceGrid : public HeightSource {
   }
 
   Status takenForVoid(const Member& member) const {
-    return {TKS_USAGE, quoted(member.path) + " has heights of the value that stands for no height "
-                                             "in another file: gdalwarp -dstnodata writes another"};
+    return {TKS_USAGE, quoted(member.path) +
+                           " has heights of the value that stands for no height "
+                           "in another file: gdalwarp -dstnodata writes another"};
   }
 
   Result<HeightSource*> opened(const Member& member) {

@@ -183,8 +183,8 @@ class TiffWindows : public HeightSource {
       const bool is_void = declared_ && meetsNodata(value, *declared_);
       *floats = is_void ? static_cast<float>(*described_.nodata) : toFloat(value);
       if (!is_void && std::isfinite(value) && !std::isfinite(*floats))
-        return Status(TKS_USAGE, tools::quoted(path_) +
-                                     " holds 64-bit floats beyond the range of 32 bits");
+        return Status(TKS_USAGE,
+                      tools::quoted(path_) + " holds 64-bit floats beyond the range of 32 bits");
       if (!is_void && std::isfinite(value))
         rounding_ = std::max(rounding_, std::abs(value - static_cast<double>(*floats)));
       ++floats;
