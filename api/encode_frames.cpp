@@ -6,6 +6,7 @@
 #include "api/encode_arguments.hpp"
 #include "api/encoded_stream.hpp"
 #include "api/guarded.hpp"
+#include "api/same_ground.hpp"
 #include "base/watch.hpp"
 #include "encoder/encode_stream.hpp"
 #include "encoder/groups/encode_group.hpp"
@@ -42,8 +43,12 @@ Status checkFrame(const tks_heights* heights, const tks_image* image,
       (heights == nullptr) == before.heights.empty() && (image == nullptr) == before.images.empty();
   const bool same = same_parts && (heights == nullptr || alike(*heights, before.heights.front())) &&
                     (image == nullptr || alike(*image, before.images.front()));
-  if (same) return {};
-  return misuse("The frame has another size, type, scale or nodata value than the first one.");
+  if (!same)
+    return misuse("The frame has another size, type, scale or nodata value than the first one.");
+  const bool same_ground = (heights == nullptr || sameGround(*heights, before.heights.front())) &&
+                           (image == nullptr || sameGround(*image, before.images.front()));
+  if (same_ground) return {};
+  return misuse("The frame has another place, reference system or unit than the first one.");
 }
 
 Result<std::vector<uint8_t>> encode(const FrameArguments& frames, const GroupCoding& coding) {

@@ -3,6 +3,7 @@
 // and hands over the bytes of the groups that are whole.
 #include "api/sequence_encoder.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -11,6 +12,7 @@
 
 #include "api/encoded_stream.hpp"
 #include "api/guarded.hpp"
+#include "api/same_ground.hpp"
 #include "api/sequence.hpp"
 
 namespace tetrakis::inline api {
@@ -57,11 +59,34 @@ Status open(const tks_sequence_options& given, tks_sequence_encoder& encoder) {
   return taken;
 }
 
+/// What the georeference of a sequence says of its heights, and of its texture.
+tks_heights heightsOf(const StreamHeader& header) {
+  const Placement& place = header.georeference.heights;
+  tks_heights heights = {};
+  heights.unit = header.metadata.unit.c_str();
+  heights.vertical_datum = header.metadata.vertical_datum.c_str();
+  heights.crs = header.metadata.crs.c_str();
+  heights.has_geotransform = place.has_transform;
+  std::copy(place.transform.begin(), place.transform.end(), heights.geotransform);
+  return heights;
+}
+tks_image imageOf(const StreamHeader& header) {
+  const Placement& place = header.georeference.texture;
+  tks_image image = {};
+  const bool shared = !header.georeference.hasTextureCrs();
+  image.crs = shared ? header.metadata.crs.c_str() : header.georeference.texture_crs.c_str();
+  image.has_geotransform = place.has_transform;
+  std::copy(place.transform.begin(), place.transform.end(), image.geotransform);
+  return image;
+}
+
 /// Whether a frame is like those of the sequence that it follows.
 Status checkLike(const StreamHeader& header, const FrameArguments& frame) {
-  const auto likeHeights = [](const GeometryHeader& g, const tks_heights& h) {
+  const Metadata& meaning = header.metadata;
+  const auto likeHeights = [&](const GeometryHeader& g, const tks_heights& h) {
     const Extent shown = g.shown();
-    return shown.width == h.width && shown.height == h.height && g.sample == h.sample;
+    return shown.width == h.width && shown.height == h.height && g.sample == h.sample &&
+           meaning.scale == h.scale && meaning.offset == h.offset;
   };
   const auto likeImage = [](const TextureHeader& t, const tks_image& i) {
     const Extent shown = t.shown();
@@ -73,7 +98,12 @@ Status checkLike(const StreamHeader& header, const FrameArguments& frame) {
       header.texture.has_value() == !frame.images.empty() &&
       (frame.heights.empty() || likeHeights(*header.geometry, frame.heights.back())) &&
       (frame.images.empty() || likeImage(*header.texture, frame.images.back()));
-  return same ? Status() : misuse("The frame has another size or type than the sequence has.");
+  if (!same) return misuse("The frame has another size, type or scale than the sequence has.");
+  const bool same_ground =
+      (frame.heights.empty() || sameGround(frame.heights.back(), heightsOf(header))) &&
+      (frame.images.empty() || sameGround(frame.images.back(), imageOf(header)));
+  if (same_ground) return {};
+  return misuse("The frame has another place, reference system or unit than the sequence has.");
 }
 
 Status goOnBehind(tks_sequence_encoder& encoder, const tks_sequence& written) {

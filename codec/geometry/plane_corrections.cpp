@@ -139,7 +139,8 @@ Window partsAround(const std::vector<Window>& parts, const Window& window) {
 }  // namespace
 
 View correctedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view) {
-  if (!view.window || layers.corrections == CorrectionKind::kNone) return view;
+  const bool corrects = view.level == 0 && layers.corrections != CorrectionKind::kNone;
+  if (!view.window || !corrects) return view;
   if (correctionTracks(header, layers) > 0)
     return {0,
             partsAround(correctionParts(header.extent(), header.regions.side_log2), *view.window)};

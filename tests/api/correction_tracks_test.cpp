@@ -50,6 +50,18 @@ Raster roots() {
   return raster;
 }
 
+/// Rough ground on no grid: coefficients of all levels count, and corrections follow.
+Raster rough(uint32_t width, uint32_t height) {
+  Raster raster = make({Pattern::kRidges, width, height, 1, TKS_F32});
+  for (uint32_t i = 0; i < width * height; ++i) {
+    const double x = i % width, y = i / width;
+    const auto sample = static_cast<float>(400 + 300 * std::sin(x / 9) * std::cos(y / 7) +
+                                           30 * std::sin(x * y / 50));
+    std::memcpy(raster.data.data() + 4 * size_t{i}, &sample, 4);
+  }
+  return raster;
+}
+
 Raster aboveGeoid() {
   Raster whole = make({Pattern::kRidges, kWidth, kHeight, 1, TKS_U16, 3});
   for (size_t i = 0; i < size_t{kWidth} * kHeight; ++i) {
@@ -105,6 +117,33 @@ TEST(CorrectionTracks, WindowsFit) {
   for (const CorrectedCase& corrected : cases()) {
     SCOPED_TRACE(corrected.name);
     expectWindows(encodeCase(corrected));
+  }
+}
+
+/// Corrections belong to the samples: a window of a level takes the regions around it, not those
+/// that lie around the same columns and rows of the samples.
+TEST(CorrectionTracks, LevelWindowsFit) {
+  constexpr uint32_t kWide = 300, kHigh = 260;
+  const Raster heights = rough(kWide, kHigh);
+  const Bytes bytes = encode(&heights, nullptr, inRegions(lossless(), 16));
+  const auto parsed = readHeader(bytes);
+  ASSERT_TRUE(parsed.ok());
+  ASSERT_GT(correctionTracks(*parsed->header.geometry, parsed->header.layers), 1u);
+  for (uint32_t level = 1; level <= 3; ++level) {
+    const Stream stream(bytes);
+    ASSERT_EQ(tks_set_levels(stream.get(), level, 0), TKS_OK);
+    const uint32_t width = ((kWide - 1) >> level) + 1, height = ((kHigh - 1) >> level) + 1;
+    std::vector<std::byte> all(sizeof(float) * width * height);
+    ASSERT_EQ(tks_decode_heights(stream.get(), all.data(), all.size()), TKS_OK);
+    for (uint32_t trial = 0; trial < 20; ++trial) {
+      const tks_window window = windowOf(trial, width, height);
+      const Stream another(bytes);  // which has taken no track for the level
+      ASSERT_EQ(tks_set_levels(another.get(), level, 0), TKS_OK);
+      ASSERT_NO_FATAL_FAILURE(
+          expectWindow(another, tks_decode_heights_window, window,
+                       cropBytes(all, sizeof(float) * width, sizeof(float), window)))
+          << "level " << level;
+    }
   }
 }
 

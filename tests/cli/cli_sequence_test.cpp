@@ -55,6 +55,22 @@ TEST_F(CliSequence, FramesComeBackByNumberAndByTime) {
   }
 }
 
+/// Times are rounded numbers: each is still that of its own frame.
+TEST_F(CliSequence, TimesThatInfoTellsFindTheirFrames) {
+  synth("erosion", 9, 5);
+  for (const std::string fps : {"29.97", "3", "7", "59.94"}) {
+    ASSERT_EQ(
+        cliOf({"encode", "erosion/*.tif", "--fps", fps, "--lossless", "-q", "-f", "-o", "e.tks"})
+            .code,
+        0);
+    for (uint32_t frame = 0; frame < 9; ++frame) {
+      const Json told = json("info e.tks --frame " + std::to_string(frame))["sequence"];
+      const Json found = json("info e.tks --time " + told["seconds"].dump())["sequence"];
+      EXPECT_EQ(found["frame"], frame) << fps << " frames a second";
+    }
+  }
+}
+
 /// However many threads there are, heights and texture of one call are those of one frame.
 TEST_F(CliSequence, HeightsAndTextureAreOfOneFrame) {
   synth("flood", 4);
@@ -192,6 +208,34 @@ TEST_F(CliSequence, AreThinnedForAChannel) {
   EXPECT_EQ(cli("truncate f.tks -o x.tks").code, 1);
 }
 
+/// A sequence has one place, reference system and unit. What a frame leaves unsaid is as before.
+TEST_F(CliSequence, FramesLieOnTheSameGround) {
+  synth("erosion", 3, 9);
+  const std::string name = path("erosion/frame-001.tif");
+  const tools::HeightFile original = *tools::readHeights(name);
+  tools::HeightFile moved = original, elsewhere = original, feet = original, silent;
+  (*moved.geotransform)[0] += 30;
+  elsewhere.crs = "EPSG:32633";
+  feet.unit = "ft";
+  silent.width = original.width;
+  silent.height = original.height;
+  silent.sample = original.sample;
+  silent.data = original.data;
+  silent.scale = original.scale;
+  ASSERT_EQ(cliOf({"encode", "erosion/frame-00[0].tif", "--lossless", "-q", "-o", "a.tks"}).code,
+            0);
+  for (const tools::HeightFile& other : {moved, elsewhere, feet, silent}) {
+    ASSERT_TRUE(tools::writeHeights(name, other).ok());
+    const int expected = other.geotransform ? 1 : 0;
+    const Outcome all = cliOf({"encode", "erosion/*.tif", "--lossless", "-q", "-f", "-o", "x.tks"});
+    EXPECT_EQ(all.code, expected) << all.err;
+    EXPECT_EQ(all.err.find("frame-001.tif") != std::string::npos, expected != 0) << all.err;
+    const Outcome appended =
+        cliOf({"encode", "erosion/frame-00[1].tif", "--lossless", "-q", "--append", "-o", "a.tks"});
+    EXPECT_EQ(appended.code, expected) << appended.err;
+  }
+}
+
 TEST_F(CliSequence, MistakesAreSentences) {
   synth("erosion", 2);
   synth("rover", 3, 17);
@@ -207,6 +251,12 @@ TEST_F(CliSequence, MistakesAreSentences) {
   ASSERT_EQ(cliOf({"encode", "rover/*.tif", "--lossless", "-q", "-o", "r.tks"}).code, 0);
   EXPECT_EQ(cli("decode r.tks --frame 3 --height o.tif").code, 1);
   EXPECT_EQ(cli("decode r.tks --time 1 --height o.tif").code, 1);  // nobody knows its ticks
+  for (const uint32_t bytes : {0u, 1u, 2u, 3u, 4u, 30u, 80u}) {
+    std::filesystem::copy_file(path("r.tks"), path("cut.tks"),
+                               std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::resize_file(path("cut.tks"), bytes);
+    EXPECT_EQ(cli("info cut.tks").code, 4) << bytes;
+  }
 }
 
 }  // namespace

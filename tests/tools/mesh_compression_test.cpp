@@ -270,6 +270,16 @@ TEST_F(MeshFileOptions, DracoTakesNoAbsurdHeights) {
   EXPECT_FALSE(std::filesystem::exists(path("b.glb")));
 }
 
+/// It counts the steps of a unit in floats, and would read beyond its tables.
+TEST_F(MeshFileOptions, DracoTakesNoAbsurdSizes) {
+  const MeshOptions draco{MeshCompression::kDraco, {}};
+  for (const float size : {1e-42F, 1e-38F, 2.5e36F}) {
+    MeshFile mesh = hillOf(9, 3);
+    for (float& at : mesh.positions) at *= size;
+    EXPECT_EQ(writeMesh(path("a.glb"), mesh, "", draco).code(), TKS_LIMIT) << size;
+  }
+}
+
 TEST_F(MeshFileOptions, MeshOptionsAreForGlb) {
   const MeshOptions draco{MeshCompression::kDraco, {}};
   for (const char* name : {"a.ply", "a.obj"})

@@ -192,18 +192,18 @@ Json infoJson(const tks_info& info) {
 /// The time counts from the epoch.
 Json sequenceJson(const SequencePlace& place) {
   const bool is_timed = place.tick_numerator > 0;
-  const double tick = is_timed ? static_cast<double>(place.tick_numerator) /
-                                     static_cast<double>(place.tick_denominator)
-                               : 0;
+  const auto seconds = [&](int64_t ticks) {
+    return is_timed ? Json(secondsOf(ticks, place.tick_numerator, place.tick_denominator)) : Json();
+  };
   return {{"frames", place.frames},
           {"groups", place.groups},
           {"bytes", place.bytes},
           {"epoch", textOrNull(place.epoch)},
           {"calendar", textOrNull(place.calendar)},
-          {"tick_seconds", is_timed ? Json(tick) : Json()},
+          {"tick_seconds", seconds(1)},
           {"frame", place.frame},
           {"ticks", place.time},
-          {"seconds", is_timed ? Json(tick * static_cast<double>(place.time)) : Json()},
+          {"seconds", seconds(place.time)},
           {"group_first_frame", place.group.first_frame},
           {"group_offset", place.group.offset},
           {"group_bytes", place.group.bytes},

@@ -34,7 +34,7 @@ Result<std::vector<std::byte>> thinned(const TruncateArguments& arguments) {
   const Result<Sequence> sequence = Sequence::open(octets(*bytes), limitsOfTools());
   if (!sequence) return sequence.status();
   const tks_sequence_info info = sequence->info();
-  if (info.end_frame < 2 || info.clock.numerator == 0)
+  if (info.end_frame < info.first_frame + 2 || info.clock.numerator == 0)
     return Status(TKS_USAGE, "the sequence does not say how long its frames last");
   const double ticks = static_cast<double>(*sequence->time(info.end_frame - 1)) -
                        static_cast<double>(*sequence->time(info.first_frame));

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace tetrakis::tools {
@@ -27,16 +28,18 @@ int addAttribute(GeometryAttribute::Type type, std::span<const float> values, ui
 /// Draco has one step for the three axes: so many bits over the longest that it is the finest
 /// needed. Its coder has a counter for each of these steps, and so takes no more than some.
 Result<int> positionBits(const MeshBounds& bounds) {
-  constexpr double kFewest = 1, kMost = 24;
+  constexpr double kFewest = 1, kMost = 24, kLargest = std::numeric_limits<float>::max();
   const PositionSteps steps = positionSteps(bounds);
   double longest = 0, step = 0;
   for (size_t axis = 0; axis < 3; ++axis)
     longest = std::max(longest, double{bounds.high[axis]} - bounds.low[axis]);
   for (const double one : {steps.horizontal, steps.vertical})
     if (one > 0) step = step > 0 ? std::min(step, one) : one;
-  if (!(step > 0)) return static_cast<int>(kFewest);
-  const double bits = std::max(std::ceil(std::log2(longest / step + 1)), kFewest);
-  if (!(bits <= kMost)) {
+  const double bits =
+      step > 0 ? std::max(std::ceil(std::log2(longest / step + 1)), kFewest) : kFewest;
+  // Draco counts the steps of a unit in floats, and the length too.
+  const bool counts = longest <= kLargest && std::exp2(bits) <= kLargest * longest;
+  if (!(bits <= kMost) || (longest > 0 && !counts)) {
     return Status(TKS_LIMIT,
                   "Draco cannot hold positions that span so many of their steps: write the mesh "
                   "uncompressed");

@@ -53,6 +53,19 @@ Result<std::vector<std::byte>> gridSamples(Decoder& decoder,
   return gridOfCube(info, *surface, window);
 }
 
+/// The last tick that is not later than so many seconds. Its time may be a rounded number: the tick
+/// is the one whose time is printed as these seconds, not the one before it.
+int64_t lastTick(double seconds, const tks_clock& clock) {
+  const double ticks =
+      seconds * static_cast<double>(clock.denominator) / static_cast<double>(clock.numerator);
+  const auto secondsAt = [&](int64_t tick) {
+    return secondsOf(tick, clock.numerator, clock.denominator);
+  };
+  auto last = static_cast<int64_t>(std::floor(ticks));
+  if (secondsAt(last) > seconds) --last;
+  return secondsAt(last + 1) <= seconds ? last + 1 : last;
+}
+
 /// The frame that is asked for.
 Result<uint64_t> frameOf(const Sequence& sequence, const StreamSource& source) {
   const tks_sequence_info info = sequence.info();
@@ -64,7 +77,7 @@ Result<uint64_t> frameOf(const Sequence& sequence, const StreamSource& source) {
   const double ticks = *source.seconds * static_cast<double>(info.clock.denominator) /
                        static_cast<double>(info.clock.numerator);
   if (!(std::abs(ticks) < 4e18)) return Status(TKS_USAGE, "no sequence reaches to that time");
-  return sequence.find(static_cast<int64_t>(std::floor(ticks)));
+  return sequence.find(lastTick(*source.seconds, info.clock));
 }
 
 Result<SequencePlace> placeOf(const Sequence& sequence, uint64_t frame) {
@@ -113,10 +126,16 @@ Result<OpenStream> openFrame(const StreamSource& source, std::vector<std::byte> 
 
 }  // namespace
 
+double secondsOf(int64_t ticks, uint64_t tick_numerator, uint64_t tick_denominator) {
+  return static_cast<double>(ticks) * static_cast<double>(tick_numerator) /
+         static_cast<double>(tick_denominator);
+}
+
 bool isSequence(std::span<const std::byte> bytes) {
   constexpr std::array<uint8_t, 4> kMagic = {'T', 'K', 'G', 0x1a};
-  return bytes.size() >= kMagic.size() &&
-         std::equal(kMagic.begin(), kMagic.end(), octets(bytes).begin());
+  constexpr size_t kTelling = 3;  // bytes of a file that ends early; streams begin otherwise
+  const std::span<const uint8_t> front = octets(bytes).first(std::min(bytes.size(), kMagic.size()));
+  return front.size() >= kTelling && std::equal(front.begin(), front.end(), kMagic.begin());
 }
 
 std::span<const uint8_t> octets(std::span<const std::byte> bytes) {

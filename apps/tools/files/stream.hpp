@@ -39,6 +39,9 @@ struct SequencePlace {
   tks_group group = {};
 };
 
+/// Seconds behind the epoch, by a clock whose ticks are known.
+double secondsOf(int64_t ticks, uint64_t tick_numerator, uint64_t tick_denominator);
+
 /// A stream in memory and its decoder. Move only.
 struct OpenStream {
   std::vector<std::byte> bytes;         ///< of a sequence those of the stream that holds the frame

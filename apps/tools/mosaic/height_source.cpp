@@ -26,6 +26,7 @@ class Redeclared : public HeightSource {
   Status read(const tks_window& window, std::byte* samples) override {
     return source_->read(window, samples);
   }
+  double rounding() const override { return source_->rounding(); }
   std::vector<std::string> filesOf(const tks_window& window) const override {
     return source_->filesOf(window);
   }
@@ -56,7 +57,7 @@ Result<std::vector<std::string>> filesIn(const std::string& folder) {
 
 Result<OpenSource> openOne(const std::string& path, Notes& notes) {
   if (parseRawName(path) || isNamedHgt(path)) return openRawWindows(path);
-  if (formatOf(path, "") == "tks") return openStreamWindows(path);
+  if (formatOf(path, "") == "tks") return openStreamWindows(path, notes);
   return openTiffWindows(path, notes);
 }
 

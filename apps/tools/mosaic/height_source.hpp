@@ -27,6 +27,8 @@ class HeightSource {
   /// Fills the samples of a window, row by row. Floats that nearly meet the nodata value are that
   /// value.
   virtual Status read(const tks_window& window, std::byte* samples) = 0;
+  /// How far the samples that were read lie at most from those of the files, which were doubles.
+  virtual double rounding() const { return 0; }
   /// The files that the window's samples lie in.
   virtual std::vector<std::string> filesOf(const tks_window& window) const = 0;
 };
@@ -40,7 +42,7 @@ Result<OpenSource> openTiffWindows(const std::string& path, Notes& notes);
 Result<OpenSource> openRawWindows(const std::string& path);
 
 /// A stream with heights (.tks) on a plane.
-Result<OpenSource> openStreamWindows(const std::string& path);
+Result<OpenSource> openStreamWindows(const std::string& path, Notes& notes);
 
 /// One file of any of these kinds.
 Result<OpenSource> openOne(const std::string& path, Notes& notes);

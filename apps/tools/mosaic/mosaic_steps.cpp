@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "apps/tools/files/text.hpp"
 #include "apps/tools/files/units.hpp"
 #include "apps/tools/output/output.hpp"
+#include "apps/tools/output/output_names.hpp"
 #include "apps/tools/output/progress.hpp"
 
 namespace tetrakis::tools {
@@ -25,6 +27,36 @@ Status statusOf(tks_status status, const char* message, const MosaicSource* sour
   if (status == TKS_OK) return {};
   if (status == TKS_IO && source != nullptr && !source->failure.ok()) return source->failure;
   return {status, message};
+}
+
+Result<std::vector<uint8_t>> planBytes(MosaicSource& source, const tks_mosaic_options& options) {
+  std::array<char, 512> message{};
+  tks_buffer plan = {};
+  const tks_status status =
+      tks_mosaic_plan(&source.given, &options, &plan, message.data(), message.size());
+  if (status != TKS_OK) return statusOf(status, message.data(), &source);
+  std::vector<uint8_t> bytes(plan.data, plan.data + plan.size);
+  tks_free_buffer(&plan);
+  return bytes;
+}
+
+/// The plan by what is promised of the files. Their doubles become floats, and how far off these
+/// are is known once all have been read.
+Result<std::vector<uint8_t>> planWithin(MosaicSource& given, tks_mosaic_options options,
+                                        const HeightSource& source) {
+  Result<std::vector<uint8_t>> plan = planBytes(given, options);
+  const double rounding = source.rounding() * std::abs(given.heights.scale);
+  if (!plan.ok() || rounding == 0) return plan;
+  if (options.lossless != 0)
+    return Status(TKS_USAGE,
+                  "the source holds 64-bit floats that 32 bits do not hold, so nothing keeps them "
+                  "all; round them first: gdal_translate -ot Float32 IN.tif OUT.tif");
+  if (options.max_error == 0) return plan;
+  options.max_error -= rounding;
+  if (options.max_error > 0) return planBytes(given, options);
+  return Status(TKS_USAGE,
+                "the source holds 64-bit floats that 32 bits do not hold within that largest "
+                "error: give a larger one");
 }
 
 }  // namespace
@@ -52,14 +84,9 @@ Status planMosaic(const PlanRequest& request, const std::string& work, Notes& no
     if (!error.ok()) return error.status();
     options.max_error = *error;
   }
-  std::array<char, 512> message{};
-  tks_buffer plan = {};
-  const tks_status status =
-      tks_mosaic_plan(&given.given, &options, &plan, message.data(), message.size());
-  if (status != TKS_OK) return statusOf(status, message.data(), &given);
-  const std::vector<uint8_t> bytes(plan.data, plan.data + plan.size);
-  tks_free_buffer(&plan);
-  return WorkFolder::create(work, bytes, *paths, request.nodata, request.force);
+  const Result<std::vector<uint8_t>> plan = planWithin(given, options, **source);
+  if (!plan.ok()) return plan.status();
+  return WorkFolder::create(work, *plan, *paths, request.nodata, request.force);
 }
 
 namespace {
@@ -167,6 +194,7 @@ struct StreamFile {
 Status mergeInto(Output& output, const std::string& work, bool windows) {
   const Result<WorkFolder> folder = WorkFolder::open(work);
   if (!folder.ok()) return folder.status();
+  if (Status stays = checkInputsStay(folder->sources(), output.name()); !stays.ok()) return stays;
   const tks_mosaic_files files = folder->files();
   const Status staged = output.stage([&](const std::string& path) -> Status {
     StreamFile stream{std::ofstream(path, std::ios::binary)};
@@ -190,6 +218,13 @@ Status mergeMosaic(const MergeRequest& request) {
 }
 
 Status joinMosaic(const JoinRequest& request, Notes& notes, bool quiet) {
+  if (request.windows && !request.plan.lossless && request.plan.max_error.empty())
+    return {TKS_USAGE,
+            "--windows takes --lossless or --max-error: a shorter stream would lack "
+            "whole regions"};
+  const Result<std::vector<std::string>> sources = sourceFiles(request.plan.sources);
+  if (!sources.ok()) return sources.status();
+  if (Status stays = checkInputsStay(*sources, request.plan.output); !stays.ok()) return stays;
   Result<Output> output = Output::plan(request.plan.output, request.plan.force, ".tks");
   if (!output.ok()) return output.status();
   const std::filesystem::path beside = std::filesystem::path(request.plan.output).parent_path();

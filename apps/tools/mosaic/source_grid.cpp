@@ -80,6 +80,8 @@ class SourceGrid : public HeightSource {
     });
   }
 
+  double rounding() const override { return rounding_; }
+
   std::vector<std::string> filesOf(const tks_window& window) const override {
     std::vector<std::string> files;
     for (const Member& member : members_)
@@ -128,10 +130,12 @@ class SourceGrid : public HeightSource {
       if (Status status = (*file)->read(own, reinterpret_cast<std::byte*>(part.data()));
           !status.ok())
         return status;
+      rounding_ = std::max(rounding_, (*file)->rounding());
       for (uint32_t y = 0; y < shared.height; ++y) {
         for (uint32_t x = 0; x < shared.width; ++x) {
           const T sample = part[size_t{y} * shared.width + x];
           if (isVoid(sample, member.described.nodata)) continue;
+          if (isVoid(sample, described_.nodata)) return takenForVoid(member);
           const size_t at =
               size_t{shared.y - window.y + y} * window.width + (shared.x - window.x + x);
           samples[at] = sample;
@@ -143,6 +147,12 @@ class SourceGrid : public HeightSource {
     return {TKS_USAGE,
             "the files leave gaps, and declare no value for samples that are missing: "
             "give one with --nodata"};
+  }
+
+  Status takenForVoid(const Member& member) const {
+    return {TKS_USAGE, quoted(member.path) +
+                           " has heights of the value that stands for no height "
+                           "in another file: gdalwarp -dstnodata writes another"};
   }
 
   Result<HeightSource*> opened(const Member& member) {
@@ -169,6 +179,7 @@ class SourceGrid : public HeightSource {
   };
   std::vector<Member> members_;
   HeightFile described_;
+  double rounding_ = 0;
   std::list<Open> open_;  ///< the last used one first
 };
 

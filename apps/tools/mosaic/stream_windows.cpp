@@ -33,9 +33,19 @@ class StreamWindows : public HeightSource {
   HeightFile described_;
 };
 
+/// What of a stream is no height of the plane.
+void noteOthers(const OpenStream& stream, Notes& notes) {
+  const tks_info& info = stream.decoder.info();
+  if (info.has_texture) notes.push_back({"the texture is left out", ""});
+  if (info.frames > 1 || (stream.sequence && stream.sequence->frames > 1))
+    notes.push_back({"of the frames the first one is read", ""});
+  if (info.available_bytes < info.stream_bytes)
+    notes.push_back({"the stream ends early: its heights are what is there", ""});
+}
+
 }  // namespace
 
-Result<OpenSource> openStreamWindows(const std::string& path) {
+Result<OpenSource> openStreamWindows(const std::string& path, Notes& notes) {
   Result<OpenStream> stream = openTerrain({path, std::nullopt, false});
   if (!stream.ok()) return stream.status();
   const tks_info info = stream->decoder.info();
@@ -45,6 +55,7 @@ Result<OpenSource> openStreamWindows(const std::string& path) {
   // A sample is enough for all that the stream says of its heights.
   Result<HeightFile> described = decodeHeights(stream->decoder, tks_window{0, 0, 1, 1});
   if (!described.ok()) return described.status();
+  noteOthers(*stream, notes);
   described->width = info.width;
   described->height = info.height;
   described->data.clear();

@@ -122,6 +122,7 @@ class TiffWindows : public HeightSource {
     return {};
   }
 
+  double rounding() const override { return rounding_; }
   std::vector<std::string> filesOf(const tks_window&) const override { return {path_}; }
 
  private:
@@ -173,7 +174,7 @@ class TiffWindows : public HeightSource {
     return block;
   }
 
-  Result<Block> narrowed(const Block& wide) const {
+  Result<Block> narrowed(const Block& wide) {
     const std::span doubles(reinterpret_cast<const double*>(wide.data()),
                             wide.size() / sizeof(double));
     Block block(doubles.size() * sizeof(float));
@@ -183,7 +184,9 @@ class TiffWindows : public HeightSource {
       *floats = is_void ? static_cast<float>(*described_.nodata) : toFloat(value);
       if (!is_void && std::isfinite(value) && !std::isfinite(*floats))
         return Status(TKS_USAGE,
-                      quoted(path_) + " holds 64-bit floats beyond the range of 32 bits");
+                      tools::quoted(path_) + " holds 64-bit floats beyond the range of 32 bits");
+      if (!is_void && std::isfinite(value))
+        rounding_ = std::max(rounding_, std::abs(value - static_cast<double>(*floats)));
       ++floats;
     }
     return block;
@@ -207,6 +210,7 @@ class TiffWindows : public HeightSource {
   HeightFile described_;
   std::optional<double> declared_;  ///< nodata, as the file has it
   BlockGrid grid_;
+  double rounding_ = 0;
   std::map<uint32_t, Kept> kept_;
   std::list<uint32_t> order_;  ///< of the kept blocks, the last used one first
 };
