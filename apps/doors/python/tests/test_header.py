@@ -10,16 +10,17 @@ import pytest
 from conftest import REPOSITORY
 
 import tetrakis
+from tetrakis import _components_library as p
 from tetrakis import _errors, _values
 from tetrakis import _library as c
 from tetrakis import _mosaic_library as m
 from tetrakis import _receiver_library as r
 from tetrakis import _sequence_library as s
 
-NAMES = ("tetrakis.h", "mosaic.h", "sequence.h", "transmit.h")
+NAMES = ("tetrakis.h", "components.h", "mosaic.h", "sequence.h", "transmit.h")
 HEADERS = [REPOSITORY / "include" / "tetrakis" / name for name in NAMES]
-STRUCTS = {**c.STRUCTS, **m.STRUCTS, **s.STRUCTS, **r.STRUCTS}
-PROTOTYPES = {**c.PROTOTYPES, **m.PROTOTYPES, **s.PROTOTYPES, **r.PROTOTYPES}
+STRUCTS = {**c.STRUCTS, **p.STRUCTS, **m.STRUCTS, **s.STRUCTS, **r.STRUCTS}
+PROTOTYPES = {**c.PROTOTYPES, **p.PROTOTYPES, **m.PROTOTYPES, **s.PROTOTYPES, **r.PROTOTYPES}
 
 
 @pytest.fixture(scope="module")
@@ -42,7 +43,8 @@ def compiled(folder, lines):
     source, program = folder / "probe.c", folder / "probe"
     body = "\n".join(lines)
     source.write_text(
-        "#include <stdio.h>\n#include <tetrakis/mosaic.h>\n#include <tetrakis/transmit.h>\n"
+        "#include <stdio.h>\n#include <tetrakis/components.h>\n#include <tetrakis/mosaic.h>\n"
+        "#include <tetrakis/transmit.h>\n"
         f"int main(void) {{\n{body}\nreturn 0; }}\n"
     )
     include = HEADERS[0].parents[1]
@@ -104,6 +106,8 @@ def test_numbers_are_those_of_c(header, tmp_path):
         ours[f"TKS_REGISTRATION_{(name or 'unknown').upper()}"] = number
     for number, name in enumerate(c.WEIGHTS):
         ours[f"TKS_WEIGHTS_{name.upper()}"] = number
+    for number, name in enumerate(p.COMPONENT_KINDS):
+        ours[f"TKS_COMPONENT_{name.upper()}"] = number
     for name in ("PART_HEIGHTS", "PART_VALIDITY", "PART_TEXTURE", "MESH_CODED", "MESH_BUDGET"):
         ours[f"TKS_{name}"] = getattr(c, name)
     rows = compiled(tmp_path, [f'printf("{name} %d\\n", (int){name});' for name in ours])

@@ -23,11 +23,17 @@ As a server has them (`tetrakis serve`):
     for frame in tetrakis.receive("http://127.0.0.1:8000/flood.tks", live=True):
         print(frame.time, frame.stream.heights().max())
 
+Further rasters over the same ground, each of which `open(component=...)` takes:
+
+    stream = tetrakis.combine(terrain, {"normal": normals, "2019": before}, bytes=100000)
+
 Terrain that no machine holds, by windows of its source: `tetrakis.mosaic`.
 """
 
 from . import mosaic
 from ._clock import Clock
+from ._combine import combine
+from ._components import Component
 from ._encode import encode
 from ._encode_object import EncodedObject, ObjectReport, encode_object
 from ._encode_sequence import encode_sequence
@@ -57,6 +63,7 @@ from ._xarray import from_xarray
 __all__ = [
     "BaseMesh",
     "Clock",
+    "Component",
     "EncodedObject",
     "GlobeMesh",
     "Info",
@@ -79,6 +86,7 @@ __all__ = [
     "TksUnsupportedError",
     "TksUsageError",
     "__version__",
+    "combine",
     "encode",
     "encode_object",
     "encode_sequence",

@@ -13,6 +13,7 @@ import threading
 from contextlib import contextmanager
 from typing import Any, Iterator, List, Optional, Tuple
 
+from . import _components as components
 from . import _library as c
 from . import _values as values
 from ._decoder import Decoder, header_bytes
@@ -32,15 +33,22 @@ Need = Tuple[int, Optional[c.Window]]
 
 
 class Access:
-    """`data` is the beginning of the stream; `source` has the rest, None where there is none."""
+    """`data` is the beginning of the stream; `source` has the rest, None where there is none.
+    Decoders take the `chosen` components."""
 
     def __init__(
-        self, data: builtins.bytes, source: Optional[Ranged], limits: c.Limits, threads: int
+        self,
+        data: builtins.bytes,
+        source: Optional[Ranged],
+        limits: c.Limits,
+        threads: int,
+        chosen: components.Chosen = (),
     ) -> None:
         self._data: Optional[builtins.bytes] = data
         self._source = source
         self._limits = limits
         self._threads = threads
+        self._chosen = chosen
         self._start()
 
     def _start(self) -> None:
@@ -55,10 +63,10 @@ class Access:
             self._read_all()  # nothing tells where its packets lie
 
     def __getstate__(self) -> Any:
-        return self._data, self._source, self._limits, self._threads
+        return self._data, self._source, self._limits, self._threads, self._chosen
 
     def __setstate__(self, state: Any) -> None:
-        self._data, self._source, self._limits, self._threads = state
+        self._data, self._source, self._limits, self._threads, self._chosen = state
         self._start()
 
     def close(self) -> None:
@@ -128,7 +136,7 @@ class Access:
     def _cut(self, count: int) -> Decoder:
         """Of the first bytes."""
         data = self._front(values.unsigned(count, "bytes", 63))
-        return Decoder(data, self._limits, self._threads)
+        return Decoder(data, self._limits, self._threads, self._chosen)
 
     def _front(self, count: int) -> builtins.bytes:
         """The first bytes, of which more than were read are read now."""
@@ -174,7 +182,7 @@ class Access:
         decoder.put([(offset, source.read(offset, count)) for offset, count in wanted])
 
     def _made(self) -> Decoder:
-        return Decoder(self._bytes(), self._limits, self._threads)
+        return Decoder(self._bytes(), self._limits, self._threads, self._chosen)
 
     @contextmanager
     def _taken(self) -> Iterator[Decoder]:
@@ -213,18 +221,26 @@ def _joined(ranges: List[Tuple[int, int]]) -> List[Tuple[int, int]]:
     return joined
 
 
-def access(source: Any, limit: Optional[int], limits: c.Limits, threads: int) -> Access:
+def access(
+    source: Any,
+    limit: Optional[int],
+    limits: c.Limits,
+    threads: int,
+    chosen: components.Chosen = (),
+) -> Access:
     """Reads the header, and more only of what cannot be read by ranges."""
     parts = None if limit is not None or isinstance(source, bytes) else ranged(source)
     if parts is None:
-        return Access(first_bytes(source, limit), None, limits, threads)
-    return access_by_ranges(parts, limits, threads)
+        return Access(first_bytes(source, limit), None, limits, threads, chosen)
+    return access_by_ranges(parts, limits, threads, chosen)
 
 
-def access_by_ranges(parts: Ranged, limits: c.Limits, threads: int) -> Access:
+def access_by_ranges(
+    parts: Ranged, limits: c.Limits, threads: int, chosen: components.Chosen = ()
+) -> Access:
     data = parts.read(0, _FIRST)
     if len(data) < _FIRST:
-        return Access(data, None, limits, threads)
+        return Access(data, None, limits, threads, chosen)
     needed = header_bytes(data)
     while needed > len(data):
         more = parts.read(len(data), needed - len(data))
@@ -232,4 +248,4 @@ def access_by_ranges(parts: Ranged, limits: c.Limits, threads: int) -> Access:
             break
         data += more
         needed = header_bytes(data)
-    return Access(data, parts, limits, threads)
+    return Access(data, parts, limits, threads, chosen)

@@ -10,6 +10,8 @@ from typing import Any, List, Optional, Tuple
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _components as components
+from . import _components_library as listed
 from . import _cube as cube
 from . import _info
 from . import _library as c
@@ -20,7 +22,13 @@ from ._errors import Status, TksUsageError, error
 class Decoder:
     """Owns a tks_decoder over `data`, which it keeps alive."""
 
-    def __init__(self, data: builtins.bytes, limits: c.Limits, threads: int = 1) -> None:
+    def __init__(
+        self,
+        data: builtins.bytes,
+        limits: c.Limits,
+        threads: int = 1,
+        chosen: components.Chosen = (),
+    ) -> None:
         self._handle = ctypes.c_void_p()
         self._data = data
         self._held = [(0, len(data))]
@@ -29,6 +37,9 @@ class Decoder:
         if status != Status.OK:
             raise error(status, message.value.decode("utf-8", "replace"))
         self.check(c.lib.tks_set_threads(self._handle, threads))
+        for one in chosen:
+            for number in components.numbers_of(one, self.components()):
+                self.check(c.lib.tks_choose_component(self._handle, number))
 
     def __enter__(self) -> "Decoder":
         return self
@@ -53,6 +64,14 @@ class Decoder:
         raw = c.StreamInfo(size=ctypes.sizeof(c.StreamInfo))
         self.check(c.lib.tks_get_info(self._handle, raw))
         return _info.from_struct(raw)  # its texts are copied while the decoder is there
+
+    def components(self) -> List[components.Component]:
+        raw = listed.Component(size=ctypes.sizeof(listed.Component))
+        told = []
+        for number in range(self.info().components):
+            self.check(c.lib.tks_get_component(self._handle, number, raw))
+            told.append(components.from_struct(number, raw))
+        return told
 
     def locate(self, part: int, column: float, row: float) -> Tuple[float, float]:
         longitude, latitude = ctypes.c_double(), ctypes.c_double()

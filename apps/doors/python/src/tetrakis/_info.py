@@ -108,11 +108,13 @@ class Info:
 
     frames: int
     """How many the stream has; those of several are for :func:`tetrakis.open_sequence`."""
+    components: int
+    """How many rasters the stream has: `Stream.components` lists them."""
 
 
 _PLAIN = (
     "format_version header_bytes stream_bytes available_bytes packets geometry_bytes texture_bytes "
-    "coarsest_level frames heights_drawn scale offset step base texture_coarsest_level "
+    "coarsest_level frames components heights_drawn scale offset step base texture_coarsest_level "
     "texture_cutout texture_drawn"
 ).split()
 _BOOLEAN = "lossless exact_steps has_voids voids_known".split()

@@ -363,6 +363,7 @@ class StreamInfo(ctypes.Structure):
         ("object_triangles", c_uint32),
         ("frames", c_uint32),
         ("frame", c_uint32),
+        ("components", c_uint32),
     ]
 
 

@@ -7,11 +7,12 @@ import builtins
 import ctypes
 import math
 from contextlib import contextmanager
-from typing import Any, Iterator, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import _components as listed
 from . import _library as c
 from . import _objects as objects
 from . import _picture as picture
@@ -67,6 +68,7 @@ def open(
     source: Source,
     *,
     bytes: Optional[int] = None,
+    component: Optional[listed.ComponentLike] = None,
     threads: int = 1,
     max_samples: Optional[int] = None,
     max_texels: Optional[int] = None,
@@ -80,6 +82,10 @@ def open(
         fetches the bytes that it needs, and a file has to stay open for that. Others are read at
         once.
     bytes: read no more than so many; the rest is not fetched.
+    component: of a stream of several rasters (:func:`tetrakis.combine`) another one than the first
+        of its kind, by its name or number, or a list of these: heights and everything that is
+        about them, or the texture, are then those. Of a name that heights and a texture share both
+        are taken.
     threads: how many one call may use. What is decoded never depends on it.
     max_memory (bytes; 8 GiB unless given), max_samples, max_texels (any number unless given): what
         goes beyond raises :class:`TksLimitError` before anything is allocated. Of a plane that
@@ -96,7 +102,7 @@ def open(
         max_memory=values.unsigned(max_memory, "max_memory", 64),
     )
     threads = values.unsigned(threads, "threads")
-    return Stream(access(source, bytes, limits, threads))
+    return Stream(access(source, bytes, limits, threads, listed.chosen(component)))
 
 
 def truncate(stream: BytesLike, bytes: int) -> builtins.bytes:
@@ -142,6 +148,8 @@ class Stream:
         ]
         if self.is_object:
             parts.insert(0, f"object of {_parts(info)}")
+        if info.components > (info.shape is not None) + (info.texture_shape is not None):
+            parts.append(f"of {info.components} components")
         parts.append(f"{info.available_bytes} of {info.stream_bytes} bytes")
         return f"<tetrakis.Stream: {', '.join(parts)}>"
 
@@ -184,6 +192,13 @@ class Stream:
         """What the stream says of itself at level 0, as an :class:`Info`, by the bytes that have
         been read: of a large file or address with an index these are the first."""
         return self._access.info()
+
+    @property
+    def components(self) -> List[listed.Component]:
+        """The rasters that the stream has: one or two of most, more of what
+        :func:`tetrakis.combine` made. ``open(component=...)`` takes others than the first ones."""
+        with self._access.glance(None) as decoder:
+            return decoder.components()
 
     def describe(
         self,
