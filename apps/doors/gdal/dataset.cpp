@@ -86,20 +86,22 @@ std::unique_ptr<Dataset> Dataset::of(std::shared_ptr<Source> source, tks_part pa
 }
 
 void Dataset::beFile(char** siblings) {
-  const tks_info& facts = source_->info();
-  if (facts.has_heights && whyNoRaster(TKS_PART_TEXTURE, facts).empty()) {
+  tks_info facts = source_->info();
+  if (!whyNoRaster(TKS_PART_TEXTURE, facts).empty()) facts.has_texture = 0;
+  if ((facts.has_heights && facts.has_texture) || source_->hasFurtherComponents()) {
     CPLStringList list = subdatasetsOf(source_->name(), facts, 0, facts.frames);
+    addComponents(*source_, list);
     GDALDataset::SetMetadata(list.List(), "SUBDATASETS");
   }
   SetDescription(source_->name().c_str());
   loadBeside(siblings);
 }
 
-void Dataset::beSubdataset(const char* description, const std::string& selection) {
+void Dataset::beSubdataset(const char* description, const std::string& selection, char** siblings) {
   SetDescription(description);
   SetPhysicalFilename(source_->name().c_str());
   if (!selection.empty()) SetSubdatasetName(selection.c_str());
-  loadBeside(nullptr);
+  loadBeside(siblings);
 }
 
 Dataset::Dataset(std::shared_ptr<Source> source, std::optional<double> void_value)

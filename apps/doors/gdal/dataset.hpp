@@ -48,9 +48,9 @@ class Dataset final : public GDALPamDataset {
   /// It is what the name of the file opens, and takes what is beside; siblings: files in its
   /// folder, or null.
   void beFile(char** siblings);
-  /// It is what another name opens. selection: what it has beside is kept by this name; "": it is
-  /// what the file's own name opens.
-  void beSubdataset(const char* description, const std::string& selection);
+  /// It is what another name opens, or an option. selection: what it has beside is kept by this
+  /// name; "": it is what the file's own name opens. siblings: as of beFile().
+  void beSubdataset(const char* description, const std::string& selection, char** siblings);
   /// What is beside the file is not about this, and nothing of it is kept there.
   void keepNothing() { nPamFlags |= GPF_NOSAVE; }
 
@@ -104,6 +104,8 @@ class Dataset final : public GDALPamDataset {
   void takeFacts();
   /// What the domain TKS says, but for errors.
   void tellStream();
+  /// Of a stream with more than heights and a texture.
+  void tellComponents();
   /// What the stream states of errors: told when somebody asks, since that may read all of it.
   void tellQuality();
   /// Takes what a file beside the stream says, but for what only the stream can know.

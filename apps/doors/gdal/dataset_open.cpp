@@ -34,29 +34,32 @@ struct Request {
   OpenSettings settings;
   char** siblings;
 
-  tks_part partOf(const tks_info& info) const {
-    const tks_part first = info.has_heights ? TKS_PART_HEIGHTS : TKS_PART_TEXTURE;
-    return named ? named->part.value_or(first) : first;
+  tks_part partOf(const Source& source) const {
+    const tks_part first = source.info().has_heights ? TKS_PART_HEIGHTS : TKS_PART_TEXTURE;
+    const tks_part part = source.askedPart().value_or(first);
+    return named ? named->part.value_or(part) : part;
   }
   std::optional<uint64_t> frame() const { return named ? named->frame : std::nullopt; }
 };
 
 /// The name that its place beside the file has: "" of what the file's own name opens.
-std::string placeBeside(const SubdatasetName& named, tks_part part, const tks_info& info) {
-  if (named.frame) return selectionOf(named);
-  return part == TKS_PART_TEXTURE && info.has_heights ? partName(part) : "";
+std::string placeBeside(const Request& request, const Source& source, tks_part part) {
+  if (request.frame()) return selectionOf(*request.named);
+  const std::optional<uint32_t> number = source.takenFor(part);
+  if (number && !source.isFirst(*number))
+    return selectionOf({"", std::nullopt, std::nullopt, std::to_string(*number)});
+  return part == TKS_PART_TEXTURE && source.info().has_heights ? partName(part) : "";
 }
 
 /// A component of a stream, all its frames or one.
 std::unique_ptr<Dataset> openPart(const Request& request, std::shared_ptr<Source> source,
                                   std::optional<uint32_t> frame) {
-  const tks_part part = request.partOf(source->info());
-  const std::string place =
-      request.named ? placeBeside(*request.named, part, source->info()) : std::string();
+  const tks_part part = request.partOf(*source);
+  const std::string place = placeBeside(request, *source, part);
   std::unique_ptr<Dataset> dataset = Dataset::of(std::move(source), part, frame);
   if (!dataset) return nullptr;
-  if (request.named) {
-    dataset->beSubdataset(request.description, place);
+  if (request.named || !request.settings.component.empty()) {
+    dataset->beSubdataset(request.description, place, request.siblings);
   } else {
     dataset->beFile(request.siblings);
   }
@@ -78,6 +81,10 @@ GDALDataset* openStream(const Request& request, const File& file) {
 }
 
 GDALDataset* openSequence(const Request& request, const File& file) {
+  if (!request.settings.component.empty()) {
+    reportFailure(TKS_USAGE, request.file, "The file is a sequence, which has no COMPONENT.");
+    return nullptr;
+  }
   std::unique_ptr<SequenceGroups> groups =
       SequenceGroups::open(request.file, file, request.settings);
   if (!groups) return nullptr;
@@ -87,12 +94,24 @@ GDALDataset* openSequence(const Request& request, const File& file) {
   std::shared_ptr<Source> source =
       Source::open(request.file, file, group->stream, request.settings);
   if (!source) return nullptr;
-  if (!request.frame() && request.partOf(source->info()) == TKS_PART_HEIGHTS)
+  if (!request.frame() && request.partOf(*source) == TKS_PART_HEIGHTS)
     return FramesDataset::of({std::move(groups), file, request.settings}, std::move(source),
                              request.description, request.siblings)
         .release();
   return openPart(request, std::move(source), static_cast<uint32_t>(frame - group->first_frame))
       .release();
+}
+
+/// A component is named by the name of the dataset, or by the option. False after a reported error.
+bool takeNamedComponent(Request& request) {
+  if (!request.named || request.named->component.empty()) return true;
+  if (!request.settings.component.empty()) {
+    reportFailure(TKS_USAGE, request.file,
+                  "COMPONENT and a name with component= exclude each other.");
+    return false;
+  }
+  request.settings.component = request.named->component;
+  return true;
 }
 
 }  // namespace
@@ -103,7 +122,8 @@ int Dataset::Identify(GDALOpenInfo* info) {
 
 GDALDataset* Dataset::Open(GDALOpenInfo* info) {
   if (!Identify(info)) return nullptr;
-  Request request{info->pszFilename, std::nullopt, info->pszFilename, {}, info->GetSiblingFiles()};
+  Request request{
+      info->pszFilename, {}, info->pszFilename, OpenSettings(), info->GetSiblingFiles()};
   if (!isFileOfOurs(*info)) {
     request.named = subdatasetName(info->pszFilename);
     if (!request.named) return nullptr;
@@ -118,6 +138,7 @@ GDALDataset* Dataset::Open(GDALOpenInfo* info) {
   const std::optional<OpenSettings> settings = openSettings(request.file, info->papszOpenOptions);
   if (!settings) return nullptr;
   request.settings = *settings;
+  if (!takeNamedComponent(request)) return nullptr;
   const File file = openFile(request.file);
   if (!file) {
     reportFailure(TKS_IO, request.file, "The file cannot be opened.");

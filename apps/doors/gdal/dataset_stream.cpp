@@ -2,9 +2,11 @@
 // What the metadata domain TKS says of a stream: how much of it is there, what it promises, and
 // what it states of errors.
 #include <string>
+#include <vector>
 
 #include <cpl_string.h>
 #include "apps/doors/gdal/dataset.hpp"
+#include "base/shown_text.hpp"
 
 namespace tetrakis::gdal {
 namespace {
@@ -18,6 +20,11 @@ bool isOwn(const char* domain) {
 const char* wordOf(tks_index index) {
   if (index == TKS_INDEX_WINDOWS) return "WINDOWS";
   return index == TKS_INDEX_PACKETS ? "YES" : "NO";
+}
+
+const char* wordOf(tks_component_kind kind) {
+  if (kind == TKS_COMPONENT_UNKNOWN) return "UNKNOWN";
+  return kind == TKS_COMPONENT_TEXTURE ? "TEXTURE" : "HEIGHTS";
 }
 
 }  // namespace
@@ -47,6 +54,7 @@ void Dataset::tellStream() {
     tell("DOMAIN", "CUBE");
     tell("DEPTH", std::to_string(cube_depth));
   }
+  tellComponents();
   if (!isHeights()) {
     if (info.texture_white_level < UINT16_MAX && info.texture_sample == TKS_U16)
       tell("WHITE_LEVEL", std::to_string(info.texture_white_level));
@@ -54,6 +62,21 @@ void Dataset::tellStream() {
   }
   if (*info.vertical_datum != '\0') tell("VERTICAL_DATUM", info.vertical_datum);
   if (promises_error && source_->complete()) tell("MAX_ERROR", CPLSPrintf("%.17g", info.max_error));
+}
+
+void Dataset::tellComponents() {
+  const auto tell = [this](const std::string& name, const std::string& value) {
+    GDALDataset::SetMetadataItem(name.c_str(), value.c_str(), kDomain);
+  };
+  if (!source_->hasFurtherComponents()) return;
+  const std::vector<StreamComponent>& components = source_->components();
+  tell("COMPONENTS", std::to_string(components.size()));
+  tell("COMPONENT", std::to_string(source_->takenFor(source_->part()).value_or(0)));
+  for (size_t i = 0; i < components.size(); ++i) {
+    const std::string item = "COMPONENT_" + std::to_string(i);
+    tell(item + "_KIND", wordOf(components[i].kind));
+    if (!components[i].name.empty()) tell(item + "_NAME", shownText(components[i].name));
+  }
 }
 
 void Dataset::tellQuality() {

@@ -12,6 +12,8 @@ const char* const kOpenOptions =
     "and check the whole syntax'/>"
     "<Option name='NUM_THREADS' type='string' description='Threads of decoding: a number, or "
     "ALL_CPUS' default='1'/>"
+    "<Option name='COMPONENT' type='string' description='Show this component of a stream of "
+    "several, by its name or number'/>"
     "</OpenOptionList>";
 
 const char* const kCreationOptions =

@@ -247,6 +247,10 @@ std::optional<OpenSettings> openSettings(const std::string& name, CSLConstList o
   if (given.text("BYTES") != nullptr) settings.bytes = given.bytes("BYTES");
   settings.strict = given.flag("STRICT").value_or(false);
   settings.threads = given.threads();
+  if (const char* const component = given.text("COMPONENT")) {
+    settings.component = component;
+    if (settings.component.empty()) given.refuse("COMPONENT= names no component.");
+  }
   if (settings.strict && settings.bytes)
     given.refuse("BYTES and STRICT=YES exclude each other: one cuts the stream, one wants all.");
   return given.good() ? std::optional(settings) : std::nullopt;

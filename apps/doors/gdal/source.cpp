@@ -149,7 +149,8 @@ tks_status Source::openPrefix(uint64_t bytes) {
   opened_ = bytes;
   info_.size = sizeof info_;
   tks_set_threads(decoder_.get(), settings_.threads);
-  return tks_get_info(decoder_.get(), &info_);
+  const tks_status status = tks_get_info(decoder_.get(), &info_);
+  return status == TKS_OK ? takeComponents() : status;
 }
 
 tks_status Source::openDecoder(uint64_t bytes) {
@@ -241,11 +242,11 @@ bool Source::cutShares(std::vector<tks_range>& ranges, uint64_t bytes) {
 
 uint64_t Source::bytesOfOverviewAbove(uint32_t level) const {
   const uint64_t pixels = uint64_t{width(level + 1)} * height(level + 1);
-  // Of heights and texture either may have most of the first bytes. Shares of regions are not cut
-  // by what their bytes are worth.
+  // Of several components any may have most of the first bytes. Shares of regions are not cut by
+  // what their bytes are worth.
   uint64_t copies = 1;
   if (info_.index == TKS_INDEX_WINDOWS) copies = 2;
-  if (info_.has_heights && info_.has_texture) copies = 4;
+  if (info_.components > 1) copies = uint64_t{2} * info_.components;
   return copies * pixels * pixelBytes();
 }
 
@@ -292,7 +293,8 @@ StatedQuality Source::statedQuality() {
   const DecoderPointer decoder(opened, tks_close);
   tks_info info{};
   info.size = sizeof info;
-  if (tks_get_info(opened, &info) == TKS_OK) quality = {info.heights_rmse, info.texture_psnr};
+  if (chooseIn(opened) == TKS_OK && tks_get_info(opened, &info) == TKS_OK)
+    quality = {info.heights_rmse, info.texture_psnr};
   return quality;
 }
 

@@ -14,6 +14,7 @@
 
 #include "apps/doors/gdal/file_bytes.hpp"
 #include "apps/doors/gdal/group_chain.hpp"
+#include "tetrakis/components.h"
 #include "tetrakis/tetrakis.h"
 
 namespace tetrakis::gdal {
@@ -28,6 +29,17 @@ struct OpenSettings {
   std::optional<uint64_t> bytes;  ///< as if the file were no longer, a header with an index aside
   bool strict = false;            ///< a stream that ends early or has damages is refused
   uint32_t threads = 1;
+  std::string
+      component;  ///< name or number of the one that is shown; "": the first heights, texture
+};
+
+/// One of the rasters of a stream.
+struct StreamComponent {
+  std::string name;
+  tks_component_kind kind;
+  uint32_t width, height;
+  tks_domain domain;
+  bool is_taken;  ///< for the heights, or the texture
 };
 
 /// What the last complete packet says of errors; below 0: nothing.
@@ -65,6 +77,16 @@ class Source {
   /// That of the header, or of the head of a sequence, in hexadecimal digits: it tells the file
   /// from others.
   const std::string& checksum() const { return checksum_; }
+  /// All of the stream, by their numbers.
+  const std::vector<StreamComponent>& components() const { return components_; }
+  /// Whether there are more than the first heights and the first texture.
+  bool hasFurtherComponents() const;
+  /// Whether it is the first of its kind.
+  bool isFirst(uint32_t number) const;
+  /// What OpenSettings::component names: heights, if it names heights and a texture.
+  std::optional<tks_part> askedPart() const;
+  /// The number of the component that is taken for a part.
+  std::optional<uint32_t> takenFor(tks_part part) const;
   /// Gives up what was read and decoded, which is read and decoded again once it is asked for.
   void rest();
 
@@ -126,6 +148,9 @@ class Source {
   bool checkLength();
   /// Reads up to this many bytes and opens them; TKS_IO after a reported error.
   tks_status openPrefix(uint64_t bytes);
+  /// Finds what is asked for, and chooses it. Another status says why in message_.
+  tks_status takeComponents();
+  tks_status chooseIn(tks_decoder* decoder) const;
   /// The decoder of these bytes, or of all where it is a chain's.
   tks_status openDecoder(uint64_t bytes);
   bool reopen(uint64_t bytes);
@@ -173,6 +198,8 @@ class Source {
   std::string message_;  ///< why openPrefix failed
   DecoderPointer decoder_{nullptr, tks_close};
   tks_info info_{};
+  std::vector<StreamComponent> components_;
+  std::vector<uint32_t> chosen_;                     ///< of these, in the place of the first ones
   std::map<uint32_t, std::vector<std::byte>> kept_;  ///< what was decoded of whole levels
   uint32_t cube_depth_ = 0;
   double degrees_ = 0;              ///< in the unit of the grid that the cube was made of
