@@ -9,6 +9,7 @@
 
 #include "apps/web/module/domains.hpp"
 #include "base/samples.hpp"
+#include "tetrakis/components.h"
 #include "tetrakis/tetrakis.h"
 
 extern "C" {
@@ -75,7 +76,8 @@ extern "C" {
   NUMBER(basePositionBits, base_mesh.position_bits)        \
   NUMBER(objectTriangles, object_triangles)                \
   NUMBER(frames, frames)                                   \
-  NUMBER(frame, frame)
+  NUMBER(frame, frame)                                     \
+  NUMBER(components, components)
 
 /// The names, in the order in which web_numbers() writes the numbers.
 const char* web_names() {
@@ -104,6 +106,19 @@ const char* web_text(const tks_decoder* decoder, int which) {
   if (tks_get_info(decoder, &i) != TKS_OK) return "";
   const char* const texts[] = {i.unit, i.vertical_datum, i.crs, i.texture_crs, i.geo_keys};
   return which >= 0 && which < 5 ? texts[which] : "";
+}
+
+/// The name of a component of the stream; `out`: its kind, whether it is taken, its width, height
+/// and bytes.
+const char* web_component(const tks_decoder* decoder, uint32_t number, double* out) {
+  tks_component one{};
+  one.size = sizeof one;
+  if (tks_get_component(decoder, number, &one) != TKS_OK) return "";
+  const double numbers[] = {static_cast<double>(one.kind), static_cast<double>(one.is_taken),
+                            static_cast<double>(one.width), static_cast<double>(one.height),
+                            static_cast<double>(one.available_bytes)};
+  std::copy_n(numbers, 5, out);
+  return one.name;
 }
 
 /// How many bytes the positions of the heights or of the texture have; `out`: where these lie.

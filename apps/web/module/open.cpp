@@ -51,13 +51,17 @@ void web_chain_push(web_chain* chain, const uint8_t* data, size_t size) {
   chain->streams.emplace_back(data, data + size);
 }
 
-/// tks_open, behind the streams of a chain, which outlives the decoder.
-tks_status web_open(web_chain* chain, const uint8_t* data, size_t size, tks_decoder** out,
-                    char* message, size_t message_size) {
+/// tks_open, behind the streams of a chain, which outlives the decoder. heights, texture: numbers of
+/// the components that are taken; below 0: the first ones.
+tks_status web_open(web_chain* chain, const uint8_t* data, size_t size, int heights, int texture,
+                    tks_decoder** out, char* message, size_t message_size) {
   return tetrakis::reporting(message, message_size, [&] {
     if (Status status = link(*chain, {data, size}); !status.ok()) return status;
+    tetrakis::ComponentChoice choice;
+    if (heights >= 0) choice.heights = heights;
+    if (texture >= 0) choice.texture = texture;
     Result<tetrakis::OwnedDecoder> opened =
-        tetrakis::openBehind({data, size}, &chain->limits, chain->links.references());
+        tetrakis::openBehind({data, size}, &chain->limits, chain->links.references(), choice);
     if (opened.ok()) *out = opened->release();
     return opened.status();
   });

@@ -59,8 +59,8 @@ export class Fetcher {
   }
 
   /**
-   * Resolves to how many of `bytes` bytes are here. `asked`: {signal, view, triangles}: as
-   * plannedView(), with a globe where there is one, and trianglesOf() give them.
+   * Resolves to how many of `bytes` bytes are here. `asked`: {signal, view, triangles, component}:
+   * as plannedView(), with a globe where there is one, trianglesOf() and askedOf() give them.
    */
   async load(bytes, asked) {
     if (this.#held.bytes < bytes) {
@@ -83,7 +83,7 @@ export class Fetcher {
       this.#awaited.delete(waiting);
     }
   }
-  async #read(bytes, {signal, view, triangles}) {
+  async #read(bytes, {signal, view, ...asked}) {
     for (let before = -1; this.#held.bytes < bytes && this.#held.bytes > before; ) {
       signal?.throwIfAborted();
       before = this.#held.bytes;
@@ -94,7 +94,7 @@ export class Fetcher {
       }
       // A plan counts bytes by integers: there is no infinite number of them.
       const most = Math.min(bytes, this.info.streamBytes) - before;
-      await this.#fetchPlanned(view, most, triangles, signal);
+      await this.#fetchPlanned({view, ...asked}, most, signal);
       if (bytes - this.#held.bytes < this.#requestCost(0)) return;  // not worth another request
     }
   }
@@ -111,12 +111,13 @@ export class Fetcher {
       place += piece.length;
     }, signal);
   }
-  /** Those that help a view most; none where nothing more does. */
-  async #fetchPlanned(view, bytes, triangles, signal) {
+  /** Those that help a view most; none where nothing more does. `wanted`: {view, triangles,
+   * component}. */
+  async #fetchPlanned(wanted, bytes, signal) {
     const {truncated, info} = this, {size} = this.#source;
     // A plan knows no end of the file: all that a short one would hold may lie behind it.
     const [asked, most] = truncated ? [info.streamBytes, bytes] : [bytes, Infinity];
-    const request = {view, bytes: asked, triangles, requestBytes: this.#requestCost(bytes)};
+    const request = {...wanted, bytes: asked, requestBytes: this.#requestCost(bytes)};
     const plan = await askDecoder(this.#decoder, 'plan', request, signal);
     const ranges = requestsFor(plan, size, most);
     // Where nothing is left to choose from, the plan counts requests for nothing.

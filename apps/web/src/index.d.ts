@@ -47,9 +47,16 @@ export interface View {
   cut?: boolean;
 }
 
+/** Names or numbers of components of a stream; a name may be that of heights and of a texture. */
+export type ComponentChoice = string | number | (string | number)[];
+
 export interface FrameOptions {
   /** Of a sequence, or of a stream of several frames: which, by its number. Default: the first. */
   frame?: number;
+  /** Of a stream of several rasters: heights, a texture or both in the place of the first ones. The
+   * frame is then about these: its parts, and its `info`. What was decoded of each choice is kept
+   * for more bytes. Default: the first heights and the first texture. */
+  component?: ComponentChoice | null;
   /** Use no more than the first bytes that came: of the stream, or for views. Default: all. */
   bytes?: number;
   /** Ends the call with its requests, and rejects it with its reason; what is being decoded ends at
@@ -105,6 +112,22 @@ export interface RefineOptions extends FrameOptions {
  * patches one below the other; a cube is one of six patches round a globe (tks_cube_sides). */
 export type Domain = 'plane' | 'cylinder' | 'forest' | 'cube';
 
+/** One of the rasters of a stream. */
+export interface StreamComponent {
+  number: number;
+  /** '': it has none. */
+  name: string;
+  /** 'unknown': of a later version. */
+  kind: 'heights' | 'texture' | 'unknown';
+  /** Of what is coded; 0 of what is unknown. */
+  width: number;
+  height: number;
+  /** In this prefix. */
+  bytes: number;
+  /** It is what `info` and the frame are about. */
+  taken: boolean;
+}
+
 export interface TerrainInfo {
   formatVersion: number;
   headerBytes: number;
@@ -112,6 +135,8 @@ export interface TerrainInfo {
   /** How many frames the stream has, and which of them this is. */
   frames: number;
   frame: number;
+  /** All rasters of the stream, by their numbers. */
+  components: StreamComponent[];
   /** Payload of either component in this prefix. */
   geometryBytes: number;
   textureBytes: number;
@@ -308,7 +333,8 @@ export interface Terrain {
    * helps the view, or what is left of `bytes` is worth no request (`requestBytes`). Where nothing
    * came, another call with this view brings nothing either. */
   load(bytes: number,
-    options?: Pick<FrameOptions, 'signal' | 'view' | 'globe' | 'triangles' | 'frame'>):
+    options?: Pick<FrameOptions,
+      'signal' | 'view' | 'globe' | 'triangles' | 'frame' | 'component'>):
     Promise<number>;
   /** One frame of `bytes` bytes; fetches those that are missing, as load(). */
   decode(options?: FrameOptions): Promise<Frame>;
@@ -319,7 +345,7 @@ export interface Terrain {
   /** Which bytes, [begin, end) each, a window of samples or texels takes; needs an index. */
   needed(options: {
     part?: 'heights' | 'texture'; window: {x: number; y: number; width: number; height: number};
-    frame?: number;
+    frame?: number; component?: ComponentChoice | null;
   }): Promise<[number, number][]>;
   dispose(): void;
   [Symbol.dispose](): void;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stream that the decoder's module has open: what it holds, and the calls that decode its parts.
+import {KINDS} from './components.js';
 import {DOMAINS} from './domains.js';
 import {TksError} from './error.js';
 import {SAMPLES} from './instance.js';
 
 const BUDGET_MESH = 1;
+/** web_component(). */
+const COMPONENT_NUMBERS = 5;
 /** tks_globe: its size, and four numbers. */
 const GLOBE_BYTES = 40;
 /** tks_object_mesh: two counts, five addresses. */
@@ -75,6 +78,16 @@ export class Opened {
     this.check(this.instance.calls.tks_set_frame(this.decoder, frame));
   }
 
+  #component(number) {
+    const {instance} = this;
+    return instance.with(8 * COMPONENT_NUMBERS, (out) => {
+      const name = instance.text(instance.calls.web_component(this.decoder, number, out));
+      const [kind, taken, width, height, bytes] =
+        instance.view(Float64Array, out, COMPONENT_NUMBERS);
+      return {number, name, kind: KINDS[kind], width, height, bytes, taken: taken !== 0};
+    });
+  }
+
   /** The finest mip level of a part of tks_part that the bytes feed. */
   fedLevel(part) {
     return this.instance.with(4, (out) => {
@@ -103,6 +116,8 @@ export class Opened {
         delete info[letter + i];
         return value;
       });
+    info.components =
+      Array.from({length: info.components}, (_, number) => this.#component(number));
     info.hasIndex = this.hasIndex;
     info.geotransform = gather('g');
     info.textureGeotransform = gather('t');

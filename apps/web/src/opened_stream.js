@@ -1,31 +1,56 @@
 // SPDX-License-Identifier: Apache-2.0
 // A stream whose bytes are handed over to the decoder's module. Close it.
+import {choiceOf} from './components.js';
 import {TksError} from './error.js';
 import {MESSAGE_BYTES} from './instance.js';
 import {Opened} from './opened.js';
 
 /** Magic, version, profile, level and a varint: these tell how many bytes the header takes. */
 const MOST_BEFORE_BODY = 17;
+/** A choice of no others. */
+const FIRST = {heights: -1, texture: -1};
 
 export class OpenedStream extends Opened {
   #header;  // a copy, which the decoder reads until it gets more bytes
   /** first: gives so many of the first bytes, as far as they are here; chain: the address of what
-   * the stream goes on from. */
-  constructor(instance, first, chain) {
-    const {calls} = instance;
+   * the stream goes on from; component: as choiceOf() takes it. */
+  constructor(instance, first, chain, component) {
     const needed = OpenedStream.#headerBytes(instance, first(MOST_BEFORE_BODY));
     const header = first(needed), copy = instance.allocate(header.length);
     instance.view(Uint8Array, copy, header.length).set(header);
-    const decoder = instance.with(4 + MESSAGE_BYTES, (out) => {
-      const status = calls.web_open(chain, copy, header.length, out, out + 4, MESSAGE_BYTES);
-      if (status !== 0) {
-        calls.free(copy);
-        throw Object.assign(TksError.ofStatus(status, instance.text(out + 4)), {needed});
-      }
-      return instance.view(Uint32Array, out, 1)[0];
-    });
+    let decoder;
+    try {
+      decoder = OpenedStream.#open(instance, chain, [copy, header.length], FIRST);
+    } catch (error) {
+      // An instance that aborted does no more.
+      if (error instanceof TksError) instance.calls.free(copy);
+      throw Object.assign(error, {needed});
+    }
     super(instance, decoder, header.length);
     this.#header = copy;
+    if (component.length > 0) this.#choose(chain, component);
+  }
+  /** The address of a decoder of a header, [address, size]. */
+  static #open(instance, chain, header, {heights, texture}) {
+    return instance.with(4 + MESSAGE_BYTES, (out) => {
+      const status = instance.calls.web_open(
+        chain, ...header, heights, texture, out, out + 4, MESSAGE_BYTES);
+      if (status !== 0) throw TksError.ofStatus(status, instance.text(out + 4));
+      return instance.view(Uint32Array, out, 1)[0];
+    });
+  }
+  /** Takes others than the first components. */
+  #choose(chain, component) {
+    const {instance, size} = this;
+    try {
+      const choice = choiceOf(component, this.info().components);
+      const chosen = OpenedStream.#open(instance, chain, [this.#header, size], choice);
+      instance.calls.tks_close(this.decoder);
+      this.decoder = chosen;
+    } catch (error) {
+      if (error instanceof TksError) this.close();
+      throw error;
+    }
   }
   /** Of what is no header so many bytes that decoders refuse them. */
   static #headerBytes(instance, first) {

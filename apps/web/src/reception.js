@@ -3,6 +3,7 @@
 // Sequence is, of frames that come as the server sees fit for the receiver.
 import {abortable} from './abort.js';
 import {globeOn} from './body.js';
+import {askedOf} from './components.js';
 import {ControlUrl} from './control_url.js';
 import {askDecoder} from './decoders.js';
 import {TksError} from './error.js';
@@ -182,6 +183,9 @@ export class Reception {
     checkBytes(bytes);
     await this.#there(frame, signal);
     const asked = {...DEFAULTS, ...options};
+    if (askedOf(asked.component).length > 0) {
+      throw new TksError('usage', 'What a server sends has no `component`.');
+    }
     checkSides(asked);
     checkLevels(asked, this.info ?? {});
     const triangles = trianglesOf(asked.triangles), cut = cutOf(asked.view);

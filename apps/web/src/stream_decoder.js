@@ -5,6 +5,7 @@ import {TksError} from './error.js';
 import {partsOf} from './frame.js';
 import {locate, readHead} from './group_calls.js';
 import {Instance, failureOf} from './instance.js';
+import {checkLevels} from './limits.js';
 import {OpenedStream} from './opened_stream.js';
 
 export const EXHAUSTED =
@@ -36,7 +37,7 @@ function runsOf(parts) {
  */
 export class Decoder {
   #instance = null;
-  #opened = null;
+  #opened = new Map();  // by the components that are asked for
   #chunks = [];  // in the order in which they came
   #length = 0;
   #chain;  // that the stream goes on from
@@ -84,35 +85,41 @@ export class Decoder {
     }).filter(({bytes}) => bytes.length > 0);
   }
   /** Those behind the ones that were open cost what they tell. */
-  #openedTo(size) {
-    if (this.#opened && this.#opened.size > size) this.#close();
-    this.#instance ??= new Instance(this.module);
-    this.#opened ??= new OpenedStream(
-      this.#instance, (bytes) => this.#first(Math.min(bytes, size)),
-      this.#chain.addressIn(this.#instance));
+  #openedTo(size, component) {
+    const key = JSON.stringify(component);
+    if (this.#opened.get(key)?.size > size) this.#close();
+    const opened = this.#opened.get(key) ?? this.#open(size, key, component);
     // The decoder looks through its index each time that it gets bytes.
-    const runs = runsOf(this.#behind(this.#opened.size, size));
-    for (const {place, parts} of runs) this.#opened.put(place, parts);
-    this.#opened.setLevels(0, 0);
-    return this.#opened;
+    for (const {place, parts} of runsOf(this.#behind(opened.size, size))) opened.put(place, parts);
+    opened.setLevels(0, 0);
+    return opened;
+  }
+  #open(size, key, component) {
+    this.#instance ??= new Instance(this.module);
+    const opened = new OpenedStream(
+      this.#instance, (bytes) => this.#first(Math.min(bytes, size)),
+      this.#chain.addressIn(this.#instance), component);
+    this.#opened.set(key, opened);
+    return opened;
   }
   #close() {
-    const opened = this.#opened;
-    this.#opened = null;
-    opened?.close();
+    const all = this.#opened;
+    this.#opened = new Map();
+    for (const opened of all.values()) opened.close();
   }
 
   /** An instance that aborted does no more. */
   #leave() {
-    this.#opened = this.#instance = null;
+    this.#opened = new Map();
+    this.#instance = null;
     this.#chain.leave();
   }
 
   /** Takes the steps of `use`, a generator, with the first `bytes` bytes that came, opened. */
-  *#steps(bytes, use) {
+  *#steps(bytes, component, use) {
     try {
       try {
-        return yield* use(this.#openedTo(Math.min(bytes, this.#length)));
+        return yield* use(this.#openedTo(Math.min(bytes, this.#length), component));
       } catch (error) {
         if (error instanceof TksError) this.#close();  // it may take no more bytes
         throw error;
@@ -122,9 +129,10 @@ export class Decoder {
       throw failureOf(error, EXHAUSTED);
     }
   }
-  /** What `use` gives, called with the first `bytes` bytes that came, opened. */
-  opened(bytes, use) {
-    return lastOf(this.#steps(bytes, function* (opened) {
+  /** What `use` gives, called with the first `bytes` bytes that came, opened; `component`: names
+   * and numbers, as askedOf() gives them. */
+  opened(bytes, use, component = []) {
+    return lastOf(this.#steps(bytes, component, function* (opened) {
       return use(opened);
     }));
   }
@@ -133,10 +141,11 @@ export class Decoder {
    * has to be given up. */
   parts(request) {
     const decoder = this;
-    return this.#steps(request.bytes, function* (opened) {
+    return this.#steps(request.bytes, request.component ?? [], function* (opened) {
       yield;
       opened.setFrame(request.frame ?? 0);
       const info = opened.info();
+      checkLevels(request, info);
       const parts = yield* partsOf(opened, info, {...request, centre: decoder.#centre});
       decoder.#centre ??= parts.object?.centre;
       return {bytes: opened.size, complete: opened.size >= info.streamBytes, info, ...parts};
@@ -147,10 +156,10 @@ export class Decoder {
   }
 
   plan(request) {
-    return this.opened(Infinity, (opened) => opened.plan(request));
+    return this.opened(Infinity, (opened) => opened.plan(request), request.component);
   }
-  needed({part, window}) {
-    return this.opened(Infinity, (opened) => opened.needed(part, window));
+  needed({part, window, component}) {
+    return this.opened(Infinity, (opened) => opened.needed(part, window), component);
   }
 
   /** What readHead() and locate() give, of bytes of a sequence. */
@@ -169,7 +178,7 @@ export class Decoder {
   }
 
   /** The very samples of a frame, as the conformance vectors state them. */
-  samples(bytes, level, frame = 0) {
+  samples(bytes, level, frame = 0, component = []) {
     return this.opened(bytes, (opened) => {
       opened.setFrame(frame);
       const whole = opened.info();
@@ -180,6 +189,6 @@ export class Decoder {
         heights: info.hasHeights ? opened.heights(info) : null,
         texture: info.hasTexture ? opened.texels(info) : null,
       };
-    });
+    }, component);
   }
 }

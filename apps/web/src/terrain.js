@@ -2,6 +2,7 @@
 // A stream that is open, as users have it: frames of its bytes, one or a series that refines.
 import {abortable} from './abort.js';
 import {globeOn} from './body.js';
+import {askedOf} from './components.js';
 import {askDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {Fetcher} from './fetcher.js';
@@ -12,6 +13,7 @@ import {cutOf, plannedView} from './view.js';
 
 const DEFAULTS = {
   frame: 0,
+  component: null,
   triangles: 20000,
   view: null,
   mesh: true,
@@ -72,12 +74,13 @@ export class Terrain {
     return {firstFrame: 0, endFrame: this.frames, bytes: this.info.streamBytes};
   }
 
-  async load(bytes, {signal, view, globe, triangles = DEFAULTS.triangles} = {}) {
+  async load(bytes, {signal, view, globe, component, triangles = DEFAULTS.triangles} = {}) {
     signal?.throwIfAborted();
     checkBytes(bytes);
     const planned = this.#plannedView(view, globe);
-    const asked = {signal, view: planned, triangles: trianglesOf(triangles)};
-    return this.#fetcher.load(bytes, asked);
+    return this.#fetcher.load(bytes, {
+      signal, view: planned, triangles: trianglesOf(triangles), component: askedOf(component),
+    });
   }
   /** Views are of ground, which lies round a globe where one is asked for. */
   #plannedView(view, globe) {
@@ -89,20 +92,23 @@ export class Terrain {
     checkBytes(bytes);
     const {headerBytes = 0, streamBytes = bytes} = this.info ?? {};
     const wanted = Math.min(Math.max(bytes, headerBytes), streamBytes);
-    const {view, globe, triangles} = {...DEFAULTS, ...options};
-    const have = await this.load(wanted, {signal, view, globe, triangles});
+    const {view, globe, triangles, component} = {...DEFAULTS, ...options};
+    const have = await this.load(wanted, {signal, view, globe, triangles, component});
     return this.#frame(have, {...options, signal});
   }
   /** Of the first so many bytes, which are here. */
   async #frame(bytes, {signal, ...options}) {
     const asked = {...DEFAULTS, ...options};
+    const component = askedOf(asked.component);
     checkSides(asked);
-    checkLevels(asked, this.info ?? {});
+    if (component.length === 0) checkLevels(asked, this.info ?? {});
     checkFrame(asked.frame, 0, this.info?.frames ?? 1);
     const triangles = trianglesOf(asked.triangles), cut = cutOf(asked.view);
     const frame = await askDecoder(
-      this.#decoder, 'decode', {...asked, view: null, triangles, cut, bytes}, signal);
-    if (frame.bytes >= this.#told) [this.#told, this.#fetcher.info] = [frame.bytes, frame.info];
+      this.#decoder, 'decode', {...asked, view: null, triangles, cut, bytes, component}, signal);
+    if (component.length === 0 && frame.bytes >= this.#told) {
+      [this.#told, this.#fetcher.info] = [frame.bytes, frame.info];
+    }
     return {...frame, number: asked.frame, time: asked.frame};
   }
 
@@ -143,13 +149,14 @@ export class Terrain {
   }
 
   /** Which bytes a window of the heights or of the texture takes, as [begin, end). */
-  async needed({part = 'heights', window} = {}) {
+  async needed({part = 'heights', window, component} = {}) {
     const {x, y, width, height} = window ?? {};
     if (!(part in PARTS) || ![x, y, width, height].every((number) => number >= 0)) {
       throw new TksError('usage', 'needed() takes `part`, "heights" or "texture", and `window`: ' +
         '{x, y, width, height}.');
     }
-    const ranges = await askDecoder(this.#decoder, 'needed', {part: PARTS[part], window});
+    const asked = {part: PARTS[part], window, component: askedOf(component)};
+    const ranges = await askDecoder(this.#decoder, 'needed', asked);
     return ranges.map(({begin, end}) => [begin, end]);
   }
 

@@ -43,13 +43,15 @@ function addDigests(all, wanted) {
 function answer(decoder, cut, hasMeshes) {
   const wanted = {bytes: cut.bytes, status: 0};
   if (cut.level) wanted.level = cut.level;
+  if (cut.component !== undefined) wanted.component = cut.component;
+  const component = cut.component === undefined ? [] : [cut.component];
   try {
-    const {frames} = decoder.opened(cut.bytes, (opened) => opened.info());
+    const {frames} = decoder.opened(cut.bytes, (opened) => opened.info(), component);
     const all = Array.from({length: frames}, (_, frame) =>
-      decoder.samples(cut.bytes, cut.level ?? 0, frame));
+      decoder.samples(cut.bytes, cut.level ?? 0, frame, component));
     addDigests(all, wanted);
     const triangles = hasMeshes && decoder.opened(cut.bytes, (opened) =>
-      (opened.info().objectTriangles ? cornersOf(opened.object(0)) : null));
+      (opened.info().objectTriangles ? cornersOf(opened.object(0)) : null), component);
     if (triangles) wanted.triangles = digest([triangles]);
   } catch (error) {
     wanted.status = STATUS[error.code] ?? error;

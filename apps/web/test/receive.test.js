@@ -59,6 +59,7 @@ test('any frame of a file that is served comes, with what it goes on from', asyn
       {firstFrame: 9, endFrame: 10, bytes: (await flood.decode({frame: 9})).info.streamBytes});
     await assert.rejects(flood.decode({frame: FRAMES}), {name: 'TksError', code: 'usage'});
     await assert.rejects(flood.decode({frame: -1}), {code: 'usage'});
+    await assert.rejects(flood.decode({component: 0}), {code: 'usage', message: /no `component`/});
   }));
 });
 

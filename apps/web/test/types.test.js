@@ -61,7 +61,7 @@ test('the examples of README are accepted', async () => {
         await writeFile(web + files.at(-1), `${GIVEN[heading]}\n${besides}\n${example}`);
       }
     }
-    assert.equal(files.length, 14);
+    assert.equal(files.length, 15);
     assert.deepEqual(complaints(files, RESOLUTIONS[0]), []);
   } finally {
     await rm(folder, {recursive: true});

@@ -22,6 +22,8 @@ export async function core(): Promise<Frame> {
       console.log(frame.mesh?.triangles.length, frame.texture?.data, frame.info.heightsRmse);
     }
     const view = {clip: new Float32Array(16), width: 640, height: 480};
+    const normals = terrain.info.components.find(({name, kind}) => name && kind === 'texture');
+    if (normals?.taken === false) await terrain.decode({component: ['before', normals.number]});
     return await terrain.decode({...FIRST_FRAME, normals: true, view});
   } catch (error) {
     if (error instanceof TksError && error.code === 'memory') console.log(error.message);
