@@ -51,8 +51,8 @@ void web_chain_push(web_chain* chain, const uint8_t* data, size_t size) {
   chain->streams.emplace_back(data, data + size);
 }
 
-/// tks_open, behind the streams of a chain, which outlives the decoder. heights, texture: numbers of
-/// the components that are taken; below 0: the first ones.
+/// tks_open, behind the streams of a chain, which outlives the decoder. heights, texture: numbers
+/// of the components that are taken; below 0: the first ones.
 tks_status web_open(web_chain* chain, const uint8_t* data, size_t size, int heights, int texture,
                     tks_decoder** out, char* message, size_t message_size) {
   return tetrakis::reporting(message, message_size, [&] {

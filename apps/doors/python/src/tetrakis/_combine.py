@@ -48,9 +48,9 @@ def combine(
 
     Any prefix of the result shows all components, each about as well as its weight says.
 
-    Raises :class:`TksUsageError` for more than 16 components, two of a kind with the same name, a
-    mesh of triangles beside the first stream, streams of frames, or `bytes` that do not hold the
-    header;
+    Raises :class:`TksUsageError` for more than 16 components, two of a kind with the same name,
+    streams of frames, a mesh of triangles or a grid on a cube behind the first stream, or `bytes`
+    that do not hold the header;
     :class:`TksCorruptError` and others as :func:`open` does (the sentence counts streams from 0).
     """
     streams = [(name, stream), *_pairs(others)]
