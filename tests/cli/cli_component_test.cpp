@@ -95,6 +95,7 @@ TEST_F(CliComponent, AreRefusedWithASentence) {
   makeStreams();
   ASSERT_EQ(cli("combine base.tks classes=classes.tks -o all.tks").code, 0);
   expectRefused("decode all.tks --component normals --texture t.tif", 1, "'normals'");
+  EXPECT_EQ(cliOf({"decode", "all.tks", "--component", "", "--texture", "t.tif"}).code, 1);
   expectRefused("decode all.tks --component 9 --texture t.tif", 1, "no component 9");
   expectRefused("combine base.tks classes.tks -o b.tks", 1, "same name");
   expectRefused("combine base.tks height.tif -o b.tks", 3, "'height.tif'");

@@ -158,7 +158,7 @@ namespace {
 /// The numbers of the components that have a name, or the one that has that number.
 std::vector<uint32_t> componentsNamed(const Decoder& decoder, const std::string& name) {
   std::vector<uint32_t> found;
-  for (uint32_t i = 0; i < decoder.info().components; ++i)
+  for (uint32_t i = 0; !name.empty() && i < decoder.info().components; ++i)
     if (decoder.component(i)->name == name) found.push_back(i);
   if (!found.empty()) return found;
   uint32_t number = 0;
