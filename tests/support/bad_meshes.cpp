@@ -93,17 +93,17 @@ class BadMeshMaker {
   }
 
   void addCrowds() {
-    add("soup of few points", soup(random_, 8 + below(60), 500));
-    add("soup of many points", soup(random_, 300, 1000));
-    add("parts", parts(800, 0.05));
-    add("large parts", parts(400, 1));
-    add("a fan of many", fan(1000, false));
-    add("a book of many", fan(400, true));
+    add("soup of few points", soup(random_, 8 + below(60), 250));
+    add("soup of many points", soup(random_, 150, 500));
+    add("parts", parts(300, 0.05));
+    add("large parts", parts(200, 1));
+    add("a fan of many", fan(400, false));
+    add("a book of many", fan(200, true));
     add("needles", parts(200, 0));
     for (Point& point : meshes_.back().mesh.points) point[2] *= 1 + 1e-12 * uniform();
     add("a ball of needles", ball({1, 1e-6, 1e6}, {}));
     add("spikes", ball({1, 1, 1}, {}, 1.9));
-    TriangleMesh strip = openGrid(1000, 1, 0.01);
+    TriangleMesh strip = openGrid(400, 1, 0.01);
     for (Point& point : strip.points) point[0] *= 1e4;
     add("a long strip", strip);
   }
