@@ -56,7 +56,7 @@ class BadMeshMaker {
 
   /// A sphere, moved and scaled, whose points are thrown about by a part of its radius.
   TriangleMesh ball(const Point& stretch, const Point& middle, double noise = 0) {
-    TriangleMesh mesh = sphere(3);
+    TriangleMesh mesh = sphere(2);
     for (Point& point : mesh.points) {
       point = (1 + noise * (uniform() - 0.5)) * point;
       for (size_t axis = 0; axis < 3; ++axis)
@@ -73,7 +73,7 @@ class BadMeshMaker {
     add("a line", {{{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}}});
     add("one place", {{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{0, 1, 2}}});
     add("moebius strip", moebiusStrip(3 + below(300)));
-    TriangleMesh doubled = sphere(3);
+    TriangleMesh doubled = sphere(2);
     const std::vector<Triangle> once = doubled.triangles;
     for (const Triangle& t : once) {
       doubled.triangles.push_back({t[1], t[2], t[0]});
@@ -84,10 +84,10 @@ class BadMeshMaker {
     for (Triangle& t : turned.triangles)
       if (random_() % 2 == 0) std::swap(t[0], t[1]);
     add("faces either way", turned);
-    TriangleMesh holes = sphere(3);
+    TriangleMesh holes = sphere(2);
     std::erase_if(holes.triangles, [&](const Triangle&) { return random_() % 3 == 0; });
     add("more holes than surface", holes);
-    const TriangleMesh shell = sphere(3);
+    const TriangleMesh shell = sphere(2);
     add("a ball within its own", beside(shell, ball({0.5, 0.5, 0.5}, {}), {0, 0, 0}));
     add("a ball on itself", beside(shell, shell, {0, 0, 0}));
   }
@@ -120,7 +120,7 @@ class BadMeshMaker {
     for (const double far : {1e6, 1e12, 1e17, 1e200})
       add("a ball far away", ball({1, 1, 1}, {far, -far, far}));
     for (const double far : {1e5, 1e15, 1e300}) {
-      TriangleMesh mesh = sphere(3);
+      TriangleMesh mesh = sphere(2);
       mesh.points[5][1] = far;
       add("an outlier", mesh);
     }
@@ -130,7 +130,7 @@ class BadMeshMaker {
     constexpr float kFar = 3e38F, kNumber = std::numeric_limits<float>::quiet_NaN();
     for (const std::vector<float>& of :
          {std::vector{0.0F}, {0.5F, 0.2F, 0.9F}, {-1e5F, 0.5F}, {kNumber, 1e30F, -kFar, kFar}}) {
-      BadMesh bad{"odd texture coordinates", sphere(3), {}};
+      BadMesh bad{"odd texture coordinates", sphere(2), {}};
       for (size_t i = 0; i < 6 * bad.mesh.triangles.size(); ++i)
         bad.texcoords.push_back(random_() % 4 == 0 ? of[random_() % of.size()]
                                                    : static_cast<float>(2 * uniform() - 0.5));

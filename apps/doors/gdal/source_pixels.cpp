@@ -12,7 +12,7 @@ namespace tetrakis::gdal {
 namespace {
 
 /// Levels of so many pixels are decoded as a whole and kept; of larger ones parts are decoded.
-constexpr uint64_t kWholeLevel = uint64_t{1} << 20;
+constexpr uint64_t kWholeLevel = uint64_t{1} << 21;
 
 }  // namespace
 
