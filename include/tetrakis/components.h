@@ -78,9 +78,9 @@ typedef struct tks_combine_options {
  * (tks_choose_component).
  *
  * Packets keep their order within each stream. Among streams they are ordered by what a byte takes
- * off the weighted mean square error, in units of each component's range of values: so every prefix
- * shows all components, each about as well as its weight says. For the ranges a level of at most
- * 2^16 samples is decoded of each component. A budget cuts the stream behind so many bytes; then it
+ * off the weighted mean square error, in units of each component's range of values: so prefixes
+ * share their bytes among all components. For the ranges a level of at most 2^16 samples, or the
+ * coarsest one, is decoded of each component. A budget cuts the stream behind so many bytes; then it
  * promises no lossless samples and no largest error any more. With a front index in all streams the
  * result has one.
  *

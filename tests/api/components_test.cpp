@@ -337,6 +337,30 @@ TEST(Components, OfPrefixesHoldWhatTheseHold) {
   }
 }
 
+/// One sample, a plain, voids alone, a row, and floats of all sizes, beside each other.
+TEST(Components, OfAwkwardKindsComeBack) {
+  Raster nothing = samples::make({Pattern::kFlat, 20, 30, 1, TKS_F32});
+  const float nan = std::nanf("");
+  for (size_t i = 0; i < nothing.data.size(); i += sizeof nan)
+    std::memcpy(nothing.data.data() + i, &nan, sizeof nan);
+  const std::vector<Raster> kinds = {samples::make({Pattern::kFlat, 1, 1, 1, TKS_I16}),
+                                     samples::make({Pattern::kFlat, 50, 40, 1, TKS_U8}), nothing,
+                                     samples::make({Pattern::kNoise, 300, 1, 1, TKS_I32}),
+                                     samples::make({Pattern::kExtreme, 25, 25, 1, TKS_F32})};
+  std::vector<Bytes> streams;
+  for (const Raster& kind : kinds) streams.push_back(encode(&kind, nullptr, lossless()));
+  for (size_t i = 0; i < kinds.size(); ++i) {
+    for (size_t j = 0; j < kinds.size(); ++j) {
+      SCOPED_TRACE(std::to_string(i) + " beside " + std::to_string(j));
+      const Result<Bytes> both = combined({{streams[i]}, {streams[j], "second"}});
+      ASSERT_TRUE(both.ok()) << both.status().message();
+      Stream first{Prefix(*both)}, alone{Prefix(streams[j])};
+      EXPECT_TRUE(sameBytes(first.heights(), Stream{Prefix(streams[i])}.heights()));
+      EXPECT_TRUE(sameBytes(*chosen(*both, "second").heights(), alone.heights()));
+    }
+  }
+}
+
 TEST(Components, StayWithinABudget) {
   const std::vector<Named> all = {{base()}, {later(), "later"}, {classes(), "classes"}};
   const size_t whole = combined(all)->size();
