@@ -77,12 +77,12 @@ typedef struct tks_combine_options {
  * components keep their names, places and units, and are decoded once they are chosen
  * (tks_choose_component).
  *
- * Packets keep their order within each stream. Among streams they are ordered by what a byte takes
- * off the weighted mean square error, in units of each component's range of values: so prefixes
- * share their bytes among all components. For the ranges a level of at most 2^16 samples, or the
- * coarsest one, is decoded of each component. A budget cuts the stream behind so many bytes; then it
- * promises no lossless samples and no largest error any more. With a front index in all streams the
- * result has one.
+ * Packets keep their order within each stream. Among streams they are ordered by what a byte
+ * takes off the weighted mean square error, in units of each component's range of values: so
+ * prefixes share their bytes among all components. For the ranges a level of at most 2^16
+ * samples, or the coarsest one, is decoded of each component. A budget cuts the stream behind so
+ * many bytes; then it promises no lossless samples and no largest error any more. With a front
+ * index in all streams the result has one.
  *
  * options: NULL: none. TKS_USAGE: a list without streams; more than 16 components; two of a kind
  * with the same name; frames; a mesh of triangles behind the first stream; a grid on a cube behind
