@@ -253,6 +253,7 @@ Texels viewOf(Texels texels, const View& view) {
 /// the raster.
 Texels decodeForest(const TextureHeader& header, const Codewords& codewords, const View& view,
                     const DecodeContext<TextureMemory>& context) {
+  assert(view.level == 0 || view.patch_rows == header.wavelet.forest->side());
   const View decoded = header.drawn() ? View{} : wholeIfForest(header, view);
   Texels texels = decodeLines(header, codewords, decoded, context);
   shareOwned(*header.wavelet.forest, std::span(texels.samples), texels.width - 1, texels.channels);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "codec/geometry/heights_decoder.hpp"
 
+#include <cassert>
 #include <optional>
 #include <span>
 #include <utility>
@@ -203,6 +204,8 @@ void share(const GeometryHeader& header, DecodedHeights& decoded) {
 /// Decodes a view of the coded lines, which is taken out of what is decoded for it.
 DecodedHeights decodeLines(const TakenLayers& taken, const View& view,
                            const DecodeContext<HeightsMemory>& context) {
+  assert(view.level == 0 || taken.header.wavelet.forest == nullptr ||
+         view.patch_rows == taken.header.wavelet.forest->side());
   DecodedView all{decodedLines(taken.header, view)};
   DecodedHeights decoded = decodeTaken(taken, all, context);
   share(taken.header, decoded);

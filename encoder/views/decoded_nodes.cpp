@@ -35,9 +35,11 @@ std::vector<float> toBorder(std::vector<float> shown, Extent extent, Extent reac
 }
 
 /// The coarsest level that shows all that few bytes can show, in less time than the whole plane: a
-/// level that every wavelet has, with `samples` samples or more.
-View enoughOf(Extent whole, uint64_t samples) {
+/// level that every wavelet has, with `samples` samples or more. A forest is shown whole: pictures
+/// look samples up in its raster, and the rasters of its levels hold patches at other places.
+View enoughOf(const WaveletHeader& wavelet, Extent whole, uint64_t samples) {
   View view;
+  if (wavelet.forest != nullptr) return view;
   const uint64_t enough = std::max(samples, kLeast);
   while (view.extentIn(whole).samples() / 4 >= enough &&
          std::min(whole.width, whole.height) >> (view.level + 1) >= kLeastSide)
@@ -88,7 +90,7 @@ Relief DecodedNodes::reliefAt(uint64_t bytes) {
   const Extent extent{whole.width, whole.height};
   View view;
   if (heights_.coded.quantised->steps.valid.empty())
-    view = enoughOf(extent, kSamplesPerByte * bytes);
+    view = enoughOf(heights_.coded.header.wavelet, extent, kSamplesPerByte * bytes);
   const Samples samples = heightsAt(bytes, view);
   tks_heights shown = whole;
   shown.width = view.extentIn(extent).width;
@@ -109,7 +111,8 @@ ScreenTexture DecodedNodes::textureAt(uint64_t bytes) {
   const Extent whole = coded.header.extent();
   View view;
   const uint64_t near = coded.header.priorities.none() ? 1 : kNearCameras;
-  if (!coded.header.direct()) view = enoughOf(whole, near * kTexelsPerByte * bytes);
+  if (!coded.header.direct())
+    view = enoughOf(coded.header.wavelet, whole, near * kTexelsPerByte * bytes);
   return {texelsAt(bytes, view), whole, view.level};
 }
 

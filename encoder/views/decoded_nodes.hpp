@@ -34,7 +34,8 @@ namespace tetrakis::inline views {
 // map.
 
 /// Whether cameras look at meshes: there is a triangle budget, and there are neither voids nor a
-/// table of values. The caller's renderer looks at full grids.
+/// table of values. The caller's renderer looks at full grids, and so do cameras of forests, whose
+/// raster is no plane of one mesh.
 bool looksAtMeshes(const EncodeInputs& inputs, const QuantisedHeights& heights);
 
 class ShownMesh {

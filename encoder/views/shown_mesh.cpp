@@ -46,7 +46,7 @@ ScreenView screenViewOf(const Camera& camera, const GroundFrame& frame, double a
 bool looksAtMeshes(const EncodeInputs& inputs, const QuantisedHeights& heights) {
   const tks_encode_options& options = inputs.options;
   return options.triangles > 0 && options.picture_error == nullptr && inputs.image != nullptr &&
-         heights.steps.valid.empty() && heights.steps.table.empty();
+         heights.steps.valid.empty() && heights.steps.table.empty() && heights.forest == nullptr;
 }
 
 ShownMesh::ShownMesh(const EncodeInputs& inputs, const QuantisedHeights& heights,
