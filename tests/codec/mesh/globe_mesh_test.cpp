@@ -177,7 +177,8 @@ TEST(GlobeMesh, HasNoTriangleThatTouchesAVoid) {
 }
 
 TEST(Bends, LeaveTheSurfaceAndLetNoEdgeCutThroughTheGlobe) {
-  for (const auto& [width, height] : {std::pair{256u, 129u}, {360u, 180u}, {97u, 60u}}) {
+  for (const auto& [columns, rows] : {std::pair{256u, 129u}, {360u, 180u}, {97u, 60u}}) {
+    const uint32_t width = columns, height = rows;
     const Result<Lattice> lattice = Lattice::make(width, height);
     for (const double part : {0.0, 0.001, 0.02}) {
       const std::vector<VertexId> inserted = someVertices(*lattice, part, 5);
