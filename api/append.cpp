@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "api/decoder.hpp"
+#include "api/group_chain.hpp"
 #include "base/shown_text.hpp"
 #include "bitstream/track/track.hpp"
 
@@ -47,6 +48,11 @@ Status refuse(tks_decoder& decoder, const Status& status) {
   return status;
 }
 
+Status tooManyBytes(const tks_decoder& decoder) {
+  return {TKS_LIMIT, "The bytes of the stream take more memory than the limit (max_memory) of " +
+                         describeBytes(decoder.max_memory) + "."};
+}
+
 /// Bytes from a place of the stream on.
 struct Run {
   uint64_t place;
@@ -71,28 +77,26 @@ Status check(const tks_decoder& decoder, std::span<const Run> runs) {
   return {};
 }
 
+/// From here on the decoder needs no byte of the caller's.
+void keepBytes(tks_decoder& decoder) {
+  if (!decoder.pieces.empty()) return;
+  decoder.packets.borrowed.joinAll(decoder.packets.payload);
+  decoder.pieces.put(0, decoder.data);
+  decoder.data = decoder.pieces.from(0);
+}
+
 /// The time follows from the bytes of the runs, however many there are of the stream.
-Status put(tks_decoder& decoder, std::span<const Run> runs) {
+Status putShown(tks_decoder& decoder, std::span<const Run> runs) {
   if (const Status status = check(decoder, runs); !status.ok()) return status;
   uint64_t more = 0;
   for (const Run& run : runs) more += run.bytes.size();
   if (more == 0) return {};
   if (!decoder.refused.ok()) return decoder.refused;
   const uint64_t held = decoder.pieces.empty() ? decoder.data.size() : decoder.pieces.bytes();
-  if (held + more > decoder.max_memory) {
-    const std::string limit = describeBytes(decoder.max_memory);
-    return refuse(decoder, {TKS_LIMIT,
-                            "The bytes of the stream take more memory than the limit "
-                            "(max_memory) of " +
-                                limit + "."});
-  }
+  if (held + more > decoder.max_memory) return refuse(decoder, tooManyBytes(decoder));
   const size_t front = decoder.data.size();
   decoder.is_lost = true;  // if memory ends on the way
-  if (decoder.pieces.empty()) {
-    decoder.packets.borrowed.joinAll(decoder.packets.payload);
-    decoder.pieces.put(0, decoder.data);
-    decoder.data = decoder.pieces.from(0);
-  }
+  keepBytes(decoder);
   std::vector<ByteRange> ranges;
   for (const auto& [place, bytes] : runs) ranges.push_back({place, place + bytes.size()});
   for (const auto& [place, bytes] : runs) {
@@ -109,6 +113,67 @@ Status put(tks_decoder& decoder, std::span<const Run> runs) {
   return {};
 }
 
+/// The decoder goes on as one of the stream whose sketch it showed, or of a finer sketch.
+Status takeInPlace(tks_decoder& decoder) {
+  Result<OwnedDecoder> opened = openBehind(decoder.sketched->all, &decoder.limits, {});
+  if (!opened.ok()) return refuse(decoder, opened.status());
+  tks_decoder& next = **opened;
+  keepBytes(next);
+  const StreamHeader& header = next.parsed.header;
+  next.heights_level = std::min(decoder.heights_level, coarsestLevelOf(header.geometry));
+  next.texture_level = std::min(decoder.texture_level, coarsestLevelOf(header.texture));
+  next.threads = decoder.threads;
+  next.remembers = true;
+  if (next.sketched) {
+    next.sketched->own = std::move(decoder.sketched->own);
+    next.sketched->all = next.sketched->own;
+  }
+  decoder = std::move(next);
+  return {};
+}
+
+/// Of a decoder that shows a sketch: bytes come in their order, and some of them are the sketch's.
+Status putSketched(tks_decoder& decoder, std::span<const Run> runs) {
+  if (!decoder.refused.ok()) return decoder.refused;
+  SketchedBytes& sketched = *decoder.sketched;
+  const uint64_t before = sketched.all.size();
+  uint64_t end = before;
+  for (const auto& [place, bytes] : runs) {
+    if (place > end)
+      return {TKS_USAGE, "The header of the stream is not there yet, so that its bytes come in "
+                         "their order: byte " +
+                             std::to_string(end) + " is the next."};
+    if (bytes.size() > std::numeric_limits<uint64_t>::max() - place)
+      return {TKS_USAGE, "No stream has so many bytes."};
+    end = std::max(end, place + bytes.size());
+  }
+  if (end == before) return {};
+  if (end > decoder.max_memory) return refuse(decoder, tooManyBytes(decoder));
+  decoder.is_lost = true;  // if memory ends on the way
+  keepBytes(decoder);
+  if (sketched.own.empty()) sketched.own.assign(sketched.all.begin(), sketched.all.end());
+  for (const auto& [place, bytes] : runs) {
+    const uint64_t known = std::min<uint64_t>(sketched.own.size() - place, bytes.size());
+    sketched.own.insert(sketched.own.end(), bytes.begin() + static_cast<ptrdiff_t>(known),
+                        bytes.end());
+  }
+  sketched.all = sketched.own;
+  decoder.is_lost = false;
+  if (!(shownIn(sketched.all) == sketched.shown)) return takeInPlace(decoder);
+  const std::span<const uint8_t> shown = sketched.shown.of(sketched.all);
+  const Run run{decoder.data.size(), shown.subspan(decoder.data.size())};
+  return putShown(decoder, {&run, 1});
+}
+
+Status put(tks_decoder& decoder, std::span<const Run> runs) {
+  return decoder.sketched ? putSketched(decoder, runs) : putShown(decoder, runs);
+}
+
+/// How many bytes of the stream, or of what it is a sketch of, are there.
+uint64_t bytesThere(const tks_decoder& decoder) {
+  return decoder.sketched ? decoder.sketched->all.size() : decoder.data.size();
+}
+
 }  // namespace
 
 }  // namespace tetrakis::inline api
@@ -116,7 +181,7 @@ Status put(tks_decoder& decoder, std::span<const Run> runs) {
 tks_status tks_append(tks_decoder* decoder, const uint8_t* data, size_t size) {
   if (data == nullptr && size != 0) return TKS_USAGE;
   return tetrakis::keeping(decoder, [&] {
-    const tetrakis::Run run{decoder->data.size(), {data, size}};
+    const tetrakis::Run run{tetrakis::bytesThere(*decoder), {data, size}};
     return tetrakis::put(*decoder, {&run, 1});
   });
 }

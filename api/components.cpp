@@ -74,6 +74,7 @@ Status chooseComponent(tks_decoder& decoder, uint32_t number) {
   Result<OwnedDecoder> chosen = openBehind(decoder.data, &decoder.limits, {}, choice);
   if (!chosen.ok()) return chosen.status();
   (*chosen)->threads = decoder.threads;
+  (*chosen)->sketched = std::move(decoder.sketched);
   decoder = std::move(**chosen);
   return {};
 }

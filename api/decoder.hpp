@@ -16,6 +16,7 @@
 #include "bitstream/stream/packet.hpp"
 #include "bitstream/stream/pieces.hpp"
 #include "bitstream/stream/scattered_packets.hpp"
+#include "bitstream/stream/sketch.hpp"
 #include "codec/basemesh/base_mesh.hpp"
 #include "codec/geometry/heights_decoder.hpp"
 #include "codec/wavelet/pyramid.hpp"
@@ -39,11 +40,20 @@ struct TakenPackets {
   uint64_t bytesOf(Component component, uint32_t track) const;
 };
 
+/// Bytes of a stream of which a sketch is shown, since they end inside its header.
+struct SketchedBytes {
+  ShownStream shown;                ///< the sketch among them
+  std::span<const uint8_t> all;     ///< the caller's, ...
+  std::vector<uint8_t> own;         ///< ... or, once there came more, these
+  uint64_t header_bytes = 0, stream_bytes = 0;  ///< of the stream that the sketch is of
+};
+
 }  // namespace tetrakis::inline api
 
 struct tks_decoder {
   std::span<const uint8_t> data;  ///< the stream up to its first missing byte: the caller's, ...
   tetrakis::Pieces pieces;        ///< ... or, once there came more, of these
+  std::optional<tetrakis::SketchedBytes> sketched;  ///< `data` and all below are of the sketch
   tetrakis::ParsedHeader parsed;
   std::optional<tetrakis::BaseMesh> base_mesh;
   tks_index index = TKS_INDEX_NONE;

@@ -34,7 +34,7 @@ struct BothKinds {
   std::optional<CodedObject> resampled, triangles;
   bool takes_triangles = false;  ///< else the resampled object is the better one
 
-  const CodedObject& taken() const { return takes_triangles ? *triangles : *resampled; }
+  CodedObject taken() const { return takes_triangles ? *triangles : *resampled; }
 };
 
 /// At least one kind meets the target.
@@ -71,8 +71,8 @@ tks_object_trial trialOf(const std::optional<CodedObject>& coded) {
           picture > 0 ? 10 * portable::log10(kWhite * kWhite / picture) : HUGE_VAL};
 }
 
-tks_object_report reportOf(const ObjectSource& source, const BothKinds& both) {
-  const CodedObject& coded = both.taken();
+tks_object_report reportOf(const ObjectSource& source, const BothKinds& both,
+                           const CodedObject& coded) {
   tks_object_report report{};
   report.size = sizeof report;
   const CleanedMesh& cleaned = source.cleaned();
@@ -92,6 +92,7 @@ tks_object_report reportOf(const ObjectSource& source, const BothKinds& both) {
   report.texture_depth = coded.texture_depth;
   report.kind = coded.kind;
   report.coded_triangles = coded.coded_triangles;
+  report.sketch_bytes = coded.sketch_bytes;
   report.as_resampled = trialOf(both.resampled);
   report.as_triangles = trialOf(both.triangles);
   return report;
@@ -134,10 +135,12 @@ Status encodeObject(const tks_triangle_mesh* mesh, const tks_image* image,
     if (!drawn.ok()) return drawn.status();
     object.pictures = &pictures.emplace(*std::move(drawn));
   }
-  const Result<BothKinds> coded = encodedAs(given.kind, object);
+  const Result<BothKinds> both = encodedAs(given.kind, object);
+  if (!both.ok()) return both.status();
+  const Result<CodedObject> coded = withSketch(object, both->taken());
   if (!coded.ok()) return coded.status();
-  if (report != nullptr) giveSized(reportOf(object.source, *coded), *report);
-  giveBytes(coded->taken().stream, out);
+  if (report != nullptr) giveSized(reportOf(object.source, *both, *coded), *report);
+  giveBytes(coded->stream, out);
   return {};
 }
 

@@ -20,6 +20,10 @@ namespace tetrakis::inline api {
 namespace {
 
 Status verify(const tks_decoder& decoder) {
+  if (decoder.sketched)
+    return {TKS_TRUNCATED, "The stream ends inside its header, at byte " +
+                               std::to_string(decoder.sketched->all.size()) + " of " +
+                               std::to_string(decoder.sketched->stream_bytes) + "."};
   const StreamHeader& header = decoder.parsed.header;
   const uint64_t total = decoder.parsed.bytes + header.payload_bytes;
   if (decoder.data.size() < total) {
@@ -150,9 +154,17 @@ void fillStream(const tks_decoder& decoder, tks_info& info) {
   info.format_version = header.version;
   info.profile = header.profile;
   info.level = header.level;
-  info.header_bytes = decoder.parsed.bytes;
+  info.header_bytes = info.least_bytes = decoder.parsed.bytes;
   info.stream_bytes = decoder.parsed.bytes + header.payload_bytes;
   info.available_bytes = decoder.data.size();
+  if (const auto& sketched = decoder.sketched) {
+    info.shows_sketch = 1;
+    info.header_bytes = sketched->header_bytes;
+    info.stream_bytes = sketched->stream_bytes;
+    info.available_bytes = sketched->all.size();
+  }
+  if (decoder.sketched || !header.sketch.empty())
+    info.least_bytes = *leastBytes(decoder.sketched ? decoder.sketched->all : decoder.data);
   info.packets = decoder.packets.payload.heads.size();
   info.geometry_bytes = decoder.packets.payload.bytes[0];
   info.texture_bytes = decoder.packets.payload.bytes[1];

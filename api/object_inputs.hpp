@@ -79,7 +79,7 @@ struct GivenObject {
 
   const tks_triangle_mesh& mesh;
   const tks_image* image;
-  const tks_encode_options& options;
+  tks_encode_options options;
   ObjectSource source;
   SearchProgress progress;
   const ObjectPictures* pictures = nullptr;  ///< by which streams are compared; null: no image
@@ -93,6 +93,7 @@ struct CodedObject {
   tks_object_kind kind = TKS_OBJECT_RESAMPLED;
   uint32_t patches = 0, depth = 0, texture_depth = 0, coded_triangles = 0;
   double resampling_error = 0;
+  uint64_t sketch_bytes = 0;
 };
 
 Result<TriangleMesh> meshOf(const tks_triangle_mesh& given);
@@ -108,6 +109,10 @@ Result<CodedObject> encodeResampled(GivenObject& given);
 
 /// Within the target of the options: as many triangles, on as fine a grid, as serve it best.
 Result<CodedObject> encodeTriangles(GivenObject& given);
+
+/// Puts a sketch before the header of an object, if the mesh asks for one or the header is long.
+/// The stream is coded anew if it would exceed the bytes of the options else.
+Result<CodedObject> withSketch(GivenObject& given, CodedObject whole);
 
 struct DecoderCloser {
   void operator()(tks_decoder* decoder) const { tks_close(decoder); }

@@ -80,16 +80,28 @@ Status takeReferences(const References& references, StreamHeader& header) {
           "its sequence."};
 }
 
-Status open(std::span<const uint8_t> data, const tks_limits* limits, const References& references,
+/// The stream that is shown of the caller's bytes.
+Result<std::span<const uint8_t>> shownOf(std::span<const uint8_t> data, tks_decoder& decoder) {
+  const ShownStream shown = shownIn(data);
+  if (!shown.isSketch()) return data;
+  const Result<uint64_t> header = headerBytes(data), stream = streamBytes(data);
+  if (!stream.ok()) return stream.status();
+  decoder.sketched = SketchedBytes{shown, data, {}, *header, *stream};
+  return shown.of(data);
+}
+
+Status open(std::span<const uint8_t> bytes, const tks_limits* limits, const References& references,
             const ComponentChoice& choice, tks_decoder& decoder) {
-  decoder.data = data;
+  const Result<std::span<const uint8_t>> data = shownOf(bytes, decoder);
+  if (!data.ok()) return data.status();
+  decoder.data = *data;
   tks_limits& known = decoder.limits;
   known.size = sizeof known;
   if (limits != nullptr) {
     if (Status status = takeSized("the limits", *limits, sizeof limits->size, known); !status.ok())
       return status;
   }
-  Result<ParsedHeader> parsed = readHeader(data, choice);
+  Result<ParsedHeader> parsed = readHeader(decoder.data, choice);
   if (!parsed.ok()) return parsed.status();
   decoder.parsed = std::move(*parsed);
   const StreamHeader& header = decoder.parsed.header;
@@ -232,7 +244,7 @@ tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes) {
   if (bytes == nullptr || (data == nullptr && size != 0)) return TKS_USAGE;
   *bytes = 0;
   return tetrakis::answering([&]() -> tetrakis::Status {
-    const auto needed = tetrakis::headerBytes({data, size});
+    const auto needed = tetrakis::leastBytes({data, size});
     if (!needed.ok()) return needed.status();
     *bytes = *needed;
     if (*needed > size) return {TKS_TRUNCATED, "The header is cut short."};

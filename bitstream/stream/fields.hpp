@@ -74,6 +74,11 @@ class FieldWriter {
     bytes.insert(bytes.end(), body.bytes.begin(), body.bytes.end());
     return true;
   }
+  /// A part that stands before all others, whatever its kind.
+  template <class Body>
+  void leadingPart(uint64_t kind, bool is_there, Body&& visitBody) {
+    part(kind, is_there, visitBody);
+  }
   /// Behind the last part that visit() asks for. later: parts that a reader skipped, as they were.
   void endParts(std::string& later) { rest(later); }
   /// Of readers: fails unless that holds.
@@ -163,6 +168,13 @@ class FieldReader {
     if (!body.ok()) status_ = body.status_;
     return true;
   }
+  template <class Body>
+  void leadingPart(uint64_t kind, bool, Body&& visitBody) {
+    if (!ok() || at_ == bytes_.size() || nextKind() != kind) return;
+    FieldReader body = openPart();
+    last_kind_.reset();
+    if (ok()) visitBody(body);
+  }
   void endParts(std::string& later) {
     skipPartsBefore({});
     later = std::move(skipped_);
@@ -186,6 +198,7 @@ class FieldReader {
   bool starved() const { return starved_; }  ///< failed because the bytes ended
   const Status& status() const { return status_; }
   size_t position() const { return at_; }
+  size_t origin() const { return origin_; }  ///< of the first byte
 
  private:
   uint8_t next();

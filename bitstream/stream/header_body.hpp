@@ -27,7 +27,8 @@ enum BodyPart : uint64_t {
   kHeightPositions = 71,
   kTexturePositions = 72,
   kSourceGrid = 73,
-  kDetails = 74
+  kDetails = 74,
+  kSketch = 75
 };
 
 inline constexpr size_t kFixedBytes = kMagic.size() + 3;  // magic, version, profile, level
@@ -80,6 +81,7 @@ void visitPromises(V& v, StreamHeader& header) {
 template <class V>
 void visitBody(V& v, StreamHeader& header) {
   v.varint("payload_bytes", header.payload_bytes, 0, UINT64_MAX >> 1);
+  v.leadingPart(kSketch, !header.sketch.empty(), [&](auto& part) { part.rest(header.sketch); });
   visitComponents(v, header);
   v.part(kTriangleMesh, !header.triangle_mesh.none(),
          [&](auto& part) { header.triangle_mesh.visit(part); });

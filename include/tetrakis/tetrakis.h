@@ -446,6 +446,9 @@ typedef enum tks_object_kind {
   TKS_OBJECT_TRIANGLES = 2  /* as triangles: designed parts, models of few triangles */
 } tks_object_kind;
 
+/* In the place of the bytes of a sketch. */
+#define TKS_NO_SKETCH UINT64_MAX
+
 /* A mesh of triangles to encode as an object: a scan, a sculpture, a designed part. Triangles need
  * not fit together: points at equal places are joined, degenerate and double triangles dropped, and
  * edges of more than two triangles cut. */
@@ -461,6 +464,8 @@ typedef struct tks_triangle_mesh {
                                             triangles lie on it. (0, 0) is its upper left corner,
                                             (1, 1) its lower right; it repeats beyond these */
   tks_object_kind kind;
+  uint64_t sketch_bytes; /* of the sketch that the stream begins with, about; 0: a 32nd part of the
+                            stream if nothing would be seen of it for long; TKS_NO_SKETCH: none */
 } tks_triangle_mesh;
 
 /* A stream of one of the kinds of object, for the target that was asked for. */
@@ -488,7 +493,9 @@ typedef struct tks_object_report {
   tks_object_kind kind;         /* in which way the object was coded. With TKS_OBJECT_TRIANGLES
                                    patches, depths and resampling_error are 0 */
   uint32_t coded_triangles;     /* with TKS_OBJECT_TRIANGLES, else 0 */
-  tks_object_trial as_resampled, as_triangles; /* of which `kind` is the better one */
+  tks_object_trial as_resampled, as_triangles; /* of which `kind` is the better one, before a sketch
+                                                  took some bytes */
+  uint64_t sketch_bytes; /* that the stream begins with; 0: none */
 } tks_object_report;
 
 /* Encodes a mesh as an object, which tks_decode_object makes meshes of, in one of two ways.
@@ -500,6 +507,10 @@ typedef struct tks_object_report {
  * (every sample of the base keeps its height within that distance, and the resampling error is at
  * most a third of it; or every corner stays within that distance); index, progress, threads; and
  * cameras, in the axes and the unit of the mesh, which need an image. `report` may be NULL.
+ *
+ * Nothing of an object is seen before the whole header is there. Where it takes more than 4 kB and
+ * more than a 16th of the stream, the stream begins with a sketch: the same object over a coarse
+ * base, in a stream of its own. Decoders show it until the header is there.
  *
  * image: the texture of the mesh, which has texcoords, or NULL. With TKS_OBJECT_RESAMPLED its
  * texels are resampled on the same patches, so that receivers need no coordinates, and it has no
@@ -550,14 +561,17 @@ typedef struct tks_decoder tks_decoder;
 
 /* Opens the first `size` bytes of a stream. The data must outlive the decoder, or its first
  * tks_append or tks_put. A prefix too short to hold the header gives TKS_TRUNCATED with the number
- * of bytes needed in the message. */
+ * of bytes needed in the message. A stream may begin with a sketch (tks_triangle_mesh): as long as
+ * bytes of its header are missing, the decoder is one of the sketch (info.shows_sketch), as if that
+ * were the stream. The call of tks_append that brings the header makes it one of the stream: with
+ * other sizes, a surface of its own, and new texts in tks_info. */
 tks_status tks_open(const uint8_t* data, size_t size, const tks_limits* limits, tks_decoder** out,
                     char* message, size_t message_size);
 void tks_close(tks_decoder* decoder);
 
-/* Sets *bytes to how many bytes the header of a stream takes, of which `size` are there. TKS_OK:
- * the header is whole. TKS_TRUNCATED: so many are needed, or more, if the size of the header is not
- * known yet (ask again with them). TKS_CORRUPT or TKS_UNSUPPORTED, *bytes 0: this is no stream, or
+/* Sets *bytes to how many bytes of a stream, of which `size` are there, tks_open needs: those of its
+ * header or, with a sketch, of the header of that. TKS_OK: they are there. TKS_TRUNCATED: so many
+ * are needed, or more, if that is not known yet (ask again with them). TKS_CORRUPT or TKS_UNSUPPORTED, *bytes 0: this is no stream, or
  * none for this library. */
 tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes);
 
@@ -676,6 +690,11 @@ typedef struct tks_info {
   uint32_t frames;                  /* how many the stream has; 1: it is no group of a sequence */
   uint32_t frame;                   /* the one that is set (tks_set_frame), from 0 */
   uint32_t components;              /* how many the stream has (components.h) */
+  int shows_sketch;                 /* the bytes end inside the header, and all fields but
+                                       header_bytes, stream_bytes and available_bytes are those of
+                                       the sketch that it begins with (tks_triangle_mesh) */
+  uint64_t least_bytes;             /* the fewest bytes of the stream that tks_open takes: those of
+                                       its header or, with a sketch, of the header of that */
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bitstream/stream/sketch.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "bitstream/stream/fields.hpp"
+#include "bitstream/stream/header.hpp"
+#include "bitstream/stream/header_body.hpp"
+
+namespace tetrakis::inline stream {
+
+namespace {
+
+/// Behind magic, version, profile, level and the size of the body, which headerBytes() has read.
+FieldReader bodyOf(std::span<const uint8_t> bytes) {
+  FieldReader size(bytes.subspan(kFixedBytes));
+  size.take();
+  const size_t begin = kFixedBytes + size.position();
+  return FieldReader(bytes.subspan(begin), begin);
+}
+
+/// The sketch of the stream; none also where its place is not known yet.
+std::optional<ShownStream> sketchIn(std::span<const uint8_t> bytes) {
+  constexpr uint64_t kChecksumBytes = 4;
+  const Result<uint64_t> header = headerBytes(bytes);
+  if (!header.ok() || bytes.size() <= kFixedBytes) return {};
+  FieldReader body = bodyOf(bytes);
+  body.take();  // payload_bytes
+  if (body.take() != kSketch) return {};
+  const uint64_t size = body.take();
+  const uint64_t begin = body.origin() + body.position();
+  if (!body.ok() || size == 0 || size > *header - kChecksumBytes - begin) return {};
+  return ShownStream{begin, begin + size};
+}
+
+}  // namespace
+
+std::span<const uint8_t> ShownStream::of(std::span<const uint8_t> bytes) const {
+  const auto known = static_cast<size_t>(std::min<uint64_t>(end, bytes.size()));
+  return bytes.first(known).subspan(static_cast<size_t>(begin));
+}
+
+ShownStream shownIn(std::span<const uint8_t> bytes) {
+  ShownStream shown;
+  while (true) {
+    const std::span<const uint8_t> here = shown.of(bytes);
+    const Result<uint64_t> header = headerBytes(here);
+    if (!header.ok() || *header <= here.size()) return shown;
+    const std::optional<ShownStream> sketch = sketchIn(here);
+    if (!sketch || sketch->begin > here.size()) return shown;
+    shown = {shown.begin + sketch->begin, shown.begin + sketch->end};
+  }
+}
+
+Result<uint64_t> leastBytes(std::span<const uint8_t> bytes) {
+  uint64_t begin = 0;
+  while (true) {
+    const Result<uint64_t> header = headerBytes(bytes);
+    if (!header.ok()) return header.status();
+    const std::optional<ShownStream> sketch = sketchIn(bytes);
+    if (!sketch) return begin + *header;
+    if (sketch->begin >= bytes.size()) return begin + sketch->begin + 1;
+    bytes = sketch->of(bytes);
+    begin += sketch->begin;
+  }
+}
+
+Result<uint64_t> streamBytes(std::span<const uint8_t> bytes) {
+  const Result<uint64_t> header = headerBytes(bytes);
+  if (!header.ok()) return header.status();
+  if (bytes.size() <= kFixedBytes) return Status(TKS_TRUNCATED, "The header is cut short.");
+  FieldReader body = bodyOf(bytes);
+  uint64_t payload = 0;
+  body.varint("payload_bytes", payload, 0, UINT64_MAX >> 1);
+  if (!body.ok()) return body.status();
+  return *header + payload;
+}
+
+}  // namespace tetrakis::inline stream
