@@ -102,6 +102,8 @@ Status open(std::span<const uint8_t> bytes, const tks_limits* limits, const Refe
       return status;
   }
   Result<ParsedHeader> parsed = readHeader(decoder.data, choice);
+  if (!parsed.ok() && decoder.sketched && parsed.status().code() == TKS_TRUNCATED)
+    return needMore(*leastBytes(bytes));
   if (!parsed.ok()) return parsed.status();
   decoder.parsed = std::move(*parsed);
   const StreamHeader& header = decoder.parsed.header;

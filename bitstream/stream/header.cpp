@@ -14,12 +14,12 @@ namespace {
 
 constexpr size_t kChecksumBytes = 4;
 
-Status needMore(size_t bytes) {
+}  // namespace
+
+Status needMore(uint64_t bytes) {
   return {TKS_TRUNCATED, "The stream ends inside its header: at least " + std::to_string(bytes) +
                              " bytes are needed."};
 }
-
-}  // namespace
 
 bool Metadata::isDefault() const {
   return scale == 1 && offset == 0 && spacing_x == 0 && spacing_y == 0 && unit.empty() &&

@@ -156,6 +156,9 @@ struct ParsedHeader {
 /// greater than bytes.size(). TKS_CORRUPT, TKS_UNSUPPORTED.
 Result<uint64_t> headerBytes(std::span<const uint8_t> bytes);
 
+/// TKS_TRUNCATED: a header ends early, and needs so many bytes at least.
+Status needMore(uint64_t bytes);
+
 /// TKS_TRUNCATED with the number of bytes needed if `bytes` ends early; TKS_CORRUPT,
 /// TKS_UNSUPPORTED. Metadata, place and promise of a chosen component that is not the first of its
 /// kind are its own; the header of such a choice is not for writing.

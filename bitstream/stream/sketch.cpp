@@ -20,18 +20,27 @@ FieldReader bodyOf(std::span<const uint8_t> bytes) {
   return FieldReader(bytes.subspan(begin), begin);
 }
 
-/// The sketch of the stream; none also where its place is not known yet.
-std::optional<ShownStream> sketchIn(std::span<const uint8_t> bytes) {
+/// What the first bytes of a stream tell of its sketch.
+struct Beginning {
+  std::optional<ShownStream> sketch;  ///< of one that is there
+  bool is_known = true;               ///< whether there is one, and where
+};
+
+Beginning beginningOf(std::span<const uint8_t> bytes) {
   constexpr uint64_t kChecksumBytes = 4;
   const Result<uint64_t> header = headerBytes(bytes);
-  if (!header.ok() || bytes.size() <= kFixedBytes) return {};
+  if (!header.ok()) return {};
+  if (bytes.size() <= kFixedBytes) return {{}, false};
   FieldReader body = bodyOf(bytes);
   body.take();  // payload_bytes
-  if (body.take() != kSketch) return {};
-  const uint64_t size = body.take();
+  const bool has_sketch = body.take() == kSketch;
+  const uint64_t size = has_sketch ? body.take() : 0;
+  if (body.starved()) return {{}, *header <= bytes.size()};
   const uint64_t begin = body.origin() + body.position();
-  if (!body.ok() || size == 0 || size > *header - kChecksumBytes - begin) return {};
-  return ShownStream{begin, begin + size};
+  if (!body.ok() || size == 0 || begin + kChecksumBytes > *header ||
+      size > *header - kChecksumBytes - begin)
+    return {};
+  return {ShownStream{begin, begin + size}, true};
 }
 
 }  // namespace
@@ -47,7 +56,7 @@ ShownStream shownIn(std::span<const uint8_t> bytes) {
     const std::span<const uint8_t> here = shown.of(bytes);
     const Result<uint64_t> header = headerBytes(here);
     if (!header.ok() || *header <= here.size()) return shown;
-    const std::optional<ShownStream> sketch = sketchIn(here);
+    const std::optional<ShownStream> sketch = beginningOf(here).sketch;
     if (!sketch || sketch->begin > here.size()) return shown;
     shown = {shown.begin + sketch->begin, shown.begin + sketch->end};
   }
@@ -58,9 +67,10 @@ Result<uint64_t> leastBytes(std::span<const uint8_t> bytes) {
   while (true) {
     const Result<uint64_t> header = headerBytes(bytes);
     if (!header.ok()) return header.status();
-    const std::optional<ShownStream> sketch = sketchIn(bytes);
+    const auto [sketch, is_known] = beginningOf(bytes);
+    if (!is_known || (sketch && sketch->begin >= bytes.size()))
+      return begin + std::min<uint64_t>(*header, bytes.size() + 1);
     if (!sketch) return begin + *header;
-    if (sketch->begin >= bytes.size()) return begin + sketch->begin + 1;
     bytes = sketch->of(bytes);
     begin += sketch->begin;
   }

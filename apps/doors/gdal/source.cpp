@@ -90,7 +90,9 @@ bool Source::readHeader(uint64_t there) {
   end_ = there;
   const std::optional<uint64_t> header = chain_ ? end_ : findHeader();
   if (!header) return false;
-  const tks_status status = openPrefix(std::min(end_, std::max(kHeaderGuess, *header)));
+  tks_status status = openPrefix(std::min(end_, std::max(kHeaderGuess, *header)));
+  if (status == TKS_OK && info_.shows_sketch)
+    status = openPrefix(std::min(end_, info_.header_bytes));
   if (end_ == 0) message_ = "There are no bytes.";
   if (status != TKS_OK && status != TKS_IO) reportFailure(status, name_, message_);
   return status == TKS_OK;

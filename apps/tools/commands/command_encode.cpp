@@ -375,6 +375,8 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
     return {TKS_USAGE, "frames are given by a pattern in quotes: 'frames/*.tif'"};
   if (arguments.kind != "auto")
     return {TKS_USAGE, "--class is about meshes of triangles, and the input is none"};
+  if (arguments.sketch != "auto")
+    return {TKS_USAGE, "--sketch is about meshes of triangles, and the input is none"};
   Result<EncodeOutputs> outputs = planOutputs(arguments);
   if (!outputs.ok()) return outputs.status();
   Result<Reference> inputs = readInputs(arguments, quiet);

@@ -176,6 +176,8 @@ Json infoJson(const tks_info& info) {
           {"available_bytes", info.available_bytes},
           {"complete", info.available_bytes >= info.stream_bytes},
           {"header_bytes", info.header_bytes},
+          {"least_bytes", info.least_bytes},
+          {"shows_sketch", info.shows_sketch != 0},
           {"geometry_bytes", info.geometry_bytes},
           {"texture_bytes", info.texture_bytes},
           {"packets", info.packets},

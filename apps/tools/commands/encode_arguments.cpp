@@ -83,6 +83,10 @@ void addTuning(CLI::App& verb, EncodeArguments& arguments) {
           "How a mesh is coded: resampled, triangles (as they are), or auto (what is nearer)")
       ->check(silent(CLI::IsMember({"auto", "resampled", "triangles"})))
       ->type_name("CLASS");
+  verb.add_option("--sketch", arguments.sketch,
+                  "Of a mesh, what the stream begins with, so that something is seen early: a "
+                  "stream of SIZE bytes, none, or auto (a 32nd part, where the header is long)")
+      ->type_name("SIZE");
   addThreads(verb, arguments.threads);
   verb.add_flag("--index", arguments.index, "Write the front index of all packets");
   verb.add_flag(

@@ -60,6 +60,15 @@ Status checkSurfaceMemory(const SurfaceInputs& inputs) {
                         kTriangle * inputs.mesh.triangles.size() + kImages * image);
 }
 
+/// --sketch as tks_triangle_mesh has it.
+Result<uint64_t> parseSketch(const std::string& text) {
+  if (text == "auto") return uint64_t{0};
+  if (text == "none") return uint64_t{TKS_NO_SKETCH};
+  const Result<uint64_t> size = parseSize(text);
+  if (size.ok() && *size > 0) return *size;
+  return Status(TKS_USAGE, "--sketch takes a size, none or auto, not " + quoted(text));
+}
+
 /// A view of the inputs.
 tks_triangle_mesh asTriangleMesh(const SurfaceInputs& inputs, const std::string& kind) {
   const SurfaceFile& file = inputs.mesh;
@@ -131,7 +140,10 @@ Result<Buffer> encodeMesh(const EncodeArguments& arguments, const SurfaceInputs&
   Progress progress("encoding", quiet);
   options->progress = &Progress::report;
   options->user = &progress;
-  const tks_triangle_mesh mesh = asTriangleMesh(inputs, arguments.kind);
+  const Result<uint64_t> sketch = parseSketch(arguments.sketch);
+  if (!sketch.ok()) return sketch.status();
+  tks_triangle_mesh mesh = asTriangleMesh(inputs, arguments.kind);
+  mesh.sketch_bytes = *sketch;
   const std::optional<ImageFile>& texture = inputs.mesh.texture;
   const tks_image image = texture ? asImage(*texture) : tks_image{};
   return encodeObject(mesh, texture ? &image : nullptr, *options, &report);
@@ -214,6 +226,9 @@ std::string objectNote(const tks_object_report& report, const std::string& unit)
   return (report.kind == TKS_OBJECT_TRIANGLES
               ? counted(report.coded_triangles, "triangle", "triangles")
               : squares(report.patches, report.depth) + " samples" + texels) +
+         (report.sketch_bytes > 0
+              ? " behind a sketch of " + std::to_string(report.sketch_bytes) + " bytes"
+              : std::string()) +
          "; RMS distance to the mesh " + inUnit(report.error, unit) + " (" + exact +
          " dB of its diagonal), largest " + inUnit(report.largest, unit);
 }

@@ -128,10 +128,10 @@ Status boundByChannel(const tks_info& info, ReceiverPlan& plan) {
   if (bytes >= static_cast<double>(plan.bytes)) return {};
   plan.bytes = static_cast<uint64_t>(bytes);
   plan.limit = "channel";
-  if (plan.bytes >= info.header_bytes) return {};
+  if (plan.bytes >= info.least_bytes) return {};
   return {TKS_USAGE, "in that time " + std::to_string(plan.bytes) +
                          " bytes come, and the header alone takes " +
-                         std::to_string(info.header_bytes)};
+                         std::to_string(info.least_bytes)};
 }
 
 }  // namespace

@@ -77,7 +77,9 @@ extern "C" {
   NUMBER(objectTriangles, object_triangles)                \
   NUMBER(frames, frames)                                   \
   NUMBER(frame, frame)                                     \
-  NUMBER(components, components)
+  NUMBER(components, components)                           \
+  NUMBER(showsSketch, shows_sketch)                        \
+  NUMBER(leastBytes, least_bytes)
 
 /// The names, in the order in which web_numbers() writes the numbers.
 const char* web_names() {

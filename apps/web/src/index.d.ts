@@ -132,6 +132,10 @@ export interface TerrainInfo {
   formatVersion: number;
   headerBytes: number;
   streamBytes: number;
+  /** The fewest bytes that show something: the header or, with a sketch, that of the sketch. */
+  leastBytes: number;
+  /** The bytes end inside the header: all else is about the sketch that the stream begins with. */
+  showsSketch: boolean;
   /** How many frames the stream has, and which of them this is. */
   frames: number;
   frame: number;

@@ -105,7 +105,7 @@ export class Opened {
     });
     const info = Object.fromEntries(names.map((name, i) => [name, numbers[i]]));
     for (const name of Object.keys(info)) {
-      if (/^(h|textureH)as[A-Z]|^(lossless|textureOpaque|voidsKnown)$/.test(name))
+      if (/^(h|textureH)as[A-Z]|^(lossless|textureOpaque|voidsKnown|showsSketch)$/.test(name))
         info[name] = info[name] !== 0;
     }
     for (const name of ['domain', 'textureDomain']) info[name] = DOMAINS[info[name]];

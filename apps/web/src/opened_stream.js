@@ -5,8 +5,9 @@ import {TksError} from './error.js';
 import {MESSAGE_BYTES} from './instance.js';
 import {Opened} from './opened.js';
 
-/** Magic, version, profile, level and a varint: these tell how many bytes the header takes. */
-const MOST_BEFORE_BODY = 17;
+/** Magic, version, profile, level and some varints: these tell how many bytes the header takes, or
+ * where a sketch begins. */
+const MOST_BEFORE_BODY = 40;
 /** A choice of no others. */
 const FIRST = {heights: -1, texture: -1};
 
@@ -15,7 +16,7 @@ export class OpenedStream extends Opened {
   /** first: gives so many of the first bytes, as far as they are here; chain: the address of what
    * the stream goes on from; component: as choiceOf() takes it. */
   constructor(instance, first, chain, component) {
-    const needed = OpenedStream.#headerBytes(instance, first(MOST_BEFORE_BODY));
+    const needed = OpenedStream.#leastBytes(instance, first);
     const header = first(needed), copy = instance.allocate(header.length);
     instance.view(Uint8Array, copy, header.length).set(header);
     let decoder;
@@ -50,6 +51,14 @@ export class OpenedStream extends Opened {
     } catch (error) {
       if (error instanceof TksError) this.close();
       throw error;
+    }
+  }
+  /** How many bytes a decoder opens, as far as those that are here tell. */
+  static #leastBytes(instance, first) {
+    for (let known = first(MOST_BEFORE_BODY);;) {
+      const needed = OpenedStream.#headerBytes(instance, known), more = first(needed);
+      if (more.length <= known.length) return needed;
+      known = more;
     }
   }
   /** Of what is no header so many bytes that decoders refuse them. */

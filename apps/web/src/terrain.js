@@ -90,8 +90,8 @@ export class Terrain {
 
   async decode({bytes = Infinity, signal, ...options} = {}) {
     checkBytes(bytes);
-    const {headerBytes = 0, streamBytes = bytes} = this.info ?? {};
-    const wanted = Math.min(Math.max(bytes, headerBytes), streamBytes);
+    const {leastBytes = 0, streamBytes = bytes} = this.info ?? {};
+    const wanted = Math.min(Math.max(bytes, leastBytes), streamBytes);
     const {view, globe, triangles, component} = {...DEFAULTS, ...options};
     const have = await this.load(wanted, {signal, view, globe, triangles, component});
     return this.#frame(have, {...options, signal});
@@ -115,8 +115,8 @@ export class Terrain {
   /** While a frame is decoded and shown, bytes come on; the next one takes what is here by then. */
   async *refine({bytes = Infinity, signal, first, after = 0, ...options} = {}) {
     checkBytes(bytes);
-    const {headerBytes, streamBytes} = this.info;
-    const limit = Math.min(Math.max(bytes, headerBytes), streamBytes);
+    const {leastBytes, streamBytes} = this.info;
+    const limit = Math.min(Math.max(bytes, leastBytes), streamBytes);
     let shown = after, beginning = null;
     if (!after) {
       shown = await this.load(Math.min(this.#fetcher.bytes, limit), {signal});
@@ -132,7 +132,7 @@ export class Terrain {
       if (beginning) yield await beginning;
       if (first) shown = 0;  // not yet as it is asked for
       for (;;) {
-        const wanted = headerBytes + GROWTH * Math.max(shown - headerBytes, FIRST_BYTES);
+        const wanted = leastBytes + GROWTH * Math.max(shown - leastBytes, FIRST_BYTES);
         await abortable(this.#fetcher.reached(2 * wanted > limit ? limit : wanted, all), signal);
         const patience = this.#fetcher.patience(limit - this.#fetcher.bytes, took);
         if (patience) await abortable(within(patience, all), signal);

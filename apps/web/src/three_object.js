@@ -69,7 +69,8 @@ export class TksObject extends RefiningMesh {
 
   draw({object, texture, info}) {
     if (object) {
-      if (!this.frame && info.hasTexture) this.#texel = texelOf(object, info);
+      const isFirst = this.frame?.info.showsSketch !== info.showsSketch;
+      if (isFirst && info.hasTexture) this.#texel = texelOf(object, info);
       this.#next = geometryOf(object);
     }
     if (texture) this.take(textureOf(texture), () => this.#showNext());

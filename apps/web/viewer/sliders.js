@@ -11,8 +11,8 @@ const LEAST_TRIANGLES = 100, MOST_TRIANGLES = 1e6, USUAL_TRIANGLES = 50000;
 const fromSlider = (slider, least, most) => least * (most / least) ** (slider.value / 1000);
 const toSlider = (value, least, most) => (1000 * Math.log(value / least)) / Math.log(most / least);
 
-/** Of the header alone there is a surface too. */
-const leastBytes = ({headerBytes, streamBytes}) => Math.min(headerBytes, streamBytes - 1);
+/** Of the header alone there is a surface too, and of a sketch. */
+const leastBytes = (info) => Math.min(info.leastBytes, info.streamBytes - 1);
 /** Of an object no fewer than two for each patch. */
 const leastTriangles = ({isObject, hasHeights, width, height}) =>
   Math.max(LEAST_TRIANGLES, isObject && hasHeights ? (2 * height) / width : 0);

@@ -61,6 +61,9 @@ class Access:
             self._header = decoder.info()
         if self._source is not None and not self._header.index:
             self._read_all()  # nothing tells where its packets lie
+            if self._header.shows_sketch:
+                with self._made() as decoder:
+                    self._header = decoder.info()
 
     def __getstate__(self) -> Any:
         return self._data, self._source, self._limits, self._threads, self._chosen

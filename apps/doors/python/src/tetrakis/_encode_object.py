@@ -76,6 +76,8 @@ class ObjectReport(NamedTuple):
     as_resampled: Optional[ObjectTrial]
     as_triangles: Optional[ObjectTrial]
     """Of which `kind` is the better one. None: it was not asked for, or cannot meet the target."""
+    sketch_bytes: Optional[int]
+    """Of the sketch that the stream begins with; None: there is none."""
 
 
 class EncodedObject(builtins.bytes):
@@ -203,11 +205,21 @@ def _trial(raw: c.ObjectTrial) -> Optional[ObjectTrial]:
 def _report(raw: c.ObjectReport) -> ObjectReport:
     told = {name: getattr(raw, name) for name in ObjectReport._fields}
     told["kind"] = c.OBJECT_KINDS[raw.kind]
-    for name in ("texture_depth", "coded_triangles"):
+    for name in ("texture_depth", "coded_triangles", "sketch_bytes"):
         told[name] = told[name] or None
     for name in ("as_resampled", "as_triangles"):
         told[name] = _trial(told[name])
     return ObjectReport(**told)
+
+
+def _sketch_bytes(sketch: Union[str, int, None]) -> int:
+    if sketch is None:
+        return c.NO_SKETCH
+    if sketch == "auto":
+        return 0
+    if isinstance(sketch, str) or values.unsigned(sketch, "sketch", 63) == 0:
+        raise TksUsageError('sketch must be a number of bytes, None or "auto".')
+    return int(sketch)
 
 
 def encode_object(
@@ -220,6 +232,7 @@ def encode_object(
     psnr: Optional[float] = None,
     max_error: Optional[float] = None,
     kind: str = "auto",
+    sketch: Union[str, int, None] = "auto",
     unit: Optional[str] = None,
     description: Optional[str] = None,
     index: Union[bool, str] = False,
@@ -234,6 +247,9 @@ def encode_object(
         of any number, not its triangles. This suits scans and sculptures. "triangles": they are
         coded as they are, or fewer ones where the target takes no more; this suits designed parts
         and models of few triangles. "auto": in whichever way comes nearer to the mesh.
+
+    sketch: what the stream begins with, so that something is seen early: a stream of about so many
+        bytes, None, or "auto": a 32nd part, where the header is long.
 
     The mesh
         points: (n, 3) of any numbers that float64 holds. triangles: (m, 3) places in `points`,
@@ -276,6 +292,7 @@ def encode_object(
         raise TksUsageError("texcoords are places in a texture: give one.")
     mesh, arrays = _mesh_struct(given, dict(unit=unit, description=description))
     mesh.kind = values.choice(kind, c.OBJECT_KINDS, "kind")
+    mesh.sketch_bytes = _sketch_bytes(sketch)
     image, texels = None, None
     if given.texture is not None:
         image, texels = image_struct(given.texture, _PLAIN_IMAGE)

@@ -110,14 +110,20 @@ class Info:
     """How many the stream has; those of several are for :func:`tetrakis.open_sequence`."""
     components: int
     """How many rasters the stream has: `Stream.components` lists them."""
+    shows_sketch: bool
+    """The bytes end inside the header: all but `header_bytes`, `stream_bytes` and `available_bytes`
+    is about the sketch that the stream of an object begins with."""
+    least_bytes: int
+    """The fewest bytes of the stream that show something: its header or, with a sketch, that of
+    the sketch."""
 
 
 _PLAIN = (
     "format_version header_bytes stream_bytes available_bytes packets geometry_bytes texture_bytes "
-    "coarsest_level frames components heights_drawn scale offset step base texture_coarsest_level "
+    "least_bytes coarsest_level frames components heights_drawn scale offset step base texture_coarsest_level "
     "texture_cutout texture_drawn"
 ).split()
-_BOOLEAN = "lossless exact_steps has_voids voids_known".split()
+_BOOLEAN = "lossless exact_steps has_voids voids_known shows_sketch".split()
 _TEXT = "unit vertical_datum crs description geo_keys texture_crs texture_geo_keys".split()
 _FROM_ZERO = "max_error heights_rmse texture_psnr".split()
 _ABOVE_ZERO = "triangles regions texture_regions texture_white_level".split()

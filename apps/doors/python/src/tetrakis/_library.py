@@ -37,6 +37,7 @@ REGISTRATIONS = (None, "area", "point")
 WEIGHTS = ("psnr", "visual")
 INDEXES = (False, True, "windows")
 OBJECT_KINDS = ("auto", "resampled", "triangles")
+NO_SKETCH = 2**64 - 1
 DOMAINS = ("plane", "cylinder", "forest")
 GIVEN_DOMAINS = ("plane", "cylinder", "cube")  # a cube is a forest
 
@@ -221,6 +222,7 @@ class TriangleMesh(ctypes.Structure):
         ("description", c_char_p),
         ("texcoords", c_void_p),
         ("kind", c_int),
+        ("sketch_bytes", c_uint64),
     ]
 
 
@@ -256,6 +258,7 @@ class ObjectReport(ctypes.Structure):
         ("coded_triangles", c_uint32),
         ("as_resampled", ObjectTrial),
         ("as_triangles", ObjectTrial),
+        ("sketch_bytes", c_uint64),
     ]
 
 
@@ -364,6 +367,8 @@ class StreamInfo(ctypes.Structure):
         ("frames", c_uint32),
         ("frame", c_uint32),
         ("components", c_uint32),
+        ("shows_sketch", c_int),
+        ("least_bytes", c_uint64),
     ]
 
 
