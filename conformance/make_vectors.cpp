@@ -32,6 +32,9 @@ std::vector<size_t> cutsOf(std::span<const uint8_t> stream, bool dense) {
   const size_t header = static_cast<size_t>(decoder->info().header_bytes);
   std::vector<size_t> cuts{header - 1, header, header + 1, header + 7};
   const size_t parts = dense ? 96 : 8;
+  const size_t least = static_cast<size_t>(decoder->info().least_bytes);
+  for (size_t part = 0; least < header && part <= parts; ++part)
+    cuts.push_back(least - 1 + (header - least) * part / parts);
   for (size_t part = 1; part < parts; ++part)
     cuts.push_back(header + (size - header) * part / parts);
   cuts.push_back(size - 1);

@@ -436,6 +436,11 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
      "details, further components, heights by wavelet, levels of several filters"},
     {"details_over_9x9",
      "details, further components, georeference, heights by wavelet, levels of several filters"},
+    {"sketch_33x33", "heights by wavelet, levels of several filters, sketch"},
+    {"sketch_twice_33x33", "heights by wavelet, levels of several filters, sketch"},
+    {"sketch_unsound_20x20", "heights by wavelet, levels of several filters, sketch"},
+    {"sketch_late_9x9", "heights by wavelet, levels of several filters"},
+    {"sketch_empty_9x9", "heights by wavelet, levels of several filters"},
     {"part_of_heights_9x9", "heights by wavelet, levels of several filters"},
 };
 

@@ -46,6 +46,9 @@ std::vector<VectorCase> damagedCases();
 std::vector<VectorCase> regionMaskCases();
 // component_cases.cpp
 std::vector<VectorCase> componentCases();
+
+/// Headers that begin with a stream of their own.
+std::vector<VectorCase> sketchCases();
 // frame_cases.cpp
 std::vector<VectorCase> frameCases();
 // crafted_cases.cpp: all of these.

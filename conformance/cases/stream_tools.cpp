@@ -89,6 +89,7 @@ Tools toolsOf(std::span<const uint8_t> stream) {
   if (header.geometry && !header.geometry->base_mesh.none()) tools.insert("base mesh");
   if (!header.triangle_mesh.none()) tools.insert("triangle mesh");
   if (header.triangle_mesh.texcoord_bits > 0) tools.insert("texcoords");
+  if (!header.sketch.empty()) tools.insert("sketch");
   if (!header.index.empty()) tools.insert("index");
   if (header.georeference.heights.has_transform || header.georeference.texture.has_transform)
     tools.insert("georeference");
@@ -145,6 +146,7 @@ Tools allTools() {
           "repeated texels",
           "scales of frames",
           "shears of coefficients",
+          "sketch",
           "stand-in knots",
           "stored heights",
           "stored texture",

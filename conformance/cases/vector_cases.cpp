@@ -34,6 +34,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : unusualAndRefusedCases()) all.push_back(std::move(next));
   for (VectorCase& next : listCases()) all.push_back(std::move(next));
   for (VectorCase& next : componentCases()) all.push_back(std::move(next));
+  for (VectorCase& next : sketchCases()) all.push_back(std::move(next));
   for (VectorCase& next : damagedCases()) all.push_back(std::move(next));
   return all;
 }

@@ -32,6 +32,10 @@ class Parts {
     readNext();
     return true;
   }
+  /// Passes over the next part, if it is of that kind: parts of any kind may follow.
+  void passFirst(uint64_t kind) {
+    if (next_ && next_->kind == kind) readNext();
+  }
   void end() { skipBefore({}); }
 
  private:

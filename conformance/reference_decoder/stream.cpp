@@ -148,6 +148,7 @@ uint64_t readBody(std::span<const uint8_t> body, Stream& stream) {
   Reader in(body);
   const uint64_t payloadBytes = in.varint(0, INT64_MAX);
   Parts parts(in);
+  parts.passFirst(75);
   std::vector<Domain> domains;
   while (stream.components.size() < 16 &&
          parts.take(0, [&](Reader& p) { readComponent(p, domains, stream); })) {
@@ -182,6 +183,21 @@ std::span<const uint8_t> readHeader(std::span<const uint8_t> prefix, Stream& str
   const bool sound = stream.outcome != Outcome::kDone || level == levelOf(stream);
   if (crc != crc32(sealed) || !sound) stream.outcome = Outcome::kCorrupt;
   return in.rest().first(std::min<uint64_t>(payloadBytes, in.rest().size()));
+}
+
+/// FORMAT 10, Sketch: the bytes that there are of it, of a prefix that ends inside the header.
+std::optional<std::span<const uint8_t>> sketchIn(std::span<const uint8_t> prefix) {
+  Reader in(prefix);
+  in.take(7);  // magic, version, profile, level
+  const uint64_t bodyBytes = in.varint(0, 1 << 26);
+  const size_t before = in.rest().size();
+  in.varint(0, UINT64_MAX);  // payload_bytes
+  const uint64_t kind = in.varint(0, UINT64_MAX);
+  const uint64_t bytes = kind == 75 ? in.varint(0, UINT64_MAX) : 0;
+  const uint64_t told = before - in.rest().size();
+  if (in.outcome() != Outcome::kDone || bytes == 0) return {};
+  if (told > bodyBytes || bytes > bodyBytes - told) return {};
+  return in.rest().first(std::min<uint64_t>(bytes, in.rest().size()));
 }
 
 /// One codeword for each track of either component.
@@ -226,7 +242,14 @@ Outcome readPackets(std::span<const uint8_t> payload, Stream& stream) {
 Stream readStream(std::span<const uint8_t> prefix, uint64_t maxSamples, const Choice& choice) {
   Stream stream;
   stream.choice = choice;
-  const auto payload = readHeader(prefix, stream);
+  auto payload = readHeader(prefix, stream);
+  while (stream.outcome == Outcome::kTruncated) {
+    const auto sketch = sketchIn(prefix);
+    if (!sketch) return stream;
+    stream = {};
+    stream.choice = choice;
+    payload = readHeader(prefix = *sketch, stream);
+  }
   if (stream.outcome != Outcome::kDone) return stream;
   const bool tooLarge = samplesOf(stream) > maxSamples;
   stream.outcome = tooLarge ? Outcome::kTooLarge : readPackets(payload, stream);
