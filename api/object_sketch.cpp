@@ -13,11 +13,14 @@ namespace tetrakis::inline api {
 namespace {
 
 /// A header of more bytes than this, and than this part of its stream, comes late.
-constexpr uint64_t kLateBytes = 4096, kLatePart = 16;
+constexpr uint64_t kLateBytes = 4096;
+constexpr uint64_t kLatePart = 16;
 
 /// A sketch takes this part of the stream: a larger one shows more for as long as the header is on
 /// its way, and takes more off all that comes then.
-constexpr uint64_t kSketchPart = 32, kFewest = 1000, kMost = 32768;
+constexpr uint64_t kSketchPart = 32;
+constexpr uint64_t kFewest = 1000;
+constexpr uint64_t kMost = 32768;
 
 /// What a sketch takes beside its own bytes: kind and length of its part, and more digits of the
 /// body's length.

@@ -11,6 +11,8 @@
 namespace tetrakis::test {
 namespace {
 
+using namespace std::literals;
+
 class CliObject : public CliTest {
  protected:
   /// A ball with bumps and a texture, blob.glb, blob.obj or blob.ply, and blob.tks, which resamples
@@ -173,6 +175,36 @@ TEST_F(CliObject, TrianglesStayAsTheyAre) {
   const Outcome few = cli("decode blob.tks --mesh few.glb --triangles 100");
   EXPECT_EQ(few.code, 1);
   EXPECT_NE(few.err.find("there is no mesh of fewer"), std::string::npos) << few.err;
+}
+
+TEST_F(CliObject, SketchesAreSeenAtOnce) {
+  ASSERT_EQ(cli("synth --kind blob --triangles 1000 -o blob.glb").code, 0);
+  const Outcome run =
+      cli("encode blob.glb --class triangles --bytes 16k --sketch 1500 -o blob.tks");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.err.find("behind a sketch of 1"), std::string::npos) << run.err;
+  EXPECT_LE(content("blob.tks").size(), size_t{16} << 10);
+  const nlohmann::json info = nlohmann::json::parse(cli("info blob.tks --json").out);
+  EXPECT_EQ(info["shows_sketch"], false);
+  EXPECT_LT(info["least_bytes"], 1000);
+  const std::string least = std::to_string(info["least_bytes"].get<int>());
+  ASSERT_EQ(cli("truncate blob.tks --bytes 1600 -o cut.tks").code, 0);
+  for (const std::string& early : {"cut.tks"s, "blob.tks --bytes " + least}) {
+    const nlohmann::json cut = nlohmann::json::parse(cli("info --json " + early).out);
+    EXPECT_EQ(cut["shows_sketch"], true) << early;
+    EXPECT_EQ(cut["complete"], false);
+    EXPECT_EQ(cut["stream_bytes"], info["stream_bytes"]);
+    ASSERT_EQ(cli("decode --mesh early.glb -f --triangles 900 " + early).code, 0);
+    EXPECT_LE(tools::readSurface(path("early.glb"))->triangles.size(), 900u);
+  }
+  EXPECT_GT(compared("--bytes 1600 --mesh blob.glb")["surface_psnr"], 45);
+  EXPECT_NE(cli("verify cut.tks").code, 0);
+  ASSERT_EQ(cli("encode blob.glb --class triangles --bytes 16k --sketch none -o no.tks").code, 0);
+  const nlohmann::json none = nlohmann::json::parse(cli("info no.tks --json").out);
+  EXPECT_EQ(none["least_bytes"], none["header_bytes"]);
+  for (const char* wrong : {"often", "0", "-5", "16k"})
+    EXPECT_EQ(cli(std::string("encode blob.glb --bytes 16k -o x.tks --sketch ") + wrong).code, 1)
+        << wrong;
 }
 
 TEST_F(CliObject, OptionsOfTerrainAreRefused) {

@@ -12,7 +12,7 @@ namespace {
 using tetrakis::web::Numbers;
 
 /// Of the last mesh, in the order of web_encode_object_report_names().
-double told[15];
+double told[16];
 
 void tell(const tks_object_report& report) {
   double* next = told;
@@ -25,6 +25,7 @@ void tell(const tks_object_report& report) {
   *next++ = report.texture_depth;
   *next++ = report.kind;
   *next++ = report.coded_triangles;
+  *next++ = static_cast<double>(report.sketch_bytes);
 }
 
 tks_triangle_mesh meshOf(Numbers& numbers, const char* const* texts, const void* const* data) {
@@ -33,6 +34,9 @@ tks_triangle_mesh meshOf(Numbers& numbers, const char* const* texts, const void*
   numbers.take(mesh.vertex_count);
   numbers.take(mesh.triangle_count);
   numbers.take(mesh.kind);
+  double sketch = 0;
+  numbers.take(sketch);
+  mesh.sketch_bytes = sketch < 0 ? TKS_NO_SKETCH : static_cast<uint64_t>(sketch);
   mesh.positions = static_cast<const double*>(data[0]);
   mesh.triangles = static_cast<const uint32_t*>(data[1]);
   mesh.texcoords = static_cast<const float*>(data[2]);
@@ -60,7 +64,7 @@ extern "C" {
 
 /// What the numbers of web_encode_object() are, by the names that JavaScript gives them.
 const char* web_encode_object_names() {
-  return "vertexCount triangleCount kind "
+  return "vertexCount triangleCount kind sketchBytes "
          "textureWidth textureHeight textureChannels textureSample textureOpaque "
          "textureWhiteLevel "
          "bytes psnr maxError index";
@@ -74,7 +78,7 @@ const char* web_encode_object_texts() {
 /// Likewise the numbers of web_encode_object_report().
 const char* web_encode_object_report_names() {
   return "triangles droppedTriangles cutEdges components borders patches depth diagonal "
-         "resamplingError error largest psnr textureDepth kind codedTriangles";
+         "resamplingError error largest psnr textureDepth kind codedTriangles sketchBytes";
 }
 
 /// Of the last mesh that was encoded.

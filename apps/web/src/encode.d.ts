@@ -100,6 +100,9 @@ export interface ObjectInput {
    * sculptures. 'triangles': they are coded as they are, or fewer ones where the target takes no
    * more; for designed parts. Default 'auto': in whichever way comes nearer to the mesh. */
   kind?: ObjectKind;
+  /** What the stream begins with, so that something is seen before a long header is there: a coarse
+   * stream of about so many bytes. Default 'auto': a 32nd part, where the header is long. */
+  sketch?: number | 'auto' | 'none';
   /** The targets, above 0, of which one is given; beside a texture it is `bytes`. The stream takes
    * at most so many bytes; the surface reaches 20 log10(diagonal / error) dB; all samples, or
    * corners, stay within so much of their places, in `unit`. */
@@ -129,6 +132,8 @@ export interface ObjectReport {
   resamplingError: number;
   /** Of one of triangles, else 0. */
   codedTriangles: number;
+  /** Of the sketch that the stream begins with; 0: there is none. */
+  sketchBytes: number;
   /** Of the box around the mesh. */
   diagonal: number;
   /** The larger of the two RMS distances, and the largest distance. */

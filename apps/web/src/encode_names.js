@@ -11,7 +11,7 @@ const TEXTURE = [...RASTER, 'channels', 'opaque', 'whiteLevel'];
 const INPUT = ['heights', 'texture', 'bytes', 'psnr', 'maxError', 'lossless', 'triangles',
   'regions', 'index', 'weights'];
 const OBJECT = ['positions', 'triangles', 'texcoords', 'texture', 'unit', 'description', 'kind',
-  'bytes', 'psnr', 'maxError', 'index'];
+  'sketch', 'bytes', 'psnr', 'maxError', 'index'];
 const TEXELS = ['data', 'width', 'height', 'channels', 'opaque', 'whiteLevel'];
 const OPTIONS = ['signal', 'worker', 'wasm', 'progress'];
 

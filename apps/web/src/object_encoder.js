@@ -30,12 +30,19 @@ function cornersOf({positions, triangles, texcoords, texture}) {
   return corners;
 }
 
+/** Below 0: none; 0: chosen. */
+function sketchOf(sketch = 'auto') {
+  if (sketch === 'auto' || sketch === 'none') return sketch === 'none' ? -1 : 0;
+  if (Number.isSafeInteger(sketch) && sketch > 0) return sketch;
+  throw new TksError('usage', "sketch is a number of bytes, 'none' or 'auto'.");
+}
+
 /** What web_encode_object() takes, by name. */
-function fieldsOf({positions, triangles, texture, kind, index, ...options}) {
+function fieldsOf({positions, triangles, texture, kind, sketch, index, ...options}) {
   return {
     vertexCount: countOf(positions, 3, 'positions'),
     triangleCount: countOf(triangles, 3, 'triangles'),
-    kind: oneOf(KINDS, kind, 'kind'), index: oneOf(INDEXES, index, 'index'),
+    kind: oneOf(KINDS, kind, 'kind'), sketchBytes: sketchOf(sketch), index: oneOf(INDEXES, index, 'index'),
     ...(texture ? texelFields(texture) : {}), ...targetFields(options),
   };
 }

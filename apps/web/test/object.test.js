@@ -338,6 +338,38 @@ test('triangles that are coded as they are come all at once', {skip, timeout: 60
   });
 });
 
+test('a sketch is shown until the header is there', {skip, timeout: 60000}, async () => {
+  await withFolder(async ({run, file}) => {
+    run('synth', '--kind', 'knot', '--triangles', '2000', '-o', 'knot.glb');
+    run('encode', 'knot.glb', '--bytes', '24k', '--class', 'triangles', '--sketch', '2k',
+      '-o', 'knot.tks');
+    const bytes = await file('knot.tks');
+    let all;
+    await withStream(bytes, async (terrain) => {
+      all = (await terrain.decode()).info;
+      assert.ok(all.leastBytes < 1500 && all.headerBytes > 4000, JSON.stringify(all));
+      for (const cut of [0, all.leastBytes + 100, all.headerBytes - 1, all.headerBytes, 3e4]) {
+        const {info, object, texture, complete} = await terrain.decode({bytes: cut});
+        assert.equal(info.showsSketch, cut < all.headerBytes, `${cut}`);
+        assert.equal(info.objectTriangles > 0, cut >= all.headerBytes);
+        assert.equal(info.streamBytes, bytes.length);
+        assert.equal(complete, cut > bytes.length);
+        assert.ok(object.triangles.length > 0 && texture.width > 0);
+      }
+    });
+    const cut = bytes.slice(0, 3000);
+    await withStream(cut, async (terrain) => {
+      assert.ok((await terrain.decode()).info.showsSketch);
+    });
+    // Bytes that come one after the other.
+    await withStream(bytes, async (terrain) => {
+      const shown = [];
+      for await (const {info} of terrain.refine()) shown.push(info.showsSketch);
+      assert.equal(shown.at(-1), false);
+    });
+  });
+});
+
 test('places on a texture that repeats lie beyond its corners', {skip}, async () => {
   await withFolder(async ({folder, run, file}) => {
     const places = ['-0.5 -1', '2.5 -1', '2.5 2'], corners = ['0 0 0', '4 0 0', '0 3 0'];

@@ -412,6 +412,28 @@ def test_triangles_come_back_as_they_are():
         assert opened._repr_html_().count("98 triangles") == 1
 
 
+def test_sketches_are_shown_until_the_header_is_there():
+    points, triangles, _ = grid(24)
+    make = dict(bytes=7000, kind="triangles")
+    stream = tetrakis.encode_object(points, triangles, sketch=900, **make)
+    assert len(stream) <= 7000 and 400 < stream.report.sketch_bytes <= 900
+    with tetrakis.open(stream) as opened:
+        info = opened.info
+        assert not info.shows_sketch and info.object_triangles
+        assert info.least_bytes < 900 < info.header_bytes
+    for cut in (info.least_bytes, 1000, info.header_bytes - 1):
+        with tetrakis.open(stream[:cut]) as opened:
+            assert opened.info.shows_sketch and opened.info.stream_bytes == len(stream)
+            assert len(opened.object(200).triangles) <= 200
+    with pytest.raises(tetrakis.TksTruncatedError):
+        tetrakis.open(stream[: info.least_bytes - 1])
+    assert tetrakis.encode_object(points, triangles, **make).report.sketch_bytes is None
+    assert tetrakis.encode_object(points, triangles, sketch=None, **make).report.sketch_bytes is None
+    for wrong in ("often", 0, -1, 7000):
+        with pytest.raises((tetrakis.TksUsageError, ValueError)):
+            tetrakis.encode_object(points, triangles, sketch=wrong, **make)
+
+
 def test_triangles_lie_under_their_texture():
     points, triangles, texcoords = grid(6)
     rows, columns = np.mgrid[:48, :64]
