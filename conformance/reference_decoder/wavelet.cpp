@@ -233,8 +233,9 @@ void synthesise(const WaveletHeader& header, int target, Plane& plane) {
   const Forest& forest = header.domain.forest;
   const std::vector<Subband> subbands = subbandsOf(plane.width, plane.height / forest.patches());
   for (const Subband& subband : subbands) {
-    const int level = subband.level, step = 1 << (level - 1);
+    const int level = subband.level;
     if (subband.orientation != kHH || level <= target) continue;
+    const int step = 1 << (level - 1);
     if (forest.isGrid()) {
       synthesiseLevel(header, subband, heldValues(header, subbands, level, plane), plane);
     } else {
