@@ -140,9 +140,10 @@ Status putSketched(tks_decoder& decoder, std::span<const Run> runs) {
   uint64_t end = before;
   for (const auto& [place, bytes] : runs) {
     if (place > end)
-      return {TKS_USAGE, "The header of the stream is not there yet, so that its bytes come in "
-                         "their order: byte " +
-                             std::to_string(end) + " is the next."};
+      return {TKS_USAGE,
+              "The header of the stream is not there yet, so that its bytes come in "
+              "their order: byte " +
+                  std::to_string(end) + " is the next."};
     if (bytes.size() > std::numeric_limits<uint64_t>::max() - place)
       return {TKS_USAGE, "No stream has so many bytes."};
     end = std::max(end, place + bytes.size());

@@ -42,9 +42,9 @@ struct TakenPackets {
 
 /// Bytes of a stream of which a sketch is shown, since they end inside its header.
 struct SketchedBytes {
-  ShownStream shown;                ///< the sketch among them
-  std::span<const uint8_t> all;     ///< the caller's, ...
-  std::vector<uint8_t> own;         ///< ... or, once there came more, these
+  ShownStream shown;                            ///< the sketch among them
+  std::span<const uint8_t> all;                 ///< the caller's, ...
+  std::vector<uint8_t> own;                     ///< ... or, once there came more, these
   uint64_t header_bytes = 0, stream_bytes = 0;  ///< of the stream that the sketch is of
 };
 

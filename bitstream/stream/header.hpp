@@ -115,8 +115,8 @@ struct StreamHeader {
   uint8_t profile = kMainProfile;
   uint8_t level = 0;
   uint64_t payload_bytes = 0;  ///< what the encoder wrote behind the header
-  std::string sketch;  ///< a stream that shows the same in fewer bytes (sketch.hpp); empty: none
-  uint8_t lossless = 0;        ///< the complete stream restores every sample
+  std::string sketch;    ///< a stream that shows the same in fewer bytes (sketch.hpp); empty: none
+  uint8_t lossless = 0;  ///< the complete stream restores every sample
   /// crc32() of the payload, by which a complete stream that promises something is known to be
   /// whole.
   std::optional<uint32_t> payload_crc;

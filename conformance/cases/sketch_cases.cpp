@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams whose header begins with a sketch: a stream that shows the same until the header is there.
+// Streams whose header begins with a sketch: a stream that is shown until the header is there.
 #include <cstddef>
 
 #include "conformance/cases/cases.hpp"

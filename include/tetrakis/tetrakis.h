@@ -569,10 +569,10 @@ tks_status tks_open(const uint8_t* data, size_t size, const tks_limits* limits, 
                     char* message, size_t message_size);
 void tks_close(tks_decoder* decoder);
 
-/* Sets *bytes to how many bytes of a stream, of which `size` are there, tks_open needs: those of its
- * header or, with a sketch, of the header of that. TKS_OK: they are there. TKS_TRUNCATED: so many
- * are needed, or more, if that is not known yet (ask again with them). TKS_CORRUPT or TKS_UNSUPPORTED, *bytes 0: this is no stream, or
- * none for this library. */
+/* Sets *bytes to how many bytes of a stream, of which `size` are there, tks_open needs: those of
+ * its header or, with a sketch, of the header of that. TKS_OK: they are there. TKS_TRUNCATED: so
+ * many are needed, or more, if that is not known yet (ask again with them). TKS_CORRUPT or
+ * TKS_UNSUPPORTED, *bytes 0: this is no stream, or none for this library. */
 tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes);
 
 /* Gives the decoder more bytes of the stream: those that follow what it has. The first time it

@@ -198,9 +198,9 @@ TEST(ObjectSketches, ThatCannotBeAreASentence) {
     tks_encode_options options = budget(2000);
     tks_buffer out{};
     std::vector<char> message(300);
-    EXPECT_EQ(tks_encode_object(&mesh, nullptr, &options, nullptr, &out, message.data(),
-                                message.size()),
-              TKS_USAGE)
+    EXPECT_EQ(
+        tks_encode_object(&mesh, nullptr, &options, nullptr, &out, message.data(), message.size()),
+        TKS_USAGE)
         << bytes;
     EXPECT_NE(message[0], 0);
     EXPECT_EQ(out.data, nullptr);

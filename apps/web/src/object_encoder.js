@@ -42,7 +42,8 @@ function fieldsOf({positions, triangles, texture, kind, sketch, index, ...option
   return {
     vertexCount: countOf(positions, 3, 'positions'),
     triangleCount: countOf(triangles, 3, 'triangles'),
-    kind: oneOf(KINDS, kind, 'kind'), sketchBytes: sketchOf(sketch), index: oneOf(INDEXES, index, 'index'),
+    kind: oneOf(KINDS, kind, 'kind'), sketchBytes: sketchOf(sketch),
+    index: oneOf(INDEXES, index, 'index'),
     ...(texture ? texelFields(texture) : {}), ...targetFields(options),
   };
 }
