@@ -113,10 +113,14 @@ Status putShown(tks_decoder& decoder, std::span<const Run> runs) {
   return {};
 }
 
-/// The decoder goes on as one of the stream whose sketch it showed, or of a finer sketch.
+/// The decoder goes on as one of the stream whose sketch it showed, or of a finer sketch. It is lost
+/// if memory ends on the way.
 Status takeInPlace(tks_decoder& decoder) {
   Result<OwnedDecoder> opened = openBehind(decoder.sketched->all, &decoder.limits, {});
-  if (!opened.ok()) return refuse(decoder, opened.status());
+  if (!opened.ok()) {
+    decoder.is_lost = false;
+    return refuse(decoder, opened.status());
+  }
   tks_decoder& next = **opened;
   keepBytes(next);
   const StreamHeader& header = next.parsed.header;
@@ -159,8 +163,8 @@ Status putSketched(tks_decoder& decoder, std::span<const Run> runs) {
                         bytes.end());
   }
   sketched.all = sketched.own;
-  decoder.is_lost = false;
   if (!(shownIn(sketched.all) == sketched.shown)) return takeInPlace(decoder);
+  decoder.is_lost = false;
   const std::span<const uint8_t> shown = sketched.shown.of(sketched.all);
   const Run run{decoder.data.size(), shown.subspan(decoder.data.size())};
   return putShown(decoder, {&run, 1});

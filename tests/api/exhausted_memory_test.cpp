@@ -172,6 +172,26 @@ std::vector<Called> givingCalls() {
       })};
 }
 
+/// Brings the header of a stream whose sketch was there.
+Called endingASketch(const Bytes& all, size_t there) {
+  const auto decode = [](Desk& d) {
+    tks_info info = {};
+    info.size = sizeof info;
+    EXPECT_EQ(tks_get_info(d.decoder, &info), TKS_OK);
+    EXPECT_EQ(info.shows_sketch, 0);
+    const size_t bytes = size_t{info.width} * info.height * tks_sample_bytes(info.sample);
+    EXPECT_EQ(tks_decode_heights(d.decoder, d.out.data(), bytes), TKS_OK);
+  };
+  return {"tks_append",
+          [&all, there](Desk& d) {
+            return tks_append(d.decoder, all.data() + there, all.size() - there);
+          },
+          [](Desk&) {},
+          decode,
+          true,
+          true};
+}
+
 /// Calls without a decoder.
 std::vector<Called> firstCalls() {
   static const Bytes& stream = indexedStream();
@@ -661,6 +681,12 @@ TEST(ExhaustedMemory, OfPositions) {
 
 TEST(ExhaustedMemory, OfMoreBytes) {
   exhaustAll(givingCalls(), Prefix(indexedStream()).first(indexedStream().size() / 2));
+}
+
+TEST(ExhaustedMemory, OfSketches) {
+  const Bytes stream = vectorOf("sketch_33x33");
+  for (const size_t there : {100u, 140u})
+    exhaust(endingASketch(stream, there), Prefix(stream).first(there));
 }
 
 TEST(ExhaustedMemory, OfMeshes) {
