@@ -113,8 +113,8 @@ Status putShown(tks_decoder& decoder, std::span<const Run> runs) {
   return {};
 }
 
-/// The decoder goes on as one of the stream whose sketch it showed, or of a finer sketch. It is lost
-/// if memory ends on the way.
+/// The decoder goes on as one of the stream whose sketch it showed, or of a finer sketch. If memory
+/// ends on the way it is lost.
 Status takeInPlace(tks_decoder& decoder) {
   Result<OwnedDecoder> opened = openBehind(decoder.sketched->all, &decoder.limits, {});
   if (!opened.ok()) {
