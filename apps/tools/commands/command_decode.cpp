@@ -13,6 +13,7 @@
 #include "apps/tools/commands/decode_memory.hpp"
 #include "apps/tools/commands/decode_outputs.hpp"
 #include "apps/tools/commands/decode_windows.hpp"
+#include "apps/tools/commands/decoded_maps.hpp"
 #include "apps/tools/commands/decoded_texture.hpp"
 #include "apps/tools/commands/engine_output.hpp"
 #include "apps/tools/commands/notes.hpp"
@@ -47,6 +48,16 @@ std::string rawNote(const std::string& name, const HeightFile& heights) {
   return "a .raw file has no header: read this one as " + name + ":" +
          std::to_string(heights.width) + "x" + std::to_string(heights.height) + ":" +
          sampleName(heights.sample);
+}
+
+/// Maps that the format of a mesh has no place for.
+std::string unwrittenNote(const std::string& name, const MeshMaps& maps) {
+  const std::string format = formatOf(name, "");
+  if (!maps.none() && format == "ply")
+    return "a .ply file has no place for maps: --component takes each out";
+  if (maps.at(MapKind::kOcclusion) != nullptr && format == "obj")
+    return "an .obj file has no place for the map of occlusion: --component takes it out";
+  return "";
 }
 
 /// What is guessed of the ground, where its proportions count.
@@ -142,9 +153,19 @@ class Decoding {
     if (texture && formatOf(outputs_.mesh->name(), "") == "ply")
       tellNote("a .ply file has no place for the texture: --texture writes it beside", quiet_);
     file->texture = texture;
+    const Result<DecodedMaps> maps = mapsBeside(texture);
+    if (!maps.ok()) return maps.status();
+    file->maps = maps->forMesh();
+    tellNote(unwrittenNote(outputs_.mesh->name(), file->maps), quiet_);
     return outputs_.mesh->stage([&](const std::string& path) {
       return writeMesh(path, *file, "", arguments_.mesh_options);
     });
+  }
+
+  /// A mesh that shows a component which somebody has chosen shows that alone.
+  Result<DecodedMaps> mapsBeside(const ImageFile* texture) {
+    if (texture == nullptr || !arguments_.source.components.empty()) return DecodedMaps();
+    return DecodedMaps::of(stream_, memory_.texture());
   }
 
   Result<MeshFile> object() {
