@@ -14,6 +14,7 @@ Result<DecodedMaps> DecodedMaps::of(const OpenStream& stream, uint64_t copies) {
   const tks_info& info = stream.decoder.info();
   if (info.object_triangles == 0) return maps;
   maps.material_ = materialOf(info.material);
+  maps.is_lit_ = *info.material != '\0';
   for (uint32_t number = 0; number < info.components; ++number) {
     const tks_component one = *stream.decoder.component(number);
     const auto name = std::find(kMapNames.begin(), kMapNames.end(), std::string_view(one.name));
@@ -21,9 +22,8 @@ Result<DecodedMaps> DecodedMaps::of(const OpenStream& stream, uint64_t copies) {
     if (!is_map || one.is_taken || name == kMapNames.end()) continue;
     const auto kind = static_cast<MapKind>(name - kMapNames.begin());
     if (Status status = maps.take(stream, number, kind, copies); !status.ok()) return status;
+    if (!maps.images_[static_cast<size_t>(kind)]) dropFactorsOf(kind, maps.material_.factors);
   }
-  for (size_t kind = 0; kind < kMapKinds; ++kind)
-    if (!maps.images_[kind]) dropFactorsOf(static_cast<MapKind>(kind), maps.material_.factors);
   return maps;
 }
 
@@ -47,6 +47,7 @@ MeshMaps DecodedMaps::forMesh() const {
   for (size_t kind = 0; kind < kMapKinds; ++kind)
     if (images_[kind]) maps.images[kind] = &*images_[kind];
   maps.material = material_;
+  maps.is_lit = is_lit_;
   return maps;
 }
 

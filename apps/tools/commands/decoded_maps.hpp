@@ -27,6 +27,7 @@ class DecodedMaps {
 
   std::array<std::optional<ImageFile>, kMapKinds> images_;
   Material material_;
+  bool is_lit_ = false;
 };
 
 }  // namespace tetrakis::tools

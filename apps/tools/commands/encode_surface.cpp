@@ -48,7 +48,7 @@ Status readFurther(const EncodeArguments& arguments, bool quiet, SurfaceInputs& 
   Result<std::vector<FurtherTexture>> further = furtherTextures(arguments, mesh, quiet);
   if (!further.ok()) return further.status();
   inputs.further = *std::move(further);
-  if (inputs.further.empty()) return {};
+  if (inputs.further.empty() && !mesh.maps.has_even) return {};
   inputs.material = materialText(mesh.maps.material);
   if (!mesh.texture) mesh.texture = plainTexture(mesh);
   return {};
@@ -56,7 +56,7 @@ Status readFurther(const EncodeArguments& arguments, bool quiet, SurfaceInputs& 
 
 /// What is told where there is no number of bytes.
 void leaveOutTextures(SurfaceFile& mesh, bool quiet) {
-  const bool has_maps = !mesh.maps.taken.empty();
+  const bool has_maps = !mesh.maps.taken.empty() || mesh.maps.has_even;
   if (!mesh.texture && !has_maps) return;
   tellNote(std::string(!has_maps       ? "the texture is left out: it goes"
                        : mesh.texture ? "the texture and other maps are left out: they go"

@@ -96,8 +96,9 @@ tks_image asImage(const ImageFile& file);
 struct MeshMaps {
   std::array<const ImageFile*, kMapKinds> images{};
   Material material{};
+  bool is_lit = false;  ///< the material counts, even without maps
 
-  bool none() const { return images == decltype(images){}; }
+  bool none() const { return images == decltype(images){} && !is_lit; }
   const ImageFile* at(MapKind kind) const { return images[static_cast<size_t>(kind)]; }
 };
 

@@ -12,6 +12,9 @@ export function mapsOf({objectTriangles, components}) {
   return new Map(maps.map((component) => [component.name, component]));
 }
 
+/** Whether light makes the look of an object: of others the texture holds it. */
+export const hasMaterial = (info) => info.material !== '' || mapsOf(info).size > 0;
+
 const isRecord = (value) => typeof value === 'object' && value !== null;
 
 function parsed(text) {

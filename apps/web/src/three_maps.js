@@ -3,7 +3,7 @@
 // of those that another material has.
 import {NoColorSpace, SRGBColorSpace} from 'three';
 
-import {factorsOf} from './material.js';
+import {factorsOf, mapsOf} from './material.js';
 import {textureOf} from './three_frame.js';
 
 const SLOTS = {
@@ -17,11 +17,13 @@ export class MaterialMaps {
   #textures = new Map();  // of names
   #factors;
 
-  /** Until a map is there the material is as one without it. `text`: TerrainInfo.material. */
-  constructor(material, text) {
+  /** Until a map of the stream is there the material is as one without it. `info`: of the stream. */
+  constructor(material, info) {
     this.material = material;
-    this.#factors = factorsOf(text);
+    this.#factors = factorsOf(info.material);
+    const coming = mapsOf(info);
     if ('roughness' in material) Object.assign(material, {roughness: 1, metalness: 0});
+    for (const name of Object.keys(SLOTS)) if (!coming.has(name)) this.#scale(name);
   }
 
   /** Rasters by their names; those that are not there stay as they are. */

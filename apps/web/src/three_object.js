@@ -6,7 +6,7 @@ import {
 } from 'three';
 
 import {fitCamera} from './fit.js';
-import {mapsOf} from './material.js';
+import {hasMaterial, mapsOf} from './material.js';
 import {PatchAtlas} from './patch_atlas.js';
 import {textureOf} from './three_frame.js';
 import {MaterialMaps} from './three_maps.js';
@@ -57,11 +57,11 @@ export class TksObject extends RefiningMesh {
 
   /** `terrain`: of open(). It is disposed with this object, as its material is. */
   constructor(terrain, options = {}) {
-    const hasMaps = mapsOf(terrain.info).size > 0;
-    const lit = hasMaps && !options.material ? {material: new MeshStandardMaterial()} : {};
+    const isLit = hasMaterial(terrain.info);
+    const lit = isLit && !options.material ? {material: new MeshStandardMaterial()} : {};
     super(terrain, {...options, ...lit});
     if (!options.material) this.material.side = DoubleSide;  // scans have holes
-    if (hasMaps) this.#maps = new MaterialMaps(this.material, terrain.info.material);
+    if (isLit) this.#maps = new MaterialMaps(this.material, terrain.info);
   }
   get isPlanned() {
     return false;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the viewer shows an object: seen from all sides, as it is, without ground below it.
-import {DoubleSide, MeshLambertMaterial, Vector3} from 'three';
+import {DoubleSide, MeshLambertMaterial, MeshStandardMaterial, Vector3} from 'three';
 
 import {groundScale} from '../src/ground.js';
+import {hasMaterial} from '../src/material.js';
 import {TksObject} from '../src/three.js';
 import {$} from './page.js';
 import {hitOn} from './ray.js';
@@ -23,8 +24,12 @@ export class ViewedObject extends TksObject {
   ahead = AHEAD;
 
   constructor(terrain) {
-    const color = terrain.info.hasTexture ? 0xffffff : CLAY;
-    super(terrain, {material: new MeshLambertMaterial({color, side: DoubleSide})});
+    const color = terrain.info.hasTexture ? 0xffffff : CLAY, look = {color, side: DoubleSide};
+    const isLit = hasMaterial(terrain.info);
+    const material = isLit ? new MeshStandardMaterial(look) : new MeshLambertMaterial(look);
+    super(terrain, {material});
+    /** Metal shows what is around it. */
+    this.mirrors = isLit;
   }
   /** It does not: meshes of objects come one after the other. */
   glide() {

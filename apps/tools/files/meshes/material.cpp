@@ -61,9 +61,10 @@ Material materialOf(std::string_view text) {
   part("/pbrMetallicRoughness/metallicFactor", factors.metallic);
   part("/pbrMetallicRoughness/roughnessFactor", factors.roughness);
   part("/occlusionTexture/strength", factors.occlusion_strength);
-  part("/emissiveFactor/0", factors.emissive[0]);
-  part("/emissiveFactor/1", factors.emissive[1]);
-  part("/emissiveFactor/2", factors.emissive[2]);
+  for (const char axis : {'0', '1', '2'})
+    if (const auto light = parsed.find("emissiveFactor"); light != parsed.end() && light->is_array())
+      part((std::string("/emissiveFactor/") + axis).c_str(),
+           factors.emissive[static_cast<size_t>(axis - '0')]);
   constexpr double kMostScale = 1e6;
   take(parsed, json::json_pointer("/normalTexture/scale"), -kMostScale, kMostScale,
        factors.normal_scale);

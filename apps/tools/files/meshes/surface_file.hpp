@@ -52,6 +52,9 @@ Result<SurfaceFile> readSurface(const std::string& path, std::string* note = nul
 /// The image without its alpha: grey or RGB. A further colour is left out as well.
 ImageFile withoutAlpha(const ImageFile& image);
 
+/// What a stored value of sRGB shows; both from 0 to 1.
+double lightOf(double value);
+
 /// What a mesh shows of the texture that it has: the image without its alpha, multiplied by the
 /// mesh's base colour. That is a factor of light where glTF gives it, and of the stored values
 /// where others do. Black counts as white: programs write it beside textures, which would leave

@@ -130,6 +130,29 @@ class MapReader {
   const std::string& mesh_path_;
 };
 
+/// Whether all texels are alike.
+bool isEven(const ImageFile& image) {
+  for (size_t at = image.channels; at < image.data.size(); ++at)
+    if (image.data[at] != image.data[at - image.channels]) return false;
+  return true;
+}
+
+/// Puts an even map into its factors, which say as much in fewer bytes: streams could not tell it
+/// from a map of which nothing has come. Of normals and occlusion there are none.
+std::string evenMap(MapKind kind, const ImageFile& image, MaterialFactors& factors) {
+  const auto value = [&](size_t channel) { return std::to_integer<int>(image.data[channel]) / 255.0; };
+  constexpr size_t kGreen = 1, kBlue = 2;
+  if (kind == MapKind::kMetallicRoughness) {
+    factors.roughness *= value(kGreen);
+    factors.metallic *= value(kBlue);
+  } else if (kind == MapKind::kEmissive) {
+    for (size_t axis = 0; axis < 3; ++axis) factors.emissive[axis] *= lightOf(value(axis));
+  } else {
+    return "it is the same all over";
+  }
+  return "it is the same all over, and becomes factors";
+}
+
 /// Other formats than glTF have factors of their maps that nobody fills in: 0 beside a map is 1.
 MaterialFactors factorsOf(const MeshImport& mesh, const MapReader& reader) {
   MaterialFactors factors = mesh.facts.factors;
@@ -163,6 +186,12 @@ SurfaceMaps findMaps(const MeshImport& mesh, const std::string& mesh_path,
       continue;
     }
     FoundMap map = is_wanted ? reader.read(kind) : FoundMap{{}, "--maps"};
+    if (map.image && isEven(*map.image)) {
+      maps.left_out.push_back(std::string(kMapNames[i]) + " (" +
+                              evenMap(kind, *map.image, maps.material.factors) + ")");
+      maps.has_even = true;
+      continue;
+    }
     if (map.image) {
       maps.taken.push_back({kind, std::move(*map.image)});
       continue;

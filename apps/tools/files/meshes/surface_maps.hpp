@@ -22,6 +22,7 @@ struct SurfaceMaps {
   std::vector<SurfaceMap> taken;      ///< by their kinds, each once
   std::vector<std::string> left_out;  ///< names, each with the reason in brackets
   Material material;
+  bool has_even = false;  ///< the factors say what a map said
 
   bool has(MapKind kind) const;
 };
