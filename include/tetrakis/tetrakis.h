@@ -467,7 +467,7 @@ typedef struct tks_triangle_mesh {
   uint64_t sketch_bytes; /* of the sketch that the stream begins with, about; 0: a 32nd part of the
                             stream if nothing would be seen of it for long; TKS_NO_SKETCH: none */
   const char* material; /* UTF-8, what the surface is made of: a glTF material as JSON (FORMAT.md,
-                           section 2), which triangles keep and resampled objects do not; NULL: none */
+                           section 2), which triangles alone keep; NULL: none */
   uint32_t texels;      /* the longest side of the images that tks_combine lays on the triangles
                            later: texcoords are kept as finely as that of these, or of the image,
                            asks for. 0: there are none */

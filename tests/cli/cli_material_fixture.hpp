@@ -35,9 +35,8 @@ class MaterialTest : public CliTest {
     for (uint32_t row = 0; row < height; ++row)
       for (uint32_t column = 0; column < width; ++column)
         for (uint32_t channel = 0; channel < channels; ++channel)
-          image.data.push_back(static_cast<std::byte>(
-              std::lround(std::clamp<double>(
-                  value((column + 0.5) / width, (row + 0.5) / height, channel), 0, 255))));
+          image.data.push_back(static_cast<std::byte>(std::lround(std::clamp<double>(
+              value((column + 0.5) / width, (row + 0.5) / height, channel), 0, 255))));
     return image;
   }
   static ImageFile colours() {
@@ -89,7 +88,8 @@ class MaterialTest : public CliTest {
     const std::array<ImageFile, 5> images = {colours(), normals(), surfaces(), shades(), lights()};
     tools::MeshFile mesh = sheet();
     mesh.texture = &images[0];
-    for (size_t kind = 0; kind < tools::kMapKinds; ++kind) mesh.maps.images[kind] = &images[kind + 1];
+    for (size_t kind = 0; kind < tools::kMapKinds; ++kind)
+      mesh.maps.images[kind] = &images[kind + 1];
     mesh.maps.material.factors = {0.25, 0.75, {1, 0.5, 0.125}, 0.5, 0.875, true};
     writeModel(name, mesh);
   }
@@ -125,7 +125,8 @@ class MaterialTest : public CliTest {
   ImageFile pictureOf(const GlbParts& parts, const json& slot) const {
     const json& document = parts.document;
     const size_t image = document["textures"][slot["index"].get<size_t>()]["source"];
-    const json& view = document["bufferViews"][document["images"][image]["bufferView"].get<size_t>()];
+    const json& view =
+        document["bufferViews"][document["images"][image]["bufferView"].get<size_t>()];
     write("picture", parts.binary.substr(view["byteOffset"], view["byteLength"]));
     const auto picture = tools::readImage(path("picture"));
     EXPECT_TRUE(picture.ok()) << picture.status().message();

@@ -149,15 +149,16 @@ TEST_F(CliMaterial, WeightsMoveBytes) {
   const uint64_t usual = componentsOf("model.tks")["normal"];
   makeStream("--bytes 2k --also-weight normal=50");
   EXPECT_GT(componentsOf("model.tks")["normal"], usual + usual / 4);
-  EXPECT_EQ(cli("encode model.glb --class triangles --bytes 2k --also-weight gloss=2 -o n.tks").code,
-            1);
+  EXPECT_EQ(
+      cli("encode model.glb --class triangles --bytes 2k --also-weight gloss=2 -o n.tks").code, 1);
 }
 
 TEST_F(CliMaterial, FurtherTexturesLieOnTriangles) {
   makeStream();
   ASSERT_TRUE(tools::writeImage(path("wear.png"), shades()).ok());
   ASSERT_TRUE(tools::writeImage(path("flat.png"), normals(8, 8)).ok());
-  const std::string also = " --bytes 24k --also wear=wear.png --also normal=flat.png -f -o model.tks";
+  const std::string also =
+      " --bytes 24k --also wear=wear.png --also normal=flat.png -f -o model.tks";
   ASSERT_EQ(cli("encode model.glb --class triangles" + also).code, 0);
   const auto components = componentsOf("model.tks");
   EXPECT_EQ(components.size(), 6u);
@@ -172,8 +173,10 @@ TEST_F(CliMaterial, OptionsThatMeanNothingAreRefused) {
   makeModel("model.glb");
   makeInputs();
   for (const char* arguments :
-       {"encode model.glb --bytes 9k --maps gloss -o b.tks", "encode model.glb --bytes 9k --maps  "
-        "normal,,emissive -o b.tks", "encode height.tif --bytes 9k --maps none -o b.tks",
+       {"encode model.glb --bytes 9k --maps gloss -o b.tks",
+        "encode model.glb --bytes 9k --maps  "
+        "normal,,emissive -o b.tks",
+        "encode height.tif --bytes 9k --maps none -o b.tks",
         "encode height.tif --bytes 9k --also-weight a=1 -o b.tks",
         "encode model.glb --psnr 50 --also a=texture.png --class triangles -o b.tks"}) {
     const Outcome run = cli(arguments);

@@ -77,8 +77,9 @@ TEST_F(CliOddMaterial, EvenMapsBecomeFactors) {
   mesh.maps.material.factors.emissive = {0.5, 0.5, 0.5};
   writeModel("odd.glb", mesh);
   const std::string note = encode("odd.glb");
-  expectNote(note, "normal (it is the same all over), metallic_roughness (it is the same all over, "
-                   "and becomes factors), occlusion (it is the same all over), emissive (it is");
+  expectNote(note,
+             "normal (it is the same all over), metallic_roughness (it is the same all over, "
+             "and becomes factors), occlusion (it is the same all over), emissive (it is");
   EXPECT_TRUE(componentsOf("odd.tks").empty());
   const json material = decodedMaterial();
   EXPECT_FALSE(material.contains("extensions"));

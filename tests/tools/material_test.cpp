@@ -41,11 +41,12 @@ TEST(Materials, SayNothingOfWhatIsUsual) {
 }
 
 TEST(Materials, OtherTextsAreUsual) {
-  for (const char* text :
-       {"", "null", "[]", "{", "3", R"({"pbrMetallicRoughness":3})", R"({"pbrMetallicRoughness":[1]})",
-        R"({"pbrMetallicRoughness":{"metallicFactor":7,"roughnessFactor":"0"}})",
-        R"({"emissiveFactor":{"0":1}})", R"({"emissiveFactor":[-1,2,null]})", R"({"doubleSided":1})",
-        R"({"normalTexture":{"scale":1e300}})", R"({"occlusionTexture":{"strength":-1}})"})
+  for (const char* text : {"", "null", "[]", "{", "3", R"({"pbrMetallicRoughness":3})",
+                           R"({"pbrMetallicRoughness":[1]})",
+                           R"({"pbrMetallicRoughness":{"metallicFactor":7,"roughnessFactor":"0"}})",
+                           R"({"emissiveFactor":{"0":1}})", R"({"emissiveFactor":[-1,2,null]})",
+                           R"({"doubleSided":1})", R"({"normalTexture":{"scale":1e300}})",
+                           R"({"occlusionTexture":{"strength":-1}})"})
     expectUsual(text);
   expectUsual(std::string(60000, '['));
   expectUsual("{\"a\":\"" + std::string(1 << 17, 'x') + "\"}");

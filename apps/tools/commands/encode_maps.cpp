@@ -99,9 +99,8 @@ Result<std::vector<std::string>> wantedMaps(const std::string& text) {
   if (text == "none") return names;
   std::istringstream words(text);
   for (std::string name; std::getline(words, name, ',');) names.push_back(name);
-  const bool is_known = std::all_of(names.begin(), names.end(), [](const std::string& name) {
-    return kindOf(name) < kMapKinds;
-  });
+  const bool is_known = std::all_of(
+      names.begin(), names.end(), [](const std::string& name) { return kindOf(name) < kMapKinds; });
   if (is_known && !names.empty()) return names;
   return Status(TKS_USAGE, "--maps takes all, none, or some of " +
                                joined({kMapNames.begin(), kMapNames.end()}) +

@@ -157,8 +157,7 @@ std::string summary(const std::string& name, const Decoder& decoder) {
          std::to_string(info.header_bytes) + ", heights " + std::to_string(info.geometry_bytes) +
          ", texture " + std::to_string(info.texture_bytes) +
          (further > 0 ? ", other components " + std::to_string(further) : "") +
-         ", heads of packets " +
-         std::to_string(heads) + ")";
+         ", heads of packets " + std::to_string(heads) + ")";
 }
 
 }  // namespace tetrakis::tools

@@ -58,7 +58,7 @@ Status readFurther(const EncodeArguments& arguments, bool quiet, SurfaceInputs& 
 void leaveOutTextures(SurfaceFile& mesh, bool quiet) {
   const bool has_maps = !mesh.maps.taken.empty() || mesh.maps.has_even;
   if (!mesh.texture && !has_maps) return;
-  tellNote(std::string(!has_maps       ? "the texture is left out: it goes"
+  tellNote(std::string(!has_maps      ? "the texture is left out: it goes"
                        : mesh.texture ? "the texture and other maps are left out: they go"
                                       : "the maps are left out: they go") +
                " with --bytes alone",
@@ -291,9 +291,8 @@ namespace {
 /// What became of the mesh, beside its stream.
 Status tellResult(const EncodeArguments& arguments, const SurfaceInputs& inputs,
                   const tks_object_report& report, std::span<const uint8_t> bytes) {
-  tellNote(report.kind == TKS_OBJECT_TRIANGLES
-               ? mapsNote(inputs.further, inputs.mesh.maps.left_out)
-               : resampledMapsNote(inputs.further),
+  tellNote(report.kind == TKS_OBJECT_TRIANGLES ? mapsNote(inputs.further, inputs.mesh.maps.left_out)
+                                               : resampledMapsNote(inputs.further),
            false);
   tellNote(cleaningNote(report), false);
   tellNote(objectNote(report, inputs.unit), false);

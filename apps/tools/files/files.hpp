@@ -160,8 +160,8 @@ Result<std::vector<std::byte>> encodeJpeg(const ImageFile& image, int quality);
 /// Of the geometry in a .glb: KHR_draco_mesh_compression, EXT_meshopt_compression.
 enum class MeshCompression { kNone, kDraco, kMeshopt };
 
-/// Of the texture in a .glb, and of a map of light, reduced to 8 bits. kChosen: JPEG, or PNG when it
-/// has alpha or 16 bits. kJpeg refuses alpha; kKtx2 takes a program that may be missing
+/// Of the texture in a .glb, and of a map of light, reduced to 8 bits. kChosen: JPEG, or PNG when
+/// it has alpha or 16 bits. kJpeg refuses alpha; kKtx2 takes a program that may be missing
 /// (TKS_UNSUPPORTED). Maps whose values are no colours are PNG.
 enum class MeshTexture { kChosen, kJpeg, kPng, kWebp, kKtx2 };
 
@@ -174,11 +174,11 @@ struct MeshOptions {
 /// TKS_USAGE if the options mean nothing to a mesh of that name.
 Status checkMeshOptions(const std::string& path, const MeshOptions& options);
 
-/// .glb (texture and maps embedded), .obj (+ .mtl and .png of the same name when textured, and
-/// name_normal.png and others of its maps, of which .mtl names all but occlusion, which is left
-/// out), .ply (binary, texture coordinates but no texture); all with normals. Coordinates come back bit for bit, of a
-/// compressed .glb as meshopt_mesh.hpp and draco_mesh.hpp say. Fails with TKS_USAGE on an empty or
-/// inconsistent mesh.
+/// .glb (texture and maps embedded), .obj (+ .mtl and .png of its name when textured, and of maps
+/// name_normal.png and others; occlusion is left out), .ply (binary, texture coordinates but no
+/// texture); all with normals. Coordinates come back bit for bit, of a compressed .glb as
+/// meshopt_mesh.hpp and draco_mesh.hpp say. Fails with TKS_USAGE on an empty or inconsistent
+/// mesh.
 Status writeMesh(const std::string& path, const MeshFile& mesh, const std::string& format = "",
                  const MeshOptions& options = {});
 

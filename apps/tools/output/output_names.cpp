@@ -58,8 +58,8 @@ std::vector<std::string> meshFiles(const std::string& mesh) {
   std::vector<std::string> files{mesh};
   if (formatOf(mesh, "") != "obj") return files;
   const std::string name = fs::path(mesh).replace_extension().string();
-  for (const char* side : {".mtl", ".png", "_normal.png", "_roughness.png", "_metallic.png",
-                           "_emissive.png"}) {
+  for (const char* side :
+       {".mtl", ".png", "_normal.png", "_roughness.png", "_metallic.png", "_emissive.png"}) {
     files.push_back(name + side);
   }
   return files;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an object is made of beside its texture: maps that further components of its stream hold, and
-// factors of these, as glTF has them.
+// What an object is made of beside its texture: maps that further components of its stream hold,
+// and factors of these, as glTF has them.
 
 /** What components are called that hold maps. */
 export const MAPS = ['normal', 'metallic_roughness', 'occlusion', 'emissive'];

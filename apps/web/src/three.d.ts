@@ -18,8 +18,8 @@ export interface TerrainOptions {
   /** Longest side of the grid of heights that frames of a sequence are drawn with while they play.
    * Default 512. */
   samples?: number;
-  /** Default: one that needs no lights, as a photograph holds its own; of an object with maps of its
-   * material (normals, roughness, …) a MeshStandardMaterial, which needs some. Give a
+  /** Default: one that needs no lights, as a photograph holds its own; of an object with maps of
+   * its material (normals, roughness, …) a MeshStandardMaterial, which needs some. Give a
    * MeshLambertMaterial or MeshStandardMaterial for your lights: maps and factors of a stream are
    * set in those slots that it has. A TksTerrain draws its texture with it and disposes it, so that
    * it serves no other one; a TksLoader gives each terrain a copy. */

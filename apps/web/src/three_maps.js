@@ -17,7 +17,7 @@ export class MaterialMaps {
   #textures = new Map();  // of names
   #factors;
 
-  /** Until a map of the stream is there the material is as one without it. `info`: of the stream. */
+  /** Until a map of the stream is there the material is as one without it. `info`: of a stream. */
   constructor(material, info) {
     this.material = material;
     this.#factors = factorsOf(info.material);

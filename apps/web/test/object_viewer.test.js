@@ -28,7 +28,8 @@ const wedge = 'v 0 0 0\nv 3 0 0\nv 3 1 0\nv 0 2 0\nv 0 0 2\nv 3 0 2\n' +
 /** A grey ball that shines yellow on one half, and is of dimpled metal on the other. */
 const lamp = () => shinyGlb(ballOf(16, 0), {
   baseColorTexture: pngOf(16, (x) => [120 + 20 * x, 130, 130]),
-  normalTexture: pngOf(64, (x, y) => [128 + 50 * Math.sin(90 * x), 128 + 50 * Math.sin(60 * y), 230]),
+  normalTexture: pngOf(64, (x, y) =>
+    [128 + 50 * Math.sin(90 * x), 128 + 50 * Math.sin(60 * y), 230]),
   metallicRoughnessTexture: pngOf(16, (x) => [255, 60, 255 * (x > 0.5)]),
   emissiveTexture: pngOf(16, (x) => (x < 0.5 ? [255, 220, 0] : [0, 0, 0])),
 }, {emissiveFactor: [1, 1, 1]});

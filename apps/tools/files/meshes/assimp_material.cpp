@@ -35,9 +35,12 @@ bool isMadeUp(const aiColor4D& colour) {
 constexpr aiTextureType kPacked = aiTextureType_UNKNOWN;  ///< metalness and roughness, of glTF
 
 constexpr std::pair<MapSlot, aiTextureType> kTypes[] = {
-    {MapSlot::kNormal, aiTextureType_NORMALS},     {MapSlot::kBump, aiTextureType_HEIGHT},
-    {MapSlot::kMetallicRoughness, kPacked},        {MapSlot::kRoughness, aiTextureType_DIFFUSE_ROUGHNESS},
-    {MapSlot::kMetallic, aiTextureType_METALNESS}, {MapSlot::kOcclusion, aiTextureType_LIGHTMAP},
+    {MapSlot::kNormal, aiTextureType_NORMALS},
+    {MapSlot::kBump, aiTextureType_HEIGHT},
+    {MapSlot::kMetallicRoughness, kPacked},
+    {MapSlot::kRoughness, aiTextureType_DIFFUSE_ROUGHNESS},
+    {MapSlot::kMetallic, aiTextureType_METALNESS},
+    {MapSlot::kOcclusion, aiTextureType_LIGHTMAP},
     {MapSlot::kEmissive, aiTextureType_EMISSIVE}};
 
 /// Assimp gives the map of metalness and roughness under both names as well.

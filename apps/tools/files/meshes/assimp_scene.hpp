@@ -15,8 +15,8 @@ namespace tetrakis::tools {
 
 /// A texture of a material.
 struct SceneTexture {
-  std::string path{};        ///< or "*N": image N of the scene; "": there is none
-  unsigned texcoords = 0;    ///< which texture coordinates place it
+  std::string path{};         ///< or "*N": image N of the scene; "": there is none
+  unsigned texcoords = 0;     ///< which texture coordinates place it
   aiUVTransform transform{};  ///< how they are moved, turned or scaled before
 };
 

@@ -62,7 +62,8 @@ Material materialOf(std::string_view text) {
   part("/pbrMetallicRoughness/roughnessFactor", factors.roughness);
   part("/occlusionTexture/strength", factors.occlusion_strength);
   for (const char axis : {'0', '1', '2'})
-    if (const auto light = parsed.find("emissiveFactor"); light != parsed.end() && light->is_array())
+    if (const auto light = parsed.find("emissiveFactor");
+        light != parsed.end() && light->is_array())
       part((std::string("/emissiveFactor/") + axis).c_str(),
            factors.emissive[static_cast<size_t>(axis - '0')]);
   constexpr double kMostScale = 1e6;

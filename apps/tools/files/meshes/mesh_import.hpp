@@ -36,11 +36,11 @@ enum class MapFault : uint8_t { kNone, kOtherTexcoords, kOtherTransform };
 struct MeshFacts {
   std::array<double, 4> base_colour{1, 1, 1, 1};  ///< RGBA of the material of most triangles
   uint64_t parts = 0;                             ///< that have triangles
-  uint64_t other = 0;        ///< of them, parts with another texture than that of most triangles
-  uint64_t polygons = 0;     ///< that became several triangles
-  uint64_t dropped = 0;      ///< points and lines
-  uint64_t unplaced = 0;     ///< texture coordinates that are no numbers, and have become 0
-  uint64_t other_maps = 0;   ///< of the parts with that texture, parts with other maps
+  uint64_t other = 0;       ///< of them, parts with another texture than that of most triangles
+  uint64_t polygons = 0;    ///< that became several triangles
+  uint64_t dropped = 0;     ///< points and lines
+  uint64_t unplaced = 0;    ///< texture coordinates that are no numbers, and have become 0
+  uint64_t other_maps = 0;  ///< of the parts with that texture, parts with other maps
   MaterialFactors factors{};
   std::array<MapFault, kMapSlots> map_faults{};
   bool transformed = false;  ///< the material moves the texture, which is not done here

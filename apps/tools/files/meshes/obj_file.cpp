@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// OBJ (Wavefront, appendix B1), with its material library; maps of PBR by the names that Blender and
-// Assimp know.
+// OBJ (Wavefront, appendix B1), with its material library; maps of PBR by the names that Blender
+// and Assimp know.
 #include <array>
 #include <charconv>
 #include <filesystem>

@@ -27,8 +27,8 @@ struct SurfaceFile {
   std::optional<ImageFile> texture;               ///< RGB or RGBA of 8 bits; its colours alone
   std::array<double, 4> base_colour{1, 1, 1, 1};  ///< RGBA, which multiplies the texture
   SurfaceMaps maps;
-  std::string name;                               ///< of the mesh, or of the file
-  bool y_is_up = false;                           ///< else the format does not say what is up
+  std::string name;      ///< of the mesh, or of the file
+  bool y_is_up = false;  ///< else the format does not say what is up
 };
 
 /// What is read of a surface beside its triangles.

@@ -140,7 +140,9 @@ bool isEven(const ImageFile& image) {
 /// Puts an even map into its factors, which say as much in fewer bytes: streams could not tell it
 /// from a map of which nothing has come. Of normals and occlusion there are none.
 std::string evenMap(MapKind kind, const ImageFile& image, MaterialFactors& factors) {
-  const auto value = [&](size_t channel) { return std::to_integer<int>(image.data[channel]) / 255.0; };
+  const auto value = [&](size_t channel) {
+    return std::to_integer<int>(image.data[channel]) / 255.0;
+  };
   constexpr size_t kGreen = 1, kBlue = 2;
   if (kind == MapKind::kMetallicRoughness) {
     factors.roughness *= value(kGreen);

@@ -112,7 +112,8 @@ FoundTexture readMap(const ImportedTexture& map, const std::string& mesh_path,
 FoundTexture findTexture(const MeshImport& mesh, const std::string& mesh_path) {
   if (!mesh.texture.file.empty())
     return readEmbedded(mesh.texture.file, "the embedded texture", asColours);
-  if (!mesh.texture.path.empty()) return readNamed(mesh.texture, mesh_path, "its texture", asColours);
+  if (!mesh.texture.path.empty())
+    return readNamed(mesh.texture, mesh_path, "its texture", asColours);
   const std::string path = fileBeside(mesh_path);
   if (path.empty()) return {};
   FoundTexture found = asColours(readImage(path), "the picture beside it");
