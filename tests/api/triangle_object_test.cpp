@@ -170,8 +170,12 @@ TEST(TriangleObjects, KeepTheirMaterialAndTexcoordsForOthers) {
     for (uint32_t i = 0; i < 2 * out.vertex_count; ++i)
       farthest = std::max(farthest, std::abs(std::remainder(out.texcoord[i], 1.0 / 1009)));
     tks_free_object_mesh(&out);
-    if (texels == 4096) EXPECT_LT(farthest, 0.5 / 8192);
-    if (texels == 16) EXPECT_GT(farthest, 0.25 / 1009);
+    if (texels == 4096) {
+      EXPECT_LT(farthest, 0.5 / 8192);
+    }
+    if (texels == 16) {
+      EXPECT_GT(farthest, 0.25 / 1009);
+    }
     before = farthest;
   }
   EXPECT_LT(before, 0.5 / 8192);

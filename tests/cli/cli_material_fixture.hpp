@@ -51,10 +51,10 @@ class MaterialTest : public CliTest {
       return 127.5 * (1 + (channel == 0 ? u : channel == 1 ? v : 1) / length);
     });
   }
-  /// Red says nothing, or occlusion.
-  static ImageFile surfaces(double red = 255) {
-    return painted(32, 32, 3, [red](double x, double y, uint32_t channel) {
-      return channel == 0 ? red : channel == 1 ? 60 + 150 * y : 255 * (x > 0.5);
+  /// Red is white, or holds occlusion that goes down by so much.
+  static ImageFile surfaces(double occlusion = 0) {
+    return painted(32, 32, 3, [occlusion](double x, double y, uint32_t channel) {
+      return channel == 0 ? 255 - occlusion * x * y : channel == 1 ? 60 + 150 * y : 255 * (x > 0.5);
     });
   }
   static ImageFile shades() {

@@ -17,7 +17,7 @@ class CliOddMaterial : public MaterialTest {
     return run.err;
   }
   json decodedMaterial() {
-    EXPECT_EQ(cli("decode odd.tks --mesh out.glb -f").code, 0);
+    EXPECT_EQ(cli("decode odd.tks --mesh out.glb --mesh-texture png -f").code, 0);
     return materialOf(glb("out.glb"));
   }
   /// An OBJ whose library has these lines.
@@ -170,7 +170,7 @@ TEST_F(CliOddMaterial, TexcoordsAreAsFineAsTheFinestMap) {
 }
 
 TEST_F(CliOddMaterial, OnePictureOfThreeMapsIsCodedOnce) {
-  const ImageFile image = colours(), surface = surfaces(130);
+  const ImageFile image = colours(), surface = surfaces(200);
   tools::MeshFile mesh = sheet();
   mesh.texture = &image;
   mesh.maps.images[1] = &surface;
