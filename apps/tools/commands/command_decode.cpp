@@ -50,16 +50,6 @@ std::string rawNote(const std::string& name, const HeightFile& heights) {
          sampleName(heights.sample);
 }
 
-/// Maps that the format of a mesh has no place for.
-std::string unwrittenNote(const std::string& name, const MeshMaps& maps) {
-  const std::string format = formatOf(name, "");
-  if (!maps.none() && format == "ply")
-    return "a .ply file has no place for maps: --component takes each out";
-  if (maps.at(MapKind::kOcclusion) != nullptr && format == "obj")
-    return "an .obj file has no place for the map of occlusion: --component takes it out";
-  return "";
-}
-
 /// What is guessed of the ground, where its proportions count.
 void tellGuesses(const tks_info& info, const DecodeOutputs& outputs, bool quiet) {
   const bool of_ground = info.has_heights && !isObject(info);

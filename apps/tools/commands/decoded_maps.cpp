@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/meshes/surface_file.hpp"
 
 namespace tetrakis::tools {
@@ -36,6 +37,7 @@ Status DecodedMaps::take(const OpenStream& stream, uint32_t component, MapKind k
   const tks_info& info = decoder->info();
   const bool is_whole = info.lossless != 0 && info.available_bytes >= info.stream_bytes;
   if (decoder->component(component)->available_bytes == 0 && !is_whole) return {};
+  for (const std::optional<ImageFile>& held : images_) copies += held ? held->data.size() : 0;
   Result<ImageFile> image = decodeImage(*decoder, {}, copies);
   if (!image.ok()) return image.status();
   images_[static_cast<size_t>(kind)] = withoutAlpha(*image);
@@ -49,6 +51,15 @@ MeshMaps DecodedMaps::forMesh() const {
   maps.material = material_;
   maps.is_lit = is_lit_;
   return maps;
+}
+
+std::string unwrittenNote(const std::string& name, const MeshMaps& maps) {
+  const std::string format = formatOf(name, "");
+  if (!maps.none() && format == "ply")
+    return "a .ply file has no place for maps: --component takes each out";
+  if (maps.at(MapKind::kOcclusion) != nullptr && format == "obj")
+    return "an .obj file has no place for the map of occlusion: --component takes it out";
+  return "";
 }
 
 }  // namespace tetrakis::tools

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "apps/tools/files/files.hpp"
 #include "apps/tools/files/stream.hpp"
@@ -29,5 +30,8 @@ class DecodedMaps {
   Material material_;
   bool is_lit_ = false;
 };
+
+/// Maps that the format of a mesh with this name has no place for, in a sentence; "": none.
+std::string unwrittenNote(const std::string& name, const MeshMaps& maps);
 
 }  // namespace tetrakis::tools

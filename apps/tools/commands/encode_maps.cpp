@@ -126,6 +126,18 @@ Result<std::vector<FurtherTexture>> furtherTextures(const EncodeArguments& argum
   return textures;
 }
 
+void leaveOutTextures(SurfaceFile& mesh, bool quiet) {
+  const bool has_maps = !mesh.maps.taken.empty() || mesh.maps.has_even;
+  if (!mesh.texture && !has_maps) return;
+  tellNote(std::string(!has_maps      ? "the texture is left out: it goes"
+                       : mesh.texture ? "the texture and other maps are left out: they go"
+                                      : "the maps are left out: they go") +
+               " with --bytes alone",
+           quiet);
+  mesh.texture.reset();
+  mesh.maps = {};
+}
+
 uint32_t longestSide(const std::vector<FurtherTexture>& textures) {
   uint32_t longest = 0;
   for (const FurtherTexture& one : textures)

@@ -25,6 +25,9 @@ struct FurtherTexture {
 /// The names that --maps stands for: all, none, or some with commas between them. TKS_USAGE.
 Result<std::vector<std::string>> wantedMaps(const std::string& text);
 
+/// Leaves out what goes with a number of bytes alone, and tells of it.
+void leaveOutTextures(SurfaceFile& mesh, bool quiet);
+
 /// Takes the maps of a surface out of it, and reads what --also names, which replaces maps of the
 /// same name. Tells of the images what is remarkable.
 Result<std::vector<FurtherTexture>> furtherTextures(const EncodeArguments& arguments,

@@ -54,19 +54,6 @@ Status readFurther(const EncodeArguments& arguments, bool quiet, SurfaceInputs& 
   return {};
 }
 
-/// What is told where there is no number of bytes.
-void leaveOutTextures(SurfaceFile& mesh, bool quiet) {
-  const bool has_maps = !mesh.maps.taken.empty() || mesh.maps.has_even;
-  if (!mesh.texture && !has_maps) return;
-  tellNote(std::string(!has_maps      ? "the texture is left out: it goes"
-                       : mesh.texture ? "the texture and other maps are left out: they go"
-                                      : "the maps are left out: they go") +
-               " with --bytes alone",
-           quiet);
-  mesh.texture.reset();
-  mesh.maps = {};
-}
-
 /// The textures of a mesh itself go with a number of bytes alone.
 Result<SurfaceInputs> readSurfaceInputs(const EncodeArguments& arguments, bool quiet) {
   const Result<std::vector<std::string>> maps = wantedMaps(arguments.maps);
