@@ -96,6 +96,20 @@ TEST_F(CliMaterial, EveryPrefixHasTheMapsThatItKnows) {
   EXPECT_EQ(last, 4u);
 }
 
+TEST_F(CliMaterial, MapsComeBehindASketch) {
+  makeStream("--bytes 24k --sketch 1500");
+  const json told = info("model.tks");
+  const std::string short_of_it = "--bytes " + std::to_string(told["header_bytes"].get<int>() - 1);
+  const json sketch = info("model.tks " + short_of_it);
+  EXPECT_EQ(sketch["shows_sketch"], true);
+  EXPECT_TRUE(sketch["material"].is_null());
+  EXPECT_TRUE(materialOf(decoded(short_of_it)).contains("extensions"));
+  EXPECT_EQ(told["shows_sketch"], false);
+  EXPECT_TRUE(materialOf(decoded()).contains("normalTexture"));
+  EXPECT_EQ(cli("verify model.tks").code, 0);
+  EXPECT_LE(content("model.tks").size(), size_t{24} << 10);
+}
+
 TEST_F(CliMaterial, DamageEndsInASentenceOrAMesh) {
   makeStream("--bytes 6k");
   const std::string whole = content("model.tks");

@@ -92,6 +92,9 @@ export class TksObject extends RefiningMesh {
   /** (0, 0, 0) of what has the origin in its box. Set `position` to it where an object shall lie
    * beside others of the same coordinates. */
   readonly centre: Vector3;
+  /** Called once the stream is known to have maps of a material: what takes the place of the
+   * material, by default a MeshStandardMaterial where you gave none; null: nothing. */
+  litMaterial(): Material | null;
 }
 
 /** Gives a TksTerrain, or a TksObject of a stream that holds an object. */

@@ -54,14 +54,29 @@ export class TksObject extends RefiningMesh {
   #texel = 1;  // its side
   #next = null;  // geometry for a texture that is still being brought
   #maps = null;
+  #isGiven;  // its material
 
   /** `terrain`: of open(). It is disposed with this object, as its material is. */
   constructor(terrain, options = {}) {
-    const isLit = hasMaterial(terrain.info);
-    const lit = isLit && !options.material ? {material: new MeshStandardMaterial()} : {};
-    super(terrain, {...options, ...lit});
-    if (!options.material) this.material.side = DoubleSide;  // scans have holes
-    if (isLit) this.#maps = new MaterialMaps(this.material, terrain.info);
+    super(terrain, options);
+    this.#isGiven = Boolean(options.material);
+    if (!this.#isGiven) this.material.side = DoubleSide;  // scans have holes
+    this.#light(terrain.info);
+  }
+  /** What takes the place of the material once the stream is known to have maps; null: nothing. */
+  litMaterial() {
+    return this.#isGiven ? null : new MeshStandardMaterial({side: DoubleSide});
+  }
+  /** A sketch knows of no maps: they come with the header. */
+  #light(info) {
+    if (this.#maps || !hasMaterial(info)) return;
+    const before = this.material, lit = this.litMaterial();
+    if (lit) {
+      const {map, alphaTest, wireframe} = before;
+      this.material = Object.assign(lit, {map, alphaTest, wireframe});
+      before.dispose();
+    }
+    this.#maps = new MaterialMaps(this.material, info);
   }
   get isPlanned() {
     return false;
@@ -76,6 +91,7 @@ export class TksObject extends RefiningMesh {
   }
 
   draw({object, texture, maps, info}) {
+    this.#light(info);
     if (maps) this.#maps?.show(maps);
     if (object) {
       const isFirst = this.frame?.info.showsSketch !== info.showsSketch;

@@ -12,7 +12,7 @@ import {
 
 import {open} from '../src/index.js';
 import {factorsOf} from '../src/material.js';
-import {TksLoader} from '../src/three.js';
+import {TksLoader, TksObject} from '../src/three.js';
 import {launch} from './chromium.js';
 import {ballOf, pngOf, shinyGlb} from './meshes.js';
 import {psnr} from './pictures.js';
@@ -125,6 +125,23 @@ test('a loader gives a lit material whose maps refine in place', {skip, ...TIMEO
   for (const slot of SLOTS) material[slot].addEventListener('dispose', () => ++disposed);
   object.dispose();
   assert.equal(disposed, 5);  // one texture is in two slots
+});
+
+test('maps come behind a sketch, which has none', {skip, ...TIMEOUT}, async () => {
+  execFileSync(CLI, ['encode', 'lamps.glb', '--bytes', '60k', '--class', 'triangles', '--sketch',
+    '2k', '-o', 'sketched.tks', '-q', '-f'], {cwd: folder});
+  const terrain = await open(new Uint8Array(await readFile(folder + 'sketched.tks')));
+  const {leastBytes} = terrain.info;
+  const sketch = await terrain.decode({bytes: leastBytes});
+  assert.equal(sketch.info.showsSketch, true);
+  const later = new TksObject({...terrain, info: sketch.info, dispose() {}});
+  later.show(sketch);
+  assert.ok(later.material.isMeshBasicMaterial);
+  later.show(await terrain.decode());
+  assert.ok(later.material.isMeshStandardMaterial);
+  assert.ok(SLOTS.every((slot) => later.material[slot]) && later.material.map);
+  later.dispose();
+  terrain.dispose();
 });
 
 test('a material without such slots keeps to those that it has', {skip, ...TIMEOUT}, async () => {

@@ -3,7 +3,6 @@
 import {DoubleSide, MeshLambertMaterial, MeshStandardMaterial, Vector3} from 'three';
 
 import {groundScale} from '../src/ground.js';
-import {hasMaterial} from '../src/material.js';
 import {TksObject} from '../src/three.js';
 import {$} from './page.js';
 import {hitOn} from './ray.js';
@@ -24,12 +23,12 @@ export class ViewedObject extends TksObject {
   ahead = AHEAD;
 
   constructor(terrain) {
-    const color = terrain.info.hasTexture ? 0xffffff : CLAY, look = {color, side: DoubleSide};
-    const isLit = hasMaterial(terrain.info);
-    const material = isLit ? new MeshStandardMaterial(look) : new MeshLambertMaterial(look);
-    super(terrain, {material});
-    /** Metal shows what is around it. */
-    this.mirrors = isLit;
+    const color = terrain.info.hasTexture ? 0xffffff : CLAY;
+    super(terrain, {material: new MeshLambertMaterial({color, side: DoubleSide})});
+  }
+  litMaterial() {
+    this.mirrors = true;  // metal shows what is around it
+    return new MeshStandardMaterial({side: DoubleSide});
   }
   /** It does not: meshes of objects come one after the other. */
   glide() {

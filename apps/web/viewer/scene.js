@@ -136,6 +136,7 @@ export class Picture {
   /** The stream, and right of the edge its original. */
   #render() {
     const {renderer} = this;
+    this.#scene.environment = this.#object?.mirrors ? this.#roomAround() : null;
     if (!this.#original) return renderer.render(this.#scene, this.camera);
     const edge = Math.round(this.#edge * innerWidth);
     renderer.setScissorTest(true);
@@ -165,7 +166,6 @@ export class Picture {
     this.journey.end();
     this.globe.isOn = object?.isGlobe ?? false;
     Object.assign(this.orbit, orbitFor(object));
-    this.#scene.environment = object?.mirrors ? this.#roomAround() : null;
     if (object) this.#scene.add(object);
     this.draw();
   }
