@@ -175,6 +175,7 @@ void fillStream(const tks_decoder& decoder, tks_info& info) {
   info.object_triangles = static_cast<uint32_t>(header.triangle_mesh.triangles);
   info.index = decoder.index;
   info.components = static_cast<uint32_t>(header.components.size());
+  info.material = header.material.c_str();
 }
 
 /// Encoders may leave out up to four bytes at the end of a codeword, which its decoder reads ahead

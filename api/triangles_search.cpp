@@ -42,9 +42,11 @@ constexpr double kMostTrianglesPart = 0.75;
 constexpr int kFinestBesideTexture = 13 * kSteps, kTexturedSteps = kSteps / 2;
 
 /// Texture coordinates are rounded to halves of texels.
-uint8_t texcoordFraction(const tks_image* image) {
-  if (image == nullptr) return 0;
-  return static_cast<uint8_t>(std::bit_width(std::max(image->width, image->height) - 1) + 1);
+uint8_t texcoordFraction(const GivenObject& given) {
+  if (given.image == nullptr) return 0;
+  const uint32_t later = std::min(given.mesh.texels, kMaxSide);
+  const uint32_t side = std::max({given.image->width, given.image->height, later});
+  return static_cast<uint8_t>(std::bit_width(side - 1) + 1);
 }
 
 std::span<const std::array<float, 2>> pairs(const tks_triangle_mesh& mesh) {
@@ -61,7 +63,7 @@ class TriangleTrial {
         mesh_(std::move(mesh)),
         texcoords_(texcoordsOf(given)),
         encoder_({mesh_.points, mesh_.triangles, gluedSides(mesh_.triangles).opposite, texcoords_},
-                 texcoordFraction(given.image)) {}
+                 texcoordFraction(given)) {}
 
   /// The stream of the triangles without a texture. Nothing if its header is too long for decoders.
   std::optional<std::vector<uint8_t>> streamOf(int grid) const {
@@ -77,6 +79,7 @@ class TriangleTrial {
     if (given_.mesh.unit != nullptr) header.metadata.unit = given_.mesh.unit;
     if (given_.mesh.description != nullptr)
       header.georeference.description = given_.mesh.description;
+    if (given_.mesh.material != nullptr) header.material = given_.mesh.material;
   }
 
   MeshDistance distanceOf(const std::vector<uint8_t>& stream, size_t places) const {

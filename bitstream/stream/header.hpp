@@ -132,6 +132,7 @@ struct StreamHeader {
   std::string height_positions, texture_positions;
   /// The grid that heights on a forest were resampled from; no samples: none.
   Extent grid = {0, 0};
+  std::string material;     ///< of an object: JSON, as glTF has it, but not checked; empty: none
   std::string later_parts;  ///< of kinds that are not known and inform, as they were read
   /// In the stream's order: of a header that was read. Of one that is made heights come before the
   /// texture, unless their order is stated here.

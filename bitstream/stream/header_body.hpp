@@ -28,7 +28,8 @@ enum BodyPart : uint64_t {
   kTexturePositions = 72,
   kSourceGrid = 73,
   kDetails = 74,
-  kSketch = 75
+  kSketch = 75,
+  kMaterial = 76
 };
 
 inline constexpr size_t kFixedBytes = kMagic.size() + 3;  // magic, version, profile, level
@@ -89,16 +90,17 @@ void visitBody(V& v, StreamHeader& header) {
   v.part(kMetadata, !header.metadata.isDefault(), [&](auto& part) { header.metadata.visit(part); });
   visitPlaces(v, header);
   v.part(kIndex, !header.index.empty(), [&](auto& part) { visitIndex(part, header); });
-  const auto positions = [&](uint64_t kind, std::string& bytes) {
+  const auto whole = [&](uint64_t kind, std::string& bytes) {
     v.part(kind, !bytes.empty(), [&](auto& part) { part.rest(bytes); });
   };
-  positions(kHeightPositions, header.height_positions);
-  positions(kTexturePositions, header.texture_positions);
+  whole(kHeightPositions, header.height_positions);
+  whole(kTexturePositions, header.texture_positions);
   v.part(kSourceGrid, header.grid.samples() > 0, [&](auto& part) {
     part.varint("grid_width", header.grid.width, 1, kMaxSide);
     part.varint("grid_height", header.grid.height, 1, kMaxSide);
   });
   v.part(kDetails, hasDetails(header), [&](auto& part) { visitDetails(part, header); });
+  whole(kMaterial, header.material);
   v.endParts(header.later_parts);
 }
 

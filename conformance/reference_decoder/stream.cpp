@@ -125,7 +125,7 @@ bool suits(const Stream& stream) {
          (stream.triangles->texcoordBits > 0 && stream.texture->wavelet.domain.kind == 0);
 }
 
-/// FORMAT 2, parts 64 to 74 of the body.
+/// FORMAT 2, parts 64 to 76 of the body, but for the sketch.
 void skipInformation(Parts& parts, const Stream& stream) {
   parts.take(64, [](Reader&) {});                              // lossless
   parts.take(65, [](Reader& p) { p.littleEndian(4); });        // payload_crc
@@ -141,6 +141,7 @@ void skipInformation(Parts& parts, const Stream& stream) {
     for (int side = 0; side < 2; ++side) p.varint(1, 1 << 20);
   });
   parts.take(74, [&](Reader& p) { places.skipDetails(p); });
+  parts.take(76, [](Reader& p) { restOf(p); });  // material, likewise
 }
 
 /// FORMAT 2, Body. Returns `payload_bytes`.

@@ -466,6 +466,11 @@ typedef struct tks_triangle_mesh {
   tks_object_kind kind;
   uint64_t sketch_bytes; /* of the sketch that the stream begins with, about; 0: a 32nd part of the
                             stream if nothing would be seen of it for long; TKS_NO_SKETCH: none */
+  const char* material; /* UTF-8, what the surface is made of: a glTF material as JSON (FORMAT.md,
+                           section 2), which triangles alone keep; NULL: none */
+  uint32_t texels;      /* the longest side of the images that tks_combine lays on the triangles
+                           later: texcoords are kept as finely as that of these, or of the image,
+                           asks for. 0: there are none */
 } tks_triangle_mesh;
 
 /* A stream of one of the kinds of object, for the target that was asked for. */
@@ -695,6 +700,8 @@ typedef struct tks_info {
                                        the sketch that it begins with (tks_triangle_mesh) */
   uint64_t least_bytes;             /* the fewest bytes of the stream that tks_open takes: those of
                                        its header or, with a sketch, of the header of that */
+  const char* material;             /* of an object, as tks_triangle_mesh takes it, but not checked;
+                                       "": none. Owned by the decoder */
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);

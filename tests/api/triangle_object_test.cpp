@@ -137,6 +137,53 @@ TEST(TriangleObjects, TakeNoMoreMemoryThanIsAllowed) {
   EXPECT_EQ(tks_decode_object(stream.get(), TKS_MESH_BUDGET, 0, &mesh), TKS_LIMIT);
 }
 
+/// Any text goes there and back, whoever cuts the stream; and texcoords are as fine as what will
+/// lie on them.
+TEST(TriangleObjects, KeepTheirMaterialAndTexcoordsForOthers) {
+  const std::array<uint8_t, 3> texel = {10, 200, 90};
+  tks_image image{};
+  image.size = sizeof image;
+  image.width = image.height = 1;
+  image.channels = 3;
+  image.sample = TKS_U8;
+  image.data = texel.data();
+  const TriangleMesh torus = made::torus(16, 12);
+  std::vector<float> texcoords;
+  for (size_t i = 0; i < 6 * torus.triangles.size(); ++i)
+    texcoords.push_back(static_cast<float>(i * 37 % 1009) / 1009);
+  const GivenMesh given(torus);
+  tks_triangle_mesh mesh = given.given();
+  mesh.texcoords = texcoords.data();
+  mesh.material = "{\"any\": [bytes \x07";
+  double before = 0;
+  for (const uint32_t texels : {0u, 16u, 4096u, 0xffffffffu}) {
+    mesh.texels = texels;
+    const EncodedTriangles made = encodeAs(TKS_OBJECT_TRIANGLES, mesh, budget(60000), &image);
+    ASSERT_EQ(made.status, TKS_OK) << made.message;
+    Stream stream(made.stream);
+    EXPECT_STREQ(stream.info().material, mesh.material);
+    Stream cut(Prefix(made.stream).first(static_cast<size_t>(stream.info().header_bytes)));
+    EXPECT_STREQ(cut.info().material, mesh.material);
+    tks_object_mesh out{};
+    ASSERT_EQ(tks_decode_object(stream.get(), TKS_MESH_BUDGET, 0, &out), TKS_OK);
+    double farthest = 0;  // from multiples of 1 / 1009
+    for (uint32_t i = 0; i < 2 * out.vertex_count; ++i)
+      farthest = std::max(farthest, std::abs(std::remainder(out.texcoord[i], 1.0 / 1009)));
+    tks_free_object_mesh(&out);
+    if (texels == 4096) {
+      EXPECT_LT(farthest, 0.5 / 8192);
+    }
+    if (texels == 16) {
+      EXPECT_GT(farthest, 0.25 / 1009);
+    }
+    before = farthest;
+  }
+  EXPECT_LT(before, 0.5 / 8192);
+  mesh.material = nullptr;
+  const EncodedTriangles plain = encodeAs(TKS_OBJECT_TRIANGLES, mesh, budget(60000), &image);
+  EXPECT_STREQ(Stream(plain.stream).info().material, "");
+}
+
 /// A torus under an image whose colours say where they are; its texcoords go round several times.
 TEST(TriangleObjects, HaveTheirTexture) {
   constexpr uint32_t kSide = 64;

@@ -26,6 +26,16 @@ for format in png webp; do
   tetrakis decode "$work/both.tks" --mesh-texture "$format" --mesh "$work/both-$format.glb"
 done
 
+printf '%s\n' 'mtllib model.mtl' 'usemtl shiny' 'v 0 0 0' 'v 1 0 0' 'v 0 0 1' 'v 1 0 1' \
+  'vt 0 0' 'vt 1 0' 'vt 0 1' 'vt 1 1' 'f 1/1 3/3 2/2' 'f 2/2 3/3 4/4' > "$work/model.obj"
+printf '%s\n' 'newmtl shiny' 'map_Kd texture.png' 'norm texture.png' 'map_Pr texture.png' \
+  'map_Ke texture.png' > "$work/model.mtl"
+tetrakis encode "$work/model.obj" --class triangles --bytes 16k -o "$work/model.tks"
+for coder in none draco meshopt; do
+  tetrakis decode "$work/model.tks" --compress "$coder" --mesh "$work/model-$coder.glb"
+done
+tetrakis decode "$work/model.tks" --mesh-texture webp --bytes 2000 --mesh "$work/model-webp.glb"
+
 tetrakis synth -o "$work/world" --size 65
 gdal_translate -q -a_srs EPSG:4326 -a_ullr -180 90 180 -90 "$work/world/height.tif" "$work/world.tif"
 for domain in cylinder cube; do

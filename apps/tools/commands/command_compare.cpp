@@ -185,7 +185,7 @@ Status compareMesh(const CompareArguments& arguments, Decoder& decoder, bool qui
     return {TKS_USAGE,
             "--mesh is for streams that hold an object: give --height or "
             "--texture"};
-  Result<SurfaceFile> original = readTexturedSurface(arguments.mesh, arguments.texture, quiet);
+  Result<SurfaceFile> original = readTexturedSurface(arguments.mesh, {arguments.texture}, quiet);
   if (!original.ok()) return original.status();
   if (!arguments.texture.empty()) original->texture->white_level = info.texture_white_level;
   const Result<SurfaceMeasurement> measured =

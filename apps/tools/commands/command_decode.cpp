@@ -13,6 +13,7 @@
 #include "apps/tools/commands/decode_memory.hpp"
 #include "apps/tools/commands/decode_outputs.hpp"
 #include "apps/tools/commands/decode_windows.hpp"
+#include "apps/tools/commands/decoded_maps.hpp"
 #include "apps/tools/commands/decoded_texture.hpp"
 #include "apps/tools/commands/engine_output.hpp"
 #include "apps/tools/commands/notes.hpp"
@@ -142,9 +143,19 @@ class Decoding {
     if (texture && formatOf(outputs_.mesh->name(), "") == "ply")
       tellNote("a .ply file has no place for the texture: --texture writes it beside", quiet_);
     file->texture = texture;
+    const Result<DecodedMaps> maps = mapsBeside(texture);
+    if (!maps.ok()) return maps.status();
+    file->maps = maps->forMesh();
+    tellNote(unwrittenNote(outputs_.mesh->name(), file->maps), quiet_);
     return outputs_.mesh->stage([&](const std::string& path) {
       return writeMesh(path, *file, "", arguments_.mesh_options);
     });
+  }
+
+  /// A mesh that shows a component which somebody has chosen shows that alone.
+  Result<DecodedMaps> mapsBeside(const ImageFile* texture) {
+    if (texture == nullptr || !arguments_.source.components.empty()) return DecodedMaps();
+    return DecodedMaps::of(stream_, memory_.texture());
   }
 
   Result<MeshFile> object() {

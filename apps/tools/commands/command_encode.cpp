@@ -276,7 +276,7 @@ Status tellSummary(const EncodeArguments& arguments, std::span<const uint8_t> st
   if (!decoder) return decoder.status();
   tellNote(boundNote(arguments, decoder->info()), quiet);
   tellNote(maskNote(decoder->info()), quiet);
-  tellLine(summary(arguments.output, decoder->info()));
+  tellLine(summary(arguments.output, *decoder));
   return Status();
 }
 
@@ -377,6 +377,10 @@ Status encode(const EncodeArguments& arguments, bool quiet) {
     return {TKS_USAGE, "--class is about meshes of triangles, and the input is none"};
   if (arguments.sketch != "auto")
     return {TKS_USAGE, "--sketch is about meshes of triangles, and the input is none"};
+  if (arguments.maps != "all")
+    return {TKS_USAGE, "--maps is about meshes of triangles, and the input is none"};
+  if (arguments.also.empty() && !arguments.weights_of_also.empty())
+    return {TKS_USAGE, "--also-weight is about further textures: give --also"};
   Result<EncodeOutputs> outputs = planOutputs(arguments);
   if (!outputs.ok()) return outputs.status();
   Result<Reference> inputs = readInputs(arguments, quiet);

@@ -93,6 +93,12 @@ Json objectJson(const tks_info& info) {
           {"base_to", box[1]}};
 }
 
+/// As it stands in the stream, if it is JSON.
+Json materialJson(const tks_info& info) {
+  const Json json = Json::parse(info.material, nullptr, false);
+  return json.is_object() ? json : Json();
+}
+
 Json heightsJson(const tks_info& info) {
   if (!info.has_heights) return {};
   return {{"width", info.width},
@@ -187,6 +193,7 @@ Json infoJson(const tks_info& info) {
           {"frame", info.frame},
           {"triangles", info.triangles > 0 ? Json(info.triangles) : Json()},
           {"object", objectJson(info)},
+          {"material", materialJson(info)},
           {"heights", heightsJson(info)},
           {"texture", textureJson(info)}};
 }

@@ -20,14 +20,17 @@ void addInputs(CLI::App& verb, EncodeArguments& arguments) {
       ->type_name("");
   verb.add_option("--texture", arguments.texture, "Texture over the same ground, or on the mesh")
       ->type_name("IMAGE");
-  CLI::Option* const also =
-      verb.add_option("--also", arguments.also,
-                      "A further texture of that name, such as classes or normals (may be "
-                      "repeated)")
-          ->type_name("NAME=IMAGE")
-          ->expected(1)
-          ->take_all();
-  addWeights(verb, "--also-weight", arguments.weights_of_also)->needs(also);
+  verb.add_option("--also", arguments.also,
+                  "A further texture of that name, such as classes or normals (may be "
+                  "repeated)")
+      ->type_name("NAME=IMAGE")
+      ->expected(1)
+      ->take_all();
+  addWeights(verb, "--also-weight", arguments.weights_of_also);
+  verb.add_option("--maps", arguments.maps,
+                  "Maps of a mesh's material to take along: all, none, or names with commas "
+                  "(normal,metallic_roughness,occlusion,emissive)")
+      ->type_name("NAMES");
   verb.add_option("-o,--output", arguments.output, "Where to write; - is standard output")
       ->required()
       ->type_name("OUT.tks");

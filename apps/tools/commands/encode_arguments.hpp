@@ -38,7 +38,7 @@ struct EncodeArguments {
   uint32_t depth = 0;  ///< of a cube; 0: chosen
   uint32_t triangles = 0, threads = hardwareThreads();
   std::string regions = "auto", weights = "psnr", engine = "modelled", domain = "auto",
-              kind = "auto", sketch = "auto";
+              kind = "auto", sketch = "auto", maps = "all";
   double step = 0;
   std::optional<double> scale, offset, nodata;
   uint32_t white_level = 0;  ///< 0: found

@@ -144,13 +144,20 @@ std::string maskNote(const tks_info& info) {
              : "the mask of voids does not fit: some voids are shown as ground";
 }
 
-std::string summary(const std::string& name, const tks_info& info) {
+std::string summary(const std::string& name, const Decoder& decoder) {
+  const tks_info& info = decoder.info();
+  uint64_t further = 0;
+  for (uint32_t i = 0; i < info.components; ++i) {
+    const tks_component one = *decoder.component(i);
+    if (one.is_taken == 0) further += one.available_bytes;
+  }
   const uint64_t heads =
-      info.stream_bytes - info.header_bytes - info.geometry_bytes - info.texture_bytes;
+      info.stream_bytes - info.header_bytes - info.geometry_bytes - info.texture_bytes - further;
   return name + ": " + std::to_string(info.stream_bytes) + " bytes (header " +
          std::to_string(info.header_bytes) + ", heights " + std::to_string(info.geometry_bytes) +
-         ", texture " + std::to_string(info.texture_bytes) + ", heads of packets " +
-         std::to_string(heads) + ")";
+         ", texture " + std::to_string(info.texture_bytes) +
+         (further > 0 ? ", other components " + std::to_string(further) : "") +
+         ", heads of packets " + std::to_string(heads) + ")";
 }
 
 }  // namespace tetrakis::tools

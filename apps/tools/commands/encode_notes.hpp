@@ -8,6 +8,7 @@
 #include "apps/tools/commands/encode_arguments.hpp"
 #include "apps/tools/files/cube_heights.hpp"
 #include "apps/tools/files/files.hpp"
+#include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::tools {
 
@@ -40,6 +41,6 @@ std::string boundNote(const EncodeArguments& arguments, const tks_info& info);
 std::string maskNote(const tks_info& info);
 
 /// One line about the stream that was written to a file of this name.
-std::string summary(const std::string& name, const tks_info& info);
+std::string summary(const std::string& name, const Decoder& decoder);
 
 }  // namespace tetrakis::tools

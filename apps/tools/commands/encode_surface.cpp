@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/tools/commands/encode_maps.hpp"
 #include "apps/tools/commands/encode_notes.hpp"
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/files/memory_limit.hpp"
@@ -24,7 +25,8 @@ namespace {
 /// What the encoder is to take.
 struct SurfaceInputs {
   SurfaceFile mesh;
-  std::string unit;
+  std::vector<FurtherTexture> further;  ///< what lies on the triangles beside the texture
+  std::string unit, material;
 };
 
 Result<ImageFile> readTexture(const std::string& path, bool quiet) {
@@ -37,25 +39,42 @@ Result<ImageFile> readTexture(const std::string& path, bool quiet) {
   return texture;
 }
 
-/// The texture of a mesh itself goes with a number of bytes alone.
+/// What lies on triangles beside their texture, or in the place of one that is not there.
+Status readFurther(const EncodeArguments& arguments, bool quiet, SurfaceInputs& inputs) {
+  SurfaceFile& mesh = inputs.mesh;
+  if (!arguments.also.empty() && mesh.texcoords.empty())
+    return {TKS_USAGE, quoted(arguments.height) +
+                           " has no texture coordinates, so that --also cannot lie on it"};
+  Result<std::vector<FurtherTexture>> further = furtherTextures(arguments, mesh, quiet);
+  if (!further.ok()) return further.status();
+  inputs.further = *std::move(further);
+  if (inputs.further.empty() && !mesh.maps.has_even) return {};
+  inputs.material = materialText(mesh.maps.material);
+  if (!mesh.texture) mesh.texture = plainTexture(mesh);
+  return {};
+}
+
+/// The textures of a mesh itself go with a number of bytes alone.
 Result<SurfaceInputs> readSurfaceInputs(const EncodeArguments& arguments, bool quiet) {
-  Result<SurfaceFile> mesh = readTexturedSurface(arguments.height, arguments.texture, quiet);
+  const Result<std::vector<std::string>> maps = wantedMaps(arguments.maps);
+  if (!maps.ok()) return maps.status();
+  Result<SurfaceFile> mesh =
+      readTexturedSurface(arguments.height, {arguments.texture, *maps}, quiet);
   if (!mesh.ok()) return mesh.status();
-  if (mesh->texture && arguments.texture.empty() && arguments.bytes == 0) {
-    mesh->texture.reset();
-    tellNote("the texture is left out: it goes with --bytes alone", quiet);
-  } else if (mesh->texture && !arguments.texture.empty() && arguments.white_level > 0) {
+  if (arguments.bytes == 0) leaveOutTextures(*mesh, quiet);
+  if (mesh->texture && !arguments.texture.empty() && arguments.white_level > 0)
     mesh->texture->white_level = arguments.white_level;
-  }
-  SurfaceInputs inputs{std::move(*mesh), ""};
+  SurfaceInputs inputs{std::move(*mesh), {}, "", ""};
   inputs.unit = arguments.unit ? canonicalUnit(*arguments.unit) : inputs.mesh.y_is_up ? "m" : "";
+  if (Status status = readFurther(arguments, quiet, inputs); !status.ok()) return status;
   return inputs;
 }
 
 /// Measured: what encoding takes beside the streams that are tried.
 Status checkSurfaceMemory(const SurfaceInputs& inputs) {
   constexpr uint64_t kTriangle = 600, kImages = 3;
-  const uint64_t image = inputs.mesh.texture ? inputs.mesh.texture->data.size() : 0;
+  uint64_t image = inputs.mesh.texture ? inputs.mesh.texture->data.size() : 0;
+  for (const FurtherTexture& one : inputs.further) image += one.image.data.size();
   return checkMemoryFor("encoding so many triangles",
                         kTriangle * inputs.mesh.triangles.size() + kImages * image);
 }
@@ -80,6 +99,8 @@ tks_triangle_mesh asTriangleMesh(const SurfaceInputs& inputs, const std::string&
   if (!inputs.unit.empty()) mesh.unit = inputs.unit.c_str();
   if (!file.name.empty()) mesh.description = file.name.c_str();
   if (file.texture) mesh.texcoords = file.texcoords.front().data();
+  if (!inputs.material.empty()) mesh.material = inputs.material.c_str();
+  mesh.texels = longestSide(inputs.further);
   mesh.kind = kind == "auto"        ? TKS_OBJECT_AUTO
               : kind == "triangles" ? TKS_OBJECT_TRIANGLES
                                     : TKS_OBJECT_RESAMPLED;
@@ -151,10 +172,11 @@ Result<Buffer> encodeMesh(const EncodeArguments& arguments, const SurfaceInputs&
 
 }  // namespace
 
-Result<SurfaceFile> readTexturedSurface(const std::string& path, const std::string& texture,
+Result<SurfaceFile> readTexturedSurface(const std::string& path, const SurfaceTextures& textures,
                                         bool quiet) {
   std::string remark;
-  Result<SurfaceFile> mesh = readSurface(path, &remark, texture.empty());
+  const std::string& texture = textures.texture;
+  Result<SurfaceFile> mesh = readSurface(path, &remark, {texture.empty(), textures.maps});
   if (!mesh.ok()) return mesh.status();
   if (!remark.empty()) tellNote(quoted(path) + ": " + remark, quiet);
   if (!texture.empty()) {
@@ -180,9 +202,10 @@ Status checkSurfaceArguments(const EncodeArguments& arguments) {
     return {TKS_USAGE, "a mesh with --texture takes --bytes as its target"};
   if (!arguments.cameras.isDefault() && arguments.bytes == 0)
     return {TKS_USAGE, "cameras share bytes between a mesh and its texture: give --bytes"};
+  if (!arguments.also.empty() && (arguments.bytes == 0 || arguments.kind != "triangles"))
+    return {TKS_USAGE, "of a mesh --also goes with --class triangles and --bytes alone"};
   const std::pair<const char*, bool> options[] = {
       {"--triangles", arguments.triangles > 0},
-      {"--also", !arguments.also.empty()},
       {"--engine", arguments.engine != "modelled"},
       {"--regions", arguments.regions != "auto" && arguments.regions != "off"},
       {"--windows", arguments.windows},
@@ -250,8 +273,28 @@ Status printTrials(const EncodeArguments& arguments, const tks_object_report& re
   return print(arguments.json ? dump(json) : table(legible(json)));
 }
 
+namespace {
+
+/// What became of the mesh, beside its stream.
+Status tellResult(const EncodeArguments& arguments, const SurfaceInputs& inputs,
+                  const tks_object_report& report, std::span<const uint8_t> bytes) {
+  tellNote(report.kind == TKS_OBJECT_TRIANGLES ? mapsNote(inputs.further, inputs.mesh.maps.left_out)
+                                               : resampledMapsNote(inputs.further),
+           false);
+  tellNote(cleaningNote(report), false);
+  tellNote(objectNote(report, inputs.unit), false);
+  const Result<Decoder> decoder = openDecoder(bytes);
+  if (!decoder) return decoder.status();
+  tellLine(tools::summary(arguments.output, *decoder));
+  return {};
+}
+
+}  // namespace
+
 Status encodeSurface(const EncodeArguments& arguments, bool quiet) {
-  Status status = checkInputsStay({arguments.height, arguments.texture}, arguments.output);
+  std::vector<std::string> files = {arguments.height, arguments.texture};
+  for (const NamedFile& file : namedFiles(arguments.also)) files.push_back(file.path);
+  Status status = checkInputsStay(files, arguments.output);
   if (!status.ok()) return status;
   Result<Output> output = Output::plan(arguments.output, arguments.force, ".tks");
   if (!output.ok()) return output.status();
@@ -260,19 +303,16 @@ Status encodeSurface(const EncodeArguments& arguments, bool quiet) {
   status = checkSurfaceMemory(*inputs);
   if (!status.ok()) return status;
   tks_object_report report{};
-  const Result<Buffer> stream = encodeMesh(arguments, *inputs, quiet, report);
+  Result<Buffer> stream = encodeMesh(arguments, *inputs, quiet, report);
+  if (stream.ok() && !inputs->further.empty() && report.kind == TKS_OBJECT_TRIANGLES)
+    stream = withFurther(arguments, *stream, *inputs->mesh.texture, inputs->further, quiet);
   if (!stream.ok()) return stream.status();
   const std::span<const uint8_t> bytes = stream->bytes();
   status = output->stage(std::as_bytes(bytes));
   if (status.ok()) status = output->commit();
   if (status.ok()) status = printTrials(arguments, report);
   if (!status.ok() || quiet) return status;
-  tellNote(cleaningNote(report), quiet);
-  tellNote(objectNote(report, inputs->unit), quiet);
-  const Result<Decoder> decoder = openDecoder(bytes);
-  if (!decoder) return decoder.status();
-  tellLine(summary(arguments.output, decoder->info()));
-  return {};
+  return tellResult(arguments, *inputs, report, bytes);
 }
 
 }  // namespace tetrakis::tools

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "apps/tools/commands/encode_arguments.hpp"
 #include "apps/tools/files/meshes/surface_file.hpp"
@@ -10,9 +11,15 @@
 
 namespace tetrakis::tools {
 
-/// Reads a mesh with what its surface shows: the image in the file `texture`, without alpha, or if
-/// that is "", its own texture. Tells what is remarkable about the files.
-Result<SurfaceFile> readTexturedSurface(const std::string& path, const std::string& texture,
+/// What lies on a mesh: the image in the file `texture`, without alpha, or if that is "", its own
+/// texture; and of the maps of its material those of these names.
+struct SurfaceTextures {
+  std::string texture;
+  std::vector<std::string> maps{};
+};
+
+/// Reads a mesh with what its surface shows. Tells what is remarkable about the files.
+Result<SurfaceFile> readTexturedSurface(const std::string& path, const SurfaceTextures& textures,
                                         bool quiet);
 
 /// TKS_USAGE if there are options that mean nothing to a mesh.

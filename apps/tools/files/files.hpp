@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/tools/files/meshes/material.hpp"
 #include "base/samples.hpp"
 #include "tetrakis/result.hpp"
 #include "tetrakis/tetrakis.h"
@@ -90,6 +91,17 @@ ImageFile withoutFurtherColour(const ImageFile& image);
 tks_heights asHeights(const HeightFile& file);
 tks_image asImage(const ImageFile& file);
 
+/// What a mesh is made of beside its texture: maps of a material, by MapKind (meshes/material.hpp).
+/// Null: there is none. Not owned.
+struct MeshMaps {
+  std::array<const ImageFile*, kMapKinds> images{};
+  Material material{};
+  bool is_lit = false;  ///< the material counts, even without maps
+
+  bool none() const { return images == decltype(images){} && !is_lit; }
+  const ImageFile* at(MapKind kind) const { return images[static_cast<size_t>(kind)]; }
+};
+
 /// A mesh ready to be written: positions in metres, x east, y up, z south (glTF axes), texture
 /// coordinates with (0, 0) at the image's top left corner (glTF convention).
 struct MeshFile {
@@ -98,6 +110,7 @@ struct MeshFile {
   std::vector<float> normals;          ///< 3 per vertex, of length 1; empty: smooth ones are made
   std::vector<uint32_t> triangles;     ///< 3 per triangle, counter-clockwise seen from above
   const ImageFile* texture = nullptr;  ///< not owned; may be null
+  MeshMaps maps{};                     ///< where there are texture coordinates
   bool texture_repeats = false;        ///< beyond (0, 0) and (1, 1); else its edges go on
   std::array<double, 3> origin{};      ///< of the positions; .glb alone keeps it
 };
@@ -147,8 +160,9 @@ Result<std::vector<std::byte>> encodeJpeg(const ImageFile& image, int quality);
 /// Of the geometry in a .glb: KHR_draco_mesh_compression, EXT_meshopt_compression.
 enum class MeshCompression { kNone, kDraco, kMeshopt };
 
-/// Of the texture in a .glb, reduced to 8 bits. kChosen: JPEG, or PNG when it has alpha or 16 bits.
-/// kJpeg refuses alpha; kKtx2 takes a program that may be missing (TKS_UNSUPPORTED).
+/// Of the texture in a .glb, and of a map of light, reduced to 8 bits. kChosen: JPEG, or PNG when
+/// it has alpha or 16 bits. kJpeg refuses alpha; kKtx2 takes a program that may be missing
+/// (TKS_UNSUPPORTED). Maps whose values are no colours are PNG.
 enum class MeshTexture { kChosen, kJpeg, kPng, kWebp, kKtx2 };
 
 struct MeshOptions {
@@ -160,10 +174,11 @@ struct MeshOptions {
 /// TKS_USAGE if the options mean nothing to a mesh of that name.
 Status checkMeshOptions(const std::string& path, const MeshOptions& options);
 
-/// .glb (texture embedded), .obj (+ .mtl and .png of the same name when textured), .ply (binary,
-/// texture coordinates but no texture); all with normals. Coordinates come back bit for bit, of a
-/// compressed .glb as meshopt_mesh.hpp and draco_mesh.hpp say. Fails with TKS_USAGE on an empty or
-/// inconsistent mesh.
+/// .glb (texture and maps embedded), .obj (+ .mtl and .png of its name when textured, and of maps
+/// name_normal.png and others; occlusion is left out), .ply (binary, texture coordinates but no
+/// texture); all with normals. Coordinates come back bit for bit, of a compressed .glb as
+/// meshopt_mesh.hpp and draco_mesh.hpp say. Fails with TKS_USAGE on an empty or inconsistent
+/// mesh.
 Status writeMesh(const std::string& path, const MeshFile& mesh, const std::string& format = "",
                  const MeshOptions& options = {});
 

@@ -57,8 +57,10 @@ Status checkInputsStay(const std::vector<std::string>& inputs, const std::string
 std::vector<std::string> meshFiles(const std::string& mesh) {
   std::vector<std::string> files{mesh};
   if (formatOf(mesh, "") != "obj") return files;
-  for (const char* side : {".mtl", ".png"}) {
-    files.push_back(fs::path(mesh).replace_extension(side).string());
+  const std::string name = fs::path(mesh).replace_extension().string();
+  for (const char* side :
+       {".mtl", ".png", "_normal.png", "_roughness.png", "_metallic.png", "_emissive.png"}) {
+    files.push_back(name + side);
   }
   return files;
 }

@@ -101,13 +101,15 @@ tks_status web_numbers(const tks_decoder* decoder, double* out) {
   return TKS_OK;
 }
 
-/// A text of the stream: 0 unit, 1 vertical datum, 2 CRS, 3 CRS of the texture, 4 GeoTIFF keys.
+/// A text of the stream: 0 unit, 1 vertical datum, 2 CRS, 3 CRS of the texture, 4 GeoTIFF keys, 5
+/// material.
 const char* web_text(const tks_decoder* decoder, int which) {
   tks_info i{};
   i.size = sizeof i;
   if (tks_get_info(decoder, &i) != TKS_OK) return "";
-  const char* const texts[] = {i.unit, i.vertical_datum, i.crs, i.texture_crs, i.geo_keys};
-  return which >= 0 && which < 5 ? texts[which] : "";
+  const char* const texts[] = {i.unit,        i.vertical_datum, i.crs,
+                               i.texture_crs, i.geo_keys,       i.material};
+  return which >= 0 && which < 6 ? texts[which] : "";
 }
 
 /// The name of a component of the stream; `out`: its kind, whether it is taken, its width, height

@@ -79,6 +79,8 @@ export interface FrameOptions {
    * surface. Default false. */
   normals?: boolean;
   texture?: boolean;
+  /** With the texture, those of an object's material. Default true. */
+  maps?: boolean;
   /** The heights as a grid. Default false. */
   surface?: boolean;
   /** Longest side of the texture, by the mip levels of the stream, of which none is finer than the
@@ -151,6 +153,8 @@ export interface TerrainInfo {
   /** Of an object whose triangles are coded as they are, which all frames have; 0: of any other
    * stream. An object has heights, over a base mesh, or such triangles. */
   objectTriangles: number;
+  /** What its surface is made of: factors of a glTF material, as JSON with glTF's names; ''. */
+  material: string;
   width: number;
   height: number;
   /** Metres; 0: unknown. */
@@ -261,6 +265,16 @@ export interface Raster<T> {
   data: T;
 }
 
+/** Maps as glTF has them: tangent-space normals; roughness (green) and metalness (blue), with
+ * occlusion in red where info.material has an occlusionTexture and no map holds it; occlusion
+ * (red); emitted light. */
+export type MapName = 'normal' | 'metallic_roughness' | 'occlusion' | 'emissive';
+
+export interface MaterialMap extends Raster<Uint8ClampedArray> {
+  /** As info.texturePsnr. */
+  psnr: number;
+}
+
 export interface Frame {
   /** Its number in the sequence, or in the stream. */
   number: number;
@@ -278,6 +292,8 @@ export interface Frame {
   /** RGBA; of an object with heights an atlas: its patches in rows and columns, each with a gutter
    * of one texel that repeats its border. */
   texture?: Raster<Uint8ClampedArray>;
+  /** Of info.objectTriangles, whose stream has maps: those of which the bytes tell something. */
+  maps?: Partial<Record<MapName, MaterialMap>>;
   /** In info.unit; voids are NaN. */
   surface?: Surface;
 }

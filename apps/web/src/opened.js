@@ -121,7 +121,7 @@ export class Opened {
     info.hasIndex = this.hasIndex;
     info.geotransform = gather('g');
     info.textureGeotransform = gather('t');
-    const texts = ['unit', 'verticalDatum', 'crs', 'textureCrs', 'geoKeys'];
+    const texts = ['unit', 'verticalDatum', 'crs', 'textureCrs', 'geoKeys', 'material'];
     texts.forEach((name, i) => (info[name] = instance.text(instance.calls.web_text(decoder, i))));
     info.positions = this.#positions(0);
     info.texturePositions = this.#positions(1);

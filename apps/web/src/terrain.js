@@ -7,6 +7,7 @@ import {askDecoder} from './decoders.js';
 import {TksError} from './error.js';
 import {Fetcher} from './fetcher.js';
 import {checkBytes, checkFrame, checkLevels, checkSides, trianglesOf} from './limits.js';
+import {mapsOf} from './material.js';
 import {FIRST_BYTES, GROWTH, nextBytes} from './pace.js';
 import {PARTS} from './parts.js';
 import {cutOf, plannedView} from './view.js';
@@ -20,6 +21,7 @@ const DEFAULTS = {
   globe: null,
   normals: false,
   texture: true,
+  maps: true,
   surface: false,
   texels: 4096,
   samples: 4096,
@@ -109,7 +111,21 @@ export class Terrain {
     if (component.length === 0 && frame.bytes >= this.#told) {
       [this.#told, this.#fetcher.info] = [frame.bytes, frame.info];
     }
-    return {...frame, number: asked.frame, time: asked.frame};
+    const maps = await this.#maps(frame, {...asked, signal});
+    return {...frame, ...maps, number: asked.frame, time: asked.frame};
+  }
+  /** Those of an object's material, as far as the bytes of the frame tell of them. */
+  async #maps({info, bytes}, {maps, texture, texels, component, signal}) {
+    const found = mapsOf(info);
+    if (found.size === 0 || !maps || !texture || askedOf(component).length > 0) return {};
+    const rasters = {};
+    for (const [name, {number, bytes: known}] of found) {
+      if (known === 0 && bytes < info.streamBytes) continue;
+      const map = await askDecoder(this.#decoder, 'decode',
+        {...DEFAULTS, mesh: false, texels, bytes, component: [number]}, signal);
+      rasters[name] = {...map.texture, psnr: map.info.texturePsnr};
+    }
+    return {maps: rasters};
   }
 
   /** While a frame is decoded and shown, bytes come on; the next one takes what is here by then. */

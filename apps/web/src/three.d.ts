@@ -18,9 +18,11 @@ export interface TerrainOptions {
   /** Longest side of the grid of heights that frames of a sequence are drawn with while they play.
    * Default 512. */
   samples?: number;
-  /** Default: one that needs no lights, as a photograph holds its own. Give a MeshLambertMaterial
-   * or MeshStandardMaterial for your lights. A TksTerrain draws its texture with it and disposes
-   * it, so that it serves no other one; a TksLoader gives each terrain a copy. */
+  /** Default: one that needs no lights, as a photograph holds its own; of an object with maps of
+   * its material (normals, roughness, …) a MeshStandardMaterial, which needs some. Give a
+   * MeshLambertMaterial or MeshStandardMaterial for your lights: maps and factors of a stream are
+   * set in those slots that it has. A TksTerrain draws its texture with it and disposes it, so that
+   * it serves no other one; a TksLoader gives each terrain a copy. */
   material?: Material;
 }
 
@@ -90,6 +92,9 @@ export class TksObject extends RefiningMesh {
   /** (0, 0, 0) of what has the origin in its box. Set `position` to it where an object shall lie
    * beside others of the same coordinates. */
   readonly centre: Vector3;
+  /** Called once the stream is known to have maps of a material: what takes the place of the
+   * material, by default a MeshStandardMaterial where you gave none; null: nothing. */
+  litMaterial(): Material | null;
 }
 
 /** Gives a TksTerrain, or a TksObject of a stream that holds an object. */

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // An object, such as a scan, in a scene of three.js: a mesh that refines by the camera. Its
 // coordinates are those of the mesh that was encoded, in its unit, less `centre`.
-import {BufferAttribute, BufferGeometry, DoubleSide, Vector3} from 'three';
+import {
+  BufferAttribute, BufferGeometry, DoubleSide, MeshStandardMaterial, Vector3,
+} from 'three';
 
 import {fitCamera} from './fit.js';
+import {hasMaterial, mapsOf} from './material.js';
 import {PatchAtlas} from './patch_atlas.js';
 import {textureOf} from './three_frame.js';
+import {MaterialMaps} from './three_maps.js';
 import {GOOD_PSNR, RefiningMesh} from './three_refining.js';
 
 /** Seen from the front, a little above. */
@@ -49,11 +53,30 @@ function texelOf(object, info) {
 export class TksObject extends RefiningMesh {
   #texel = 1;  // its side
   #next = null;  // geometry for a texture that is still being brought
+  #maps = null;
+  #isGiven;  // its material
 
   /** `terrain`: of open(). It is disposed with this object, as its material is. */
   constructor(terrain, options = {}) {
     super(terrain, options);
-    if (!options.material) this.material.side = DoubleSide;  // scans have holes
+    this.#isGiven = Boolean(options.material);
+    if (!this.#isGiven) this.material.side = DoubleSide;  // scans have holes
+    this.#light(terrain.info);
+  }
+  /** What takes the place of the material once the stream is known to have maps; null: nothing. */
+  litMaterial() {
+    return this.#isGiven ? null : new MeshStandardMaterial({side: DoubleSide});
+  }
+  /** A sketch knows of no maps: they come with the header. */
+  #light(info) {
+    if (this.#maps || !hasMaterial(info)) return;
+    const before = this.material, lit = this.litMaterial();
+    if (lit) {
+      const {map, alphaTest, wireframe} = before;
+      this.material = Object.assign(lit, {map, alphaTest, wireframe});
+      before.dispose();
+    }
+    this.#maps = new MaterialMaps(this.material, info);
   }
   get isPlanned() {
     return false;
@@ -67,7 +90,9 @@ export class TksObject extends RefiningMesh {
     return new Vector3(...this.frame?.object?.centre ?? [0, 0, 0]);
   }
 
-  draw({object, texture, info}) {
+  draw({object, texture, maps, info}) {
+    this.#light(info);
+    if (maps) this.#maps?.show(maps);
     if (object) {
       const isFirst = this.frame?.info.showsSketch !== info.showsSketch;
       if (isFirst && info.hasTexture) this.#texel = texelOf(object, info);
@@ -81,6 +106,11 @@ export class TksObject extends RefiningMesh {
     this.#next = null;
   }
 
+  dispose() {
+    this.#maps?.dispose();
+    super.dispose();
+  }
+
   /** Puts a camera so that the object fills its picture, seen along `direction`; gives the middle
    * of the object, for the target of controls. */
   fit(camera, direction = USUAL) {
@@ -92,8 +122,14 @@ export class TksObject extends RefiningMesh {
     const level = Math.max(0, Math.floor(-Math.log2(pixels * this.#texel)));
     const error = info.heightsRmse < 0 ? Infinity : info.heightsRmse * pixels;
     const more = (info.hasHeights && error > this.pixelError) ||
-      (info.hasTexture && info.texturePsnr < GOOD_PSNR - 6 * level);
+      (info.hasTexture && this.#leastPsnr() < GOOD_PSNR - 6 * level);
     return {more, texels: this.#texelsFor(level, texels)};
+  }
+  /** Of what lies on the object: its texture, and the maps of its material. */
+  #leastPsnr() {
+    const {info, maps = {}} = this.frame;
+    const known = [...mapsOf(info).keys()].map((name) => maps[name]?.psnr ?? -1);
+    return Math.min(info.texturePsnr, ...known);
   }
   /** Those of a texture at a level, or those that are shown where they do: an atlas is seen without
    * mip levels, so that a much too fine one flickers. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes for tests: a lumpy ball, and files of glTF made by hand.
+import {crc32, deflateSync} from 'node:zlib';
 
 const FLOAT = 5126, UINT = 5125;
 
@@ -87,6 +88,53 @@ export function gltfOf({positions, texcoords, triangles}, picture = null) {
     bufferViews: views, buffers: [{byteLength: bytes.length}],
   };
   return {document, bytes};
+}
+
+/** A PNG of `side` x `side` texels, RGB of 8 bits: texel(x, y) gives three values, x and y from 0
+ * to 1. */
+export function pngOf(side, texel) {
+  const rows = Buffer.alloc(side * (3 * side + 1));
+  for (let y = 0; y < side; ++y) {
+    for (let x = 0; x < side; ++x) {
+      const values = texel((x + 0.5) / side, (y + 0.5) / side).map((v) =>
+        Math.round(Math.min(Math.max(v, 0), 255)));
+      rows.set(values, y * (3 * side + 1) + 1 + 3 * x);
+    }
+  }
+  const chunk = (type, data) => {
+    const body = Buffer.concat([Buffer.from(type), data]), ends = Buffer.alloc(8);
+    ends.writeUInt32BE(data.length, 0);
+    ends.writeUInt32BE(crc32(body), 4);
+    return Buffer.concat([ends.subarray(0, 4), body, ends.subarray(4)]);
+  };
+  const head = Buffer.alloc(13);
+  head.writeUInt32BE(side, 0);
+  head.writeUInt32BE(side, 4);
+  head.set([8, 2], 8);
+  return Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', head),
+    chunk('IDAT', deflateSync(rows)), chunk('IEND', Buffer.alloc(0))]);
+}
+
+/** A .glb of a mesh whose textures, PNGs by the names of their slots, are those of a material with
+ * these factors. */
+export function shinyGlb(mesh, pictures, {pbr = {}, ...factors} = {}) {
+  const {document, bytes} = gltfOf(mesh, pictures.baseColorTexture);
+  const parts = [bytes], {bufferViews, images, textures} = document;
+  let end = bytes.length;
+  const material = {...factors, pbrMetallicRoughness: {baseColorTexture: {index: 0}, ...pbr}};
+  for (const [slot, picture] of Object.entries(pictures)) {
+    if (slot === 'baseColorTexture') continue;
+    bufferViews.push({buffer: 0, byteOffset: end, byteLength: picture.length});
+    parts.push(picture, Buffer.alloc(-picture.length & 3));
+    end += (picture.length + 3) & ~3;
+    images.push({bufferView: bufferViews.length - 1, mimeType: 'image/png'});
+    textures.push({source: images.length - 1});
+    const place = slot.startsWith('metallic') ? material.pbrMetallicRoughness : material;
+    place[slot] = {...place[slot], index: textures.length - 1};
+  }
+  document.materials = [material];
+  document.buffers = [{byteLength: end}];
+  return glbFile(document, Buffer.concat(parts));
 }
 
 /** Wavefront OBJ, whose texture coordinates, if there are any, count from the bottom. */

@@ -10,6 +10,7 @@ import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
 
+import {ballOf, pngOf, shinyGlb} from './meshes.js';
 import {psnr} from './pictures.js';
 import {MIDDLE, drawn, viewerSite} from './viewer_site.js';
 
@@ -24,6 +25,14 @@ const ONLY_PICTURE = 'aside, header, #bearings { display: none !important }';
 /** A part of eight flat sides and no texture, as Wavefront OBJ. */
 const wedge = 'v 0 0 0\nv 3 0 0\nv 3 1 0\nv 0 2 0\nv 0 0 2\nv 3 0 2\n' +
   'f 1 3 2\nf 1 4 3\nf 1 2 6\nf 1 6 5\nf 2 3 6\nf 4 1 5\nf 3 4 5\nf 3 5 6\n';
+/** A grey ball that shines yellow on one half, and is of dimpled metal on the other. */
+const lamp = () => shinyGlb(ballOf(16, 0), {
+  baseColorTexture: pngOf(16, (x) => [120 + 20 * x, 130, 130]),
+  normalTexture: pngOf(64, (x, y) =>
+    [128 + 50 * Math.sin(90 * x), 128 + 50 * Math.sin(60 * y), 230]),
+  metallicRoughnessTexture: pngOf(16, (x) => [255, 60, 255 * (x > 0.5)]),
+  emissiveTexture: pngOf(16, (x) => (x < 0.5 ? [255, 220, 0] : [0, 0, 0])),
+}, {emissiveFactor: [1, 1, 1]});
 let folder, site;
 
 before(async () => {
@@ -37,6 +46,12 @@ before(async () => {
     run('synth', '--kind', 'scan', '--triangles', '3000', '-o', 'scan.glb');
     run('synth', '--kind', 'knot', '--triangles', '3000', '-o', 'knot.glb');
     await writeFile(join(folder, 'part.obj'), wedge);
+    await writeFile(join(folder, 'lamp.glb'), lamp());
+    for (const [maps, stream] of [['all', 'lamp.tks'], ['none', 'matt.tks']]) {
+      run('encode', 'lamp.glb', '--bytes', '40k', '--class', 'triangles', '--maps', maps, '-o',
+        stream);
+      files[stream] = await readFile(join(folder, stream));
+    }
     for (const [name, kind] of [['scan.glb', 'resampled'], ['knot.glb', 'triangles'],
       ['part.obj', 'triangles']]) {
       const stream = name.replace(/\..*/, '.tks');
@@ -97,6 +112,24 @@ test('an object fills the picture, with its texture or without one', TIMEOUT, as
     });
   }
 });
+
+test('maps of a material light an object, and mirror what is around it', {skip, ...TIMEOUT},
+  async () => {
+    const pictures = [];
+    for (const name of ['lamp', 'matt']) {
+      await site.withPage(`tks=${name}.tks`, async (page) => {
+        const path = PICTURES && `${PICTURES}/viewer_${name}.png`;
+        pictures.push(await page.screenshot({style: ONLY_PICTURE, path}));
+        assert.match(await text(page, '#size'), /^\d+ triangles/);
+      });
+    }
+    const middle = {x: MIDDLE.x - 80, y: MIDDLE.y - 80, width: 160, height: 160};
+    let likeness;
+    await site.withPage('tks=matt.tks', async (page) => {
+      likeness = await psnr(page, pictures, [middle, middle]);
+    });
+    assert.ok(likeness < 20, `${likeness} dB`);
+  });
 
 test('controls of ground are hidden, and back for terrain', TIMEOUT, async () => {
   await site.withPage('tks=joint.tks', async (page) => {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How the viewer shows an object: seen from all sides, as it is, without ground below it.
-import {DoubleSide, MeshLambertMaterial, Vector3} from 'three';
+import {DoubleSide, MeshLambertMaterial, MeshStandardMaterial, Vector3} from 'three';
 
 import {groundScale} from '../src/ground.js';
 import {TksObject} from '../src/three.js';
@@ -25,6 +25,10 @@ export class ViewedObject extends TksObject {
   constructor(terrain) {
     const color = terrain.info.hasTexture ? 0xffffff : CLAY;
     super(terrain, {material: new MeshLambertMaterial({color, side: DoubleSide})});
+  }
+  litMaterial() {
+    this.mirrors = true;  // metal shows what is around it
+    return new MeshStandardMaterial({side: DoubleSide});
   }
   /** It does not: meshes of objects come one after the other. */
   glide() {

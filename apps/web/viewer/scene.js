@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is drawn and from where: light, camera, and the two ways to move it. Pictures are drawn
 // when something has changed, not all the time.
-import {Box3, MathUtils, PerspectiveCamera, Scene, Vector3, WebGLRenderer} from 'three';
+import {
+  Box3, MathUtils, PMREMGenerator, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
+} from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
+import {RoomEnvironment} from 'three/addons/environments/RoomEnvironment.js';
 
 import {Fly} from './fly.js';
 import {GlobeCamera} from './globe_camera.js';
@@ -16,6 +19,8 @@ import {NARROW} from './page.js';
 import {pointOn} from './ray.js';
 
 const REST = 150;  // ms
+/** Of what is around an object, beside the sun. */
+const ROOM_LIGHT = 0.35;
 const PANEL_SHIFT = 150;  // pixels, by which a panel beside the terrain moves its middle
 
 export class Picture {
@@ -23,6 +28,7 @@ export class Picture {
   #object = null;
   #original = null;
   #edge = 0.5;  // of the picture's width, left of which the stream is drawn
+  #room = null;  // what mirrors show
   #pending = false;
   #last = 0;
   #radius = 1;
@@ -130,6 +136,7 @@ export class Picture {
   /** The stream, and right of the edge its original. */
   #render() {
     const {renderer} = this;
+    this.#scene.environment = this.#object?.mirrors ? this.#roomAround() : null;
     if (!this.#original) return renderer.render(this.#scene, this.camera);
     const edge = Math.round(this.#edge * innerWidth);
     renderer.setScissorTest(true);
@@ -161,6 +168,12 @@ export class Picture {
     Object.assign(this.orbit, orbitFor(object));
     if (object) this.#scene.add(object);
     this.draw();
+  }
+
+  #roomAround() {
+    this.#scene.environmentIntensity = ROOM_LIGHT;
+    this.#room ??= new PMREMGenerator(this.renderer).fromScene(new RoomEnvironment()).texture;
+    return this.#room;
   }
 
   /** What the stream was made of, or null: drawn right of the edge. */

@@ -271,3 +271,30 @@ def test_combined_streams_combine_again(parts, combined):
     assert names == ["today", "today", "2019", "normal", "classes", "more"]
     _assert_equal(tetrakis.open(again, component="more").texture(),
                   tetrakis.open(parts["normal"]).texture())  # fmt: skip
+
+
+def test_maps_lie_on_triangles():
+    y, x = np.mgrid[0:9, 0:9] / 8
+    points = np.stack([x, x * (1 - x) * y, y], axis=-1).reshape(-1, 3)
+    corner = (np.arange(8)[:, np.newaxis] * 9 + np.arange(8)).ravel()
+    triangles = np.concatenate(
+        [np.stack([corner, corner + 9, corner + 1], -1),
+         np.stack([corner + 1, corner + 9, corner + 10], -1)]
+    )  # fmt: skip
+    uv = np.stack([x, y], axis=-1).reshape(-1, 2)
+    model = tetrakis.encode_object(
+        points, triangles, texcoords=uv, texture=photograph(32, 32), bytes=6000, kind="triangles"
+    )
+    maps = {
+        "normal": tetrakis.encode(texture=photograph(24, 40)),
+        "occlusion": tetrakis.encode(texture=photograph(16, 16, 1)),
+    }
+    shiny = tetrakis.combine(model, maps)
+    with tetrakis.open(shiny) as opened:
+        assert [one.name for one in opened.components] == [None, "normal", "occlusion"]
+        assert opened.info.material is None
+        assert opened.object().triangles.shape == triangles.shape
+    for name, stream in maps.items():
+        with tetrakis.open(shiny, component=name) as opened:
+            np.testing.assert_array_equal(opened.texture(), tetrakis.open(stream).texture())
+            assert opened.info.object_triangles == len(triangles)

@@ -156,20 +156,29 @@ class Joiner {
 };
 
 /// The materials of the parts.
-std::vector<SceneMaterial> materialsOf(const aiScene& scene, const std::vector<Part>& parts) {
+std::vector<SceneMaterial> materialsOf(const aiScene& scene, const std::vector<Part>& parts,
+                                       bool is_gltf) {
   std::vector<SceneMaterial> materials;
   for (const Part& part : parts) {
     const unsigned index = part.mesh->mMaterialIndex;
-    materials.push_back(index < scene.mNumMaterials ? materialOf(*scene.mMaterials[index])
+    materials.push_back(index < scene.mNumMaterials ? materialOf(*scene.mMaterials[index], is_gltf)
                                                     : SceneMaterial{});
   }
   return materials;
 }
 
+/// By what materials are told apart: the texture of the colour, or of one without it the maps.
+std::string nameOf(const SceneMaterial& material) {
+  if (!material.texture.path.empty()) return material.texture.path;
+  std::string name;
+  for (const SceneTexture& map : material.maps) name += '\n' + map.path;
+  return name;
+}
+
 /// How many triangles have each texture, with the material of the first part that has it.
 struct TextureUse {
   SceneMaterial material;
-  uint64_t triangles = 0, parts = 0;
+  uint64_t triangles = 0, parts = 0, other_maps = 0;
 };
 
 std::vector<TextureUse> texturesOf(const std::vector<Part>& parts,
@@ -177,23 +186,44 @@ std::vector<TextureUse> texturesOf(const std::vector<Part>& parts,
   std::vector<TextureUse> uses;
   std::unordered_map<std::string, size_t> places;
   for (size_t i = 0; i < parts.size(); ++i) {
-    const auto [place, is_new] = places.try_emplace(materials[i].texture, uses.size());
+    const auto [place, is_new] = places.try_emplace(nameOf(materials[i]), uses.size());
     if (is_new) uses.push_back({materials[i]});
-    uses[place->second].triangles += trianglesOf(*parts[i].mesh);
-    ++uses[place->second].parts;
+    TextureUse& use = uses[place->second];
+    use.triangles += trianglesOf(*parts[i].mesh);
+    ++use.parts;
+    use.other_maps += !use.material.hasSameMaps(materials[i]);
   }
   return uses;
 }
 
-void takeTexture(const aiScene& scene, const SceneMaterial& material, MeshImport& mesh) {
-  mesh.facts.base_colour = material.colour;
-  mesh.facts.transformed = material.transformed;
-  mesh.texture_path = material.texture;
-  if (material.texture.empty()) return;
-  const aiTexture* const embedded = scene.GetEmbeddedTexture(material.texture.c_str());
-  if (!embedded || embedded->mHeight != 0) return;  // with a height: texels, which no format has
+ImportedTexture imported(const aiScene& scene, const SceneTexture& texture) {
+  ImportedTexture found{texture.path};
+  if (texture.path.empty()) return found;
+  const aiTexture* const embedded = scene.GetEmbeddedTexture(texture.path.c_str());
+  if (!embedded || embedded->mHeight != 0)  // with a height: texels, which no format has
+    return found;
   const auto* const bytes = reinterpret_cast<const std::byte*>(embedded->pcData);
-  mesh.texture_file.assign(bytes, bytes + embedded->mWidth);
+  found.file.assign(bytes, bytes + embedded->mWidth);
+  return found;
+}
+
+MapFault faultOf(const SceneTexture& map, const SceneTexture& leading) {
+  if (map.path.empty()) return MapFault::kNone;
+  if (map.texcoords != leading.texcoords) return MapFault::kOtherTexcoords;
+  return isSame(map.transform, leading.transform) ? MapFault::kNone : MapFault::kOtherTransform;
+}
+
+void takeMaterial(const aiScene& scene, const SceneMaterial& material, MeshImport& mesh) {
+  mesh.facts.base_colour = material.colour;
+  mesh.facts.factors = material.factors;
+  const SceneTexture* const leading = material.leading();
+  if (!leading) return;
+  mesh.facts.transformed = !isSame(leading->transform, aiUVTransform());
+  mesh.texture = imported(scene, material.texture);
+  for (size_t slot = 0; slot < kMapSlots; ++slot) {
+    mesh.maps[slot] = imported(scene, material.maps[slot]);
+    mesh.facts.map_faults[slot] = faultOf(material.maps[slot], *leading);
+  }
 }
 
 /// "" where Assimp has made it up (of OBJ and glTF).
@@ -228,17 +258,21 @@ std::vector<Part> solidParts(const aiScene& scene, MeshImport& mesh) {
 void joinScene(const aiScene& scene, MeshImport& mesh) {
   const std::vector<Part> parts = solidParts(scene, mesh);
   if (parts.empty()) return;
-  const std::vector<SceneMaterial> materials = materialsOf(scene, parts);
+  const std::vector<SceneMaterial> materials = materialsOf(scene, parts, mesh.facts.y_is_up);
   const std::vector<TextureUse> uses = texturesOf(parts, materials);
   const TextureUse& most = *std::max_element(
       uses.begin(), uses.end(),
       [](const TextureUse& a, const TextureUse& b) { return a.triangles < b.triangles; });
-  takeTexture(scene, most.material, mesh);
+  takeMaterial(scene, most.material, mesh);
   mesh.facts.parts = parts.size();
   mesh.facts.other = parts.size() - most.parts;
+  mesh.facts.other_maps = most.other_maps;
   if (parts.size() == 1) mesh.name = nameOf(*parts[0].mesh);
   Joiner joiner(mesh);
-  for (size_t i = 0; i < parts.size(); ++i) joiner.add(parts[i], materials[i].texcoords);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const SceneTexture* const leading = materials[i].leading();
+    joiner.add(parts[i], leading ? leading->texcoords : 0);
+  }
 }
 
 }  // namespace tetrakis::tools

@@ -66,9 +66,12 @@ struct Glb {
 /// The mesh, with material 0.
 Status addGeometry(Glb& glb, const MeshFile& mesh, MeshCompression compression);
 
-/// Image and texture 0, which repeats if texcoords lie beyond it. TKS_USAGE: the format cannot hold
-/// the image.
-Status addTexture(Glb& glb, const ImageFile& image, std::span<const float> texcoords,
-                  MeshTexture format);
+/// One more image, and a texture of it, whose number comes back; it repeats if texcoords lie beyond
+/// it. TKS_USAGE: the format cannot hold the image.
+Result<size_t> addTexture(Glb& glb, const ImageFile& image, std::span<const float> texcoords,
+                          MeshTexture format);
+
+/// Textures of maps, which a material of glTF then names beside its factors.
+Status addMaps(Glb& glb, const MeshFile& mesh, MeshTexture format, nlohmann::json& material);
 
 }  // namespace tetrakis::tools

@@ -13,7 +13,7 @@ namespace {
 using nlohmann::json;
 
 /// A photograph already holds its light: textured terrain is unlit (KHR_materials_unlit) in viewers
-/// that can, and rough in others.
+/// that can, and rough in others. What has maps is lit by them.
 Status addMaterial(Glb& glb, const MeshFile& mesh, MeshTexture format) {
   const ImageFile* image = mesh.texture;
   json material{{"name", "terrain"},
@@ -21,12 +21,16 @@ Status addMaterial(Glb& glb, const MeshFile& mesh, MeshTexture format) {
   std::optional<ImageFile> picture;
   if (image && image->hasFurtherColour()) image = &picture.emplace(withoutFurtherColour(*image));
   if (image) {
-    if (const Status status = addTexture(glb, *image, mesh.texcoords, format); !status.ok())
-      return status;
+    const Result<size_t> texture = addTexture(glb, *image, mesh.texcoords, format);
+    if (!texture.ok()) return texture.status();
+    material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", *texture}};
+    if (image->hasAlpha()) material["alphaMode"] = "MASK";
+  }
+  if (!mesh.maps.none()) {
+    if (Status status = addMaps(glb, mesh, format, material); !status.ok()) return status;
+  } else if (image) {
     glb.useExtension("KHR_materials_unlit", false);
     material["extensions"] = {{"KHR_materials_unlit", json::object()}};
-    material["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
-    if (image->hasAlpha()) material["alphaMode"] = "MASK";
   }
   glb.document["materials"] = listOf(material);
   return {};

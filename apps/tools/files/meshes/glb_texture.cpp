@@ -45,6 +45,14 @@ ImageFile greyInColour(const ImageFile& grey) {
   return colour;
 }
 
+ImageFile channelOf(const ImageFile& image, size_t channel) {
+  ImageFile grey{image.width, image.height, 1, TKS_U8, {}};
+  grey.data.reserve(image.data.size() / image.channels);
+  for (size_t at = channel; at < image.data.size(); at += image.channels)
+    grey.data.push_back(image.data[at]);
+  return grey;
+}
+
 ImageFile reducedTo8Bits(const ImageFile& image) {
   ImageFile reduced{image.width, image.height, image.channels, TKS_U8, {}};
   reduced.data.resize(image.data.size() / 2);
@@ -83,12 +91,13 @@ Result<EncodedTexture> encodeTexture(const ImageFile& image, MeshTexture format)
   return ofType("image/png", encodePng(texels));
 }
 
-Status addTexture(Glb& glb, const ImageFile& image, std::span<const float> texcoords,
-                  MeshTexture format) {
+Result<size_t> addTexture(Glb& glb, const ImageFile& image, std::span<const float> texcoords,
+                          MeshTexture format) {
   const auto encoded = encodeTexture(image, format);
   if (!encoded.ok()) return encoded.status();
   const size_t view = glb.addView(std::span<const std::byte>(encoded->bytes), 0);
-  glb.document["images"] = listOf({{"bufferView", view}, {"mimeType", encoded->mime_type}});
+  const size_t number = glb.document["images"].size();
+  glb.document["images"].push_back({{"bufferView", view}, {"mimeType", encoded->mime_type}});
   const auto wrapOf = [&](size_t first) {
     for (size_t i = first; i < texcoords.size(); i += 2)
       if (!(texcoords[i] >= 0 && texcoords[i] <= 1)) return kRepeat;
@@ -100,13 +109,13 @@ Status addTexture(Glb& glb, const ImageFile& image, std::span<const float> texco
                                      {"wrapT", wrapOf(1)}});
   json texture{{"sampler", 0}};
   if (const char* const extension = extensionOf(format)) {
-    texture["extensions"] = {{extension, {{"source", 0}}}};
+    texture["extensions"] = {{extension, {{"source", number}}}};
     glb.useExtension(extension, true);
   } else {
-    texture["source"] = 0;
+    texture["source"] = number;
   }
-  glb.document["textures"] = listOf(texture);
-  return {};
+  glb.document["textures"].push_back(texture);
+  return number;
 }
 
 }  // namespace tetrakis::tools

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Meshes on disk: what may be written, PLY (Turk 1994) and OBJ (Wavefront, appendix B1).
+// Meshes on disk: what may be written, and PLY (Turk 1994).
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <span>
 
 #include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/little_endian.hpp"
 #include "apps/tools/files/meshes/mesh_writers.hpp"
-#include "apps/tools/files/pictures/png.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -28,7 +24,7 @@ Status checkMesh(const MeshFile& mesh) {
   if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
     return refuse("a mesh has a normal for every vertex, or none");
   }
-  if (mesh.texture && mesh.texcoords.empty()) {
+  if ((mesh.texture || !mesh.maps.none()) && mesh.texcoords.empty()) {
     return refuse("a textured mesh needs texture coordinates");
   }
   const auto finite = [](float value) { return std::isfinite(value); };
@@ -40,50 +36,6 @@ Status checkMesh(const MeshFile& mesh) {
     return refuse("a triangle of the mesh names a vertex that does not exist");
   }
   return {};
-}
-
-/// The shortest decimal that reads back as this float.
-void appendFloat(std::string& text, float value) {
-  std::array<char, 24> digits;
-  text.append(digits.data(),
-              std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
-}
-
-void appendRow(std::string& text, const char* keyword, std::span<const float> values) {
-  text += keyword;
-  for (const float value : values) {
-    text += ' ';
-    appendFloat(text, value);
-  }
-  text += '\n';
-}
-
-/// OBJ counts vertices from 1, and its texture coordinates from the bottom of the image.
-std::string objText(const MeshFile& mesh, const std::string& library) {
-  std::string text = library.empty() ? "" : "mtllib " + library + "\nusemtl terrain\n";
-  for (size_t i = 0; i < mesh.positions.size(); i += 3) {
-    appendRow(text, "v", std::span(mesh.positions).subspan(i, 3));
-  }
-  for (size_t i = 0; i < mesh.texcoords.size(); i += 2) {
-    appendRow(text, "vt", std::array{mesh.texcoords[i], 1 - mesh.texcoords[i + 1]});
-  }
-  const std::vector<float> normals = normalsOf(mesh);
-  for (size_t i = 0; i < normals.size(); i += 3) {
-    appendRow(text, "vn", std::span(normals).subspan(i, 3));
-  }
-  for (size_t i = 0; i < mesh.triangles.size(); i += 3) {
-    text += 'f';
-    for (size_t corner = 0; corner < 3; ++corner) {
-      const std::string index = std::to_string(uint64_t{mesh.triangles[i + corner]} + 1);
-      text += ' ' + index + '/' + (mesh.texcoords.empty() ? "" : index) + '/' + index;
-    }
-    text += '\n';
-  }
-  return text;
-}
-
-Status writeText(const std::string& path, const std::string& text) {
-  return writeBytes(path, std::as_bytes(std::span(text)));
 }
 
 }  // namespace
@@ -111,24 +63,6 @@ std::vector<std::byte> encodePly(const MeshFile& mesh) {
     file.putAll(std::span(mesh.triangles).subspan(i, 3));
   }
   return std::move(file.bytes);
-}
-
-Status writeObj(const std::string& path, const MeshFile& mesh) {
-  if (!mesh.texture) return writeText(path, objText(mesh, ""));
-  const std::filesystem::path name(path);
-  const std::string library = std::filesystem::path(name).replace_extension(".mtl").string();
-  const std::string texture = std::filesystem::path(name).replace_extension(".png").string();
-  const bool shows_all = mesh.texture->white() == largestTexel(mesh.texture->sample);
-  const auto png = encodePng(shows_all ? *mesh.texture : reducedTo8Bits(*mesh.texture));
-  if (!png.ok()) return png.status();
-  Status status = writeBytes(texture, *png);
-  if (status.ok()) {
-    const std::string file = std::filesystem::path(texture).filename().string();
-    const std::string alpha = mesh.texture->hasAlpha() ? "map_d " + file + "\n" : "";
-    status = writeText(library, "newmtl terrain\nKd 1 1 1\nmap_Kd " + file + "\n" + alpha);
-  }
-  if (!status.ok()) return status;
-  return writeText(path, objText(mesh, std::filesystem::path(library).filename().string()));
 }
 
 Status checkMeshOptions(const std::string& path, const MeshOptions& options) {

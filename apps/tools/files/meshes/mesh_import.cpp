@@ -36,8 +36,12 @@ void forArrays(Import& mesh, Visit visit) {
   visit(mesh.points);
   visit(mesh.triangles);
   visit(mesh.texcoords);
-  visit(mesh.texture_path);
-  visit(mesh.texture_file);
+  const auto visit_texture = [&visit](auto& texture) {
+    visit(texture.path);
+    visit(texture.file);
+  };
+  visit_texture(mesh.texture);
+  for (auto& map : mesh.maps) visit_texture(map);
 }
 
 std::vector<std::byte> packed(const MeshImport& mesh) {

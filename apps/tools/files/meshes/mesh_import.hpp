@@ -10,22 +10,48 @@
 #include <string>
 #include <vector>
 
+#include "apps/tools/files/meshes/material.hpp"
 #include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
+
+/// What textures of a material beside its colour say. Formats have some of them: glTF has one of
+/// metalness and roughness, OBJ one of each, and of bumps that are no normals.
+enum class MapSlot : uint8_t {
+  kNormal,
+  kBump,
+  kMetallicRoughness,
+  kRoughness,
+  kMetallic,
+  kOcclusion,
+  kEmissive
+};
+inline constexpr size_t kMapSlots = 7;
+
+/// Why a map cannot lie on the mesh as the file has it.
+enum class MapFault : uint8_t { kNone, kOtherTexcoords, kOtherTransform };
 
 /// What there is to know about a mesh beside its arrays. Its parts are the meshes of the file where
 /// the nodes of its scene place them.
 struct MeshFacts {
   std::array<double, 4> base_colour{1, 1, 1, 1};  ///< RGBA of the material of most triangles
   uint64_t parts = 0;                             ///< that have triangles
-  uint64_t other = 0;        ///< of them, parts with another texture than that of most triangles
-  uint64_t polygons = 0;     ///< that became several triangles
-  uint64_t dropped = 0;      ///< points and lines
-  uint64_t unplaced = 0;     ///< texture coordinates that are no numbers, and have become 0
+  uint64_t other = 0;       ///< of them, parts with another texture than that of most triangles
+  uint64_t polygons = 0;    ///< that became several triangles
+  uint64_t dropped = 0;     ///< points and lines
+  uint64_t unplaced = 0;    ///< texture coordinates that are no numbers, and have become 0
+  uint64_t other_maps = 0;  ///< of the parts with that texture, parts with other maps
+  MaterialFactors factors{};
+  std::array<MapFault, kMapSlots> map_faults{};
   bool transformed = false;  ///< the material moves the texture, which is not done here
   bool y_is_up = false;      ///< the format says it; else it says nothing
   bool too_large = false;    ///< so it is not read
+};
+
+/// A texture that a file names.
+struct ImportedTexture {
+  std::string path{};             ///< as the file has it; "": there is none
+  std::vector<std::byte> file{};  ///< of one that is embedded
 };
 
 /// All parts, joined.
@@ -36,8 +62,8 @@ struct MeshImport {
   std::vector<std::array<double, 3>> points{};       ///< each position once, by first use
   std::vector<std::array<uint32_t, 3>> triangles{};  ///< numbers of points
   std::vector<std::array<float, 2>> texcoords{};     ///< 3 a triangle, v upwards; or none
-  std::string texture_path{};             ///< of the texture of most triangles, as the file has it
-  std::vector<std::byte> texture_file{};  ///< that texture, if it is embedded
+  ImportedTexture texture{};                         ///< of most triangles
+  std::array<ImportedTexture, kMapSlots> maps{};     ///< of the same material, by MapSlot
 };
 
 /// More triangles are refused.

@@ -25,6 +25,9 @@ ImageFile reducedTo8Bits(const ImageFile& image);
 /// A grey picture of 8 bits in RGB, its alpha kept.
 ImageFile greyInColour(const ImageFile& grey);
 
+/// One channel of a picture of 8 bits.
+ImageFile channelOf(const ImageFile& image, size_t channel);
+
 struct EncodedTexture {
   const char* mime_type;
   std::vector<std::byte> bytes;

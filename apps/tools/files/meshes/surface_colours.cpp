@@ -9,12 +9,13 @@
 #include "base/portable_math.hpp"
 
 namespace tetrakis::tools {
-namespace {
-
-/// Both from 0 to 1.
 double lightOf(double value) {
   return value <= 0.04045 ? value / 12.92 : portable::pow((value + 0.055) / 1.055, 2.4);
 }
+
+namespace {
+
+/// Both from 0 to 1.
 double valueOf(double light) {
   return light <= 0.0031308 ? light * 12.92 : 1.055 * portable::pow(light, 1 / 2.4) - 0.055;
 }
@@ -50,19 +51,36 @@ ImageFile withoutAlpha(const ImageFile& image) {
   return colours;
 }
 
-ImageFile shownTexture(const SurfaceFile& surface) {
-  ImageFile colours = withoutAlpha(*surface.texture);
-  const auto& factor = surface.base_colour;
-  const auto all = [&factor](double value) {
-    return factor[0] == value && factor[1] == value && factor[2] == value;
-  };
-  if (colours.channels != 3 || colours.sample != TKS_U8 || all(1) || all(0)) return colours;
+namespace {
+
+bool isAll(const SurfaceFile& surface, double value) {
+  const auto& [red, green, blue, alpha] = surface.base_colour;
+  return red == value && green == value && blue == value;
+}
+
+/// RGB of 8 bits, times the base colour.
+void multiplyBy(const SurfaceFile& surface, ImageFile& colours) {
   for (size_t channel = 0; channel < 3; ++channel) {
-    const Values values = multiplied(factor[channel], surface.y_is_up);
+    const Values values = multiplied(surface.base_colour[channel], surface.y_is_up);
     for (size_t i = channel; i < colours.data.size(); i += 3)
       colours.data[i] = values[static_cast<size_t>(colours.data[i])];
   }
+}
+
+}  // namespace
+
+ImageFile shownTexture(const SurfaceFile& surface) {
+  ImageFile colours = withoutAlpha(*surface.texture);
+  const bool is_shown = colours.channels != 3 || colours.sample != TKS_U8;
+  if (!is_shown && !isAll(surface, 1) && !isAll(surface, 0)) multiplyBy(surface, colours);
   return colours;
+}
+
+ImageFile plainTexture(const SurfaceFile& surface) {
+  constexpr std::byte kWhite{255};
+  ImageFile colour{1, 1, 3, TKS_U8, {kWhite, kWhite, kWhite}};
+  if (surface.y_is_up || !isAll(surface, 0)) multiplyBy(surface, colour);
+  return colour;
 }
 
 }  // namespace tetrakis::tools

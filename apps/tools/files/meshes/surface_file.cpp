@@ -28,6 +28,9 @@ std::vector<std::string> remarksOn(const MeshFacts& facts) {
   if (facts.other > 0)
     remarks.push_back(counted(facts.other, "part has a texture of its own that is left out",
                               "parts have textures of their own that are left out"));
+  if (facts.other_maps > 0)
+    remarks.push_back(counted(facts.other_maps, "part has other maps, which are left out",
+                              "parts have other maps, which are left out"));
   if (facts.polygons > 0)
     remarks.push_back(counted(facts.polygons, "polygon is", "polygons are") +
                       " cut into triangles");
@@ -74,7 +77,8 @@ bool isMeshFile(const std::string& path) {
   return begin == "glTF" || begin == "ply\n" || begin == "ply\r";
 }
 
-Result<SurfaceFile> readSurface(const std::string& path, std::string* note, bool with_texture) {
+Result<SurfaceFile> readSurface(const std::string& path, std::string* note,
+                                const SurfaceParts& parts) {
   if (!isMeshFile(path))
     return Status(TKS_USAGE, quoted(path) + " is no mesh: .glb, .gltf, .obj, .ply and .stl are");
   if (!std::ifstream(path).good() || !fs::is_regular_file(path))
@@ -85,8 +89,10 @@ Result<SurfaceFile> readSurface(const std::string& path, std::string* note, bool
     return Status(failed.code(), quoted(path) + " is not read as a mesh: " + failed.message());
   }
   std::vector<std::string> remarks = remarksOn(mesh->facts);
+  SurfaceMaps maps = findMaps(*mesh, path, parts.maps);
   SurfaceFile surface = surfaceOf(*mesh, path);
-  if (with_texture && !surface.texcoords.empty()) {
+  surface.maps = std::move(maps);
+  if (parts.texture && !surface.texcoords.empty()) {
     FoundTexture found = findTexture(*mesh, path);
     surface.texture = std::move(found.image);
     if (!found.remark.empty()) remarks.push_back(found.remark);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // readSurface() reads a textured mesh of triangles of any shape, such as a scan, from the files of
 // other programs: glTF (.glb, .gltf, with Draco or without), OBJ with its MTL, PLY and STL.
-// shownTexture() makes its image what the surface shows.
+// shownTexture() makes its image what the surface shows, and plainTexture() an image of a surface
+// that has none.
 #pragma once
 
 #include <array>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "apps/tools/files/files.hpp"
+#include "apps/tools/files/meshes/surface_maps.hpp"
 #include "tetrakis/result.hpp"
 
 namespace tetrakis::tools {
@@ -24,8 +26,15 @@ struct SurfaceFile {
   std::vector<std::array<float, 2>> texcoords;
   std::optional<ImageFile> texture;               ///< RGB or RGBA of 8 bits; its colours alone
   std::array<double, 4> base_colour{1, 1, 1, 1};  ///< RGBA, which multiplies the texture
-  std::string name;                               ///< of the mesh, or of the file
-  bool y_is_up = false;                           ///< else the format does not say what is up
+  SurfaceMaps maps;
+  std::string name;      ///< of the mesh, or of the file
+  bool y_is_up = false;  ///< else the format does not say what is up
+};
+
+/// What is read of a surface beside its triangles.
+struct SurfaceParts {
+  bool texture = true;
+  std::vector<std::string> maps{};  ///< names of kMapNames
 };
 
 /// Whether a path is that of a mesh that readSurface() takes, by its extension or first bytes.
@@ -36,17 +45,23 @@ bool isMeshFile(const std::string& path);
 /// taken which lies beside it under the same name. TKS_IO: the file cannot be read; TKS_USAGE: it
 /// is damaged or no mesh, has no triangles, or coordinates that are not finite; TKS_LIMIT: it has
 /// more than 2^26 triangles, or takes more memory or time than it may.
-/// with_texture: false leaves the texture where it is.
+/// What becomes of maps the note does not say.
 Result<SurfaceFile> readSurface(const std::string& path, std::string* note = nullptr,
-                                bool with_texture = true);
+                                const SurfaceParts& parts = {});
 
 /// The image without its alpha: grey or RGB. A further colour is left out as well.
 ImageFile withoutAlpha(const ImageFile& image);
+
+/// What a stored value of sRGB shows; both from 0 to 1.
+double lightOf(double value);
 
 /// What a mesh shows of the texture that it has: the image without its alpha, multiplied by the
 /// mesh's base colour. That is a factor of light where glTF gives it, and of the stored values
 /// where others do. Black counts as white: programs write it beside textures, which would leave
 /// nothing of them.
 ImageFile shownTexture(const SurfaceFile& surface);
+
+/// One texel of the base colour, for a mesh without a texture. Black counts as white but in glTF.
+ImageFile plainTexture(const SurfaceFile& surface);
 
 }  // namespace tetrakis::tools

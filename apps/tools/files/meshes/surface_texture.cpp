@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <filesystem>
 #include <utility>
@@ -63,36 +64,59 @@ ImageFile inShownColours(ImageFile image) {
   return image.channels < 3 ? greyInColour(image) : image;
 }
 
-/// shown: how the remark calls the file.
-FoundTexture readTexture(const std::string& path, const std::string& shown) {
-  Result<ImageFile> image = readImage(path);
+/// What the largest value of a texture of fewer than 16 bits is, if it is known.
+bool isOfBits(uint32_t white_level) {
+  constexpr int kFewest = 9, kMost = 16;
+  const int bits = std::bit_width(white_level);
+  return bits >= kFewest && bits < kMost && white_level + 1 == uint32_t{1} << bits;
+}
+
+/// What is read of a file; `shown`: how the remark calls it.
+using Reader = FoundTexture(Result<ImageFile> image, const std::string& shown);
+
+FoundTexture asColours(Result<ImageFile> image, const std::string& shown) {
   if (!image.ok()) return {{}, shown + " is not read: " + image.status().message()};
   image->place = {};
   return {inShownColours(std::move(*image)), {}};
 }
 
-FoundTexture readEmbedded(const std::vector<std::byte>& bytes) {
+FoundTexture asValues(Result<ImageFile> image, const std::string& shown) {
+  if (image.ok() && !isOfBits(image->white_level)) image->white_level = 0;
+  return asColours(std::move(image), shown);
+}
+
+FoundTexture readEmbedded(const std::vector<std::byte>& bytes, const std::string& shown,
+                          Reader reader) {
   const Result<Temporary> file = Temporary::makeFile();
   if (!file.ok()) return {{}, file.status().message()};
   const std::string path = file->path().string();
   if (const Status status = writeBytes(path, bytes); !status.ok()) return {{}, status.message()};
-  return readTexture(path, "the embedded texture");
+  return reader(readImage(path), shown);
+}
+
+FoundTexture readNamed(const ImportedTexture& texture, const std::string& mesh_path,
+                       const std::string& shown, Reader reader) {
+  const std::string path = fileNamed(texture.path, fs::path(mesh_path).parent_path());
+  if (path.empty()) return {{}, shown + " " + quoted(texture.path) + " is not there"};
+  return reader(readImage(path), shown);
 }
 
 }  // namespace
 
+FoundTexture readMap(const ImportedTexture& map, const std::string& mesh_path,
+                     const std::string& shown) {
+  return map.file.empty() ? readNamed(map, mesh_path, shown, asValues)
+                          : readEmbedded(map.file, shown, asValues);
+}
+
 FoundTexture findTexture(const MeshImport& mesh, const std::string& mesh_path) {
-  if (!mesh.texture_file.empty()) return readEmbedded(mesh.texture_file);
-  const fs::path folder = fs::path(mesh_path).parent_path();
-  if (!mesh.texture_path.empty()) {
-    const std::string path = fileNamed(mesh.texture_path, folder);
-    return path.empty()
-               ? FoundTexture{{}, "its texture " + quoted(mesh.texture_path) + " is not there"}
-               : readTexture(path, "its texture");
-  }
+  if (!mesh.texture.file.empty())
+    return readEmbedded(mesh.texture.file, "the embedded texture", asColours);
+  if (!mesh.texture.path.empty())
+    return readNamed(mesh.texture, mesh_path, "its texture", asColours);
   const std::string path = fileBeside(mesh_path);
   if (path.empty()) return {};
-  FoundTexture found = readTexture(path, "the picture beside it");
+  FoundTexture found = asColours(readImage(path), "the picture beside it");
   if (found.image) found.remark = quoted(path) + " is taken as its texture";
   return found;
 }

@@ -105,6 +105,8 @@ class Info:
     """Of an object: the quads that its heights lie over."""
     object_triangles: Optional[int]
     """Of an object whose triangles are coded as they are: how many these are."""
+    material: Optional[str]
+    """Of an object with maps of a material, which are components: factors, as the JSON of glTF."""
 
     frames: int
     """How many the stream has; those of several are for :func:`tetrakis.open_sequence`."""
@@ -124,7 +126,7 @@ _PLAIN = (
     "texture_cutout texture_drawn"
 ).split()
 _BOOLEAN = "lossless exact_steps has_voids voids_known shows_sketch".split()
-_TEXT = "unit vertical_datum crs description geo_keys texture_crs texture_geo_keys".split()
+_TEXT = "unit vertical_datum crs description geo_keys texture_crs texture_geo_keys material".split()
 _FROM_ZERO = "max_error heights_rmse texture_psnr".split()
 _ABOVE_ZERO = "triangles regions texture_regions texture_white_level".split()
 

@@ -369,6 +369,7 @@ class StreamInfo(ctypes.Structure):
         ("components", c_uint32),
         ("shows_sketch", c_int),
         ("least_bytes", c_uint64),
+        ("material", c_char_p),
     ]
 
 

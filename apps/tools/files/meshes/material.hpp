@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Material says what a surface is made of beside its colour, as glTF 2.0 has it. materialText()
+// writes it as the JSON that streams of objects keep (docs/FORMAT.md, section 2), and materialOf()
+// reads that.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace tetrakis::tools {
+
+/// Maps of a material, and what components of a stream are called that hold them. Red of occlusion
+/// counts; green of metallic_roughness is roughness, its blue metalness.
+enum class MapKind : uint8_t { kNormal, kMetallicRoughness, kOcclusion, kEmissive };
+inline constexpr std::array<const char*, 4> kMapNames{"normal", "metallic_roughness", "occlusion",
+                                                      "emissive"};
+inline constexpr size_t kMapKinds = kMapNames.size();
+
+/// What maps are multiplied by; its usual values.
+struct MaterialFactors {
+  double metallic = 1, roughness = 1;
+  std::array<double, 3> emissive{0, 0, 0};
+  double normal_scale = 1, occlusion_strength = 1;
+  bool is_double_sided = false;
+};
+
+struct Material {
+  MaterialFactors factors{};
+  bool occlusion_is_red = false;  ///< of metallic_roughness: there is no map of its own
+};
+
+/// Says nothing of what is usual; "": all is.
+std::string materialText(const Material& material);
+
+/// What is not there, or not as glTF has it, is as usual. The text may be any bytes.
+Material materialOf(std::string_view text);
+
+/// Metalness, roughness and light of a surface whose maps of these are not there, which the factors
+/// were made for: it is matt and dark, as one without them.
+void dropFactorsOf(MapKind map, MaterialFactors& factors);
+
+}  // namespace tetrakis::tools
