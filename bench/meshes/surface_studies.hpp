@@ -20,7 +20,8 @@ Status studyBytes(const SurfaceModel& model, const SurfaceStudyOptions& options,
                   SurfaceFigures& figures);
 
 /// Triangles at equal error: meshes of at most so many triangles as a column says, of a stream of
-/// 64 kB, beside meshoptimizer's. Fails if one of ours has another topology than the model.
+/// 64 kB, beside meshoptimizer's. Fails if one of ours has another topology than the model. Before
+/// that the same of a stream that has all triangles of the model, and errors at equal triangles.
 Status studyTriangles(const SurfaceModel& model, const SurfaceStudyOptions& options,
                       SurfaceFigures& figures);
 

@@ -164,7 +164,8 @@ CodedTriangles CollapsingTriangles::rest() const {
   for (uint32_t corner = 0; corner < mesh_.vertices.size(); ++corner) {
     if (isGone(corner / 3)) continue;
     const uint32_t side = mesh_.sides[corner];
-    out.sides.push_back(side == kBorder ? kBorder : 3 * triangles[side / 3] + side % 3);
+    const bool is_border = side == kBorder || isGone(side / 3);
+    out.sides.push_back(is_border ? kBorder : 3 * triangles[side / 3] + side % 3);
   }
   return out;
 }

@@ -27,6 +27,7 @@ class Thinning {
       : triangles_(std::move(mesh)),
         left_(triangles_.mesh().vertices.size() / 3),
         pieces_(triangles_.mesh()),
+        pieces_left_(pieces_.count()),
         states_(pieces_.count()),
         heap_(triangles_.mesh().places.size() + pieces_.count()) {
     for (uint32_t piece = 0; piece < pieces_.count(); ++piece) {
@@ -42,8 +43,10 @@ class Thinning {
       const uint32_t cheapest = heap_.cheapest();
       if (cheapest < vertices)
         takeStep(cheapest);
-      else
+      else if (pieces_left_ > 1)
         takeAway(static_cast<uint32_t>(cheapest - vertices));
+      else
+        keepLargest(most);
     }
     return triangles_.rest();
   }
@@ -166,17 +169,35 @@ class Thinning {
       visitFan(triangles_.mesh().sides, corner, [&](uint32_t at) { triangles_.remove(at / 3); });
     }
     left_ -= states_[piece].triangles;
+    --pieces_left_;
     heap_.erase(static_cast<uint32_t>(triangles_.mesh().places.size() + piece));
   }
 
+  /// Of the last piece.
+  void keepLargest(uint64_t most) {
+    const CodedTriangles& mesh = triangles_.mesh();
+    std::vector<std::pair<uint64_t, uint32_t>> by_area;
+    for (uint32_t t = 0; t < mesh.vertices.size() / 3; ++t) {
+      if (triangles_.isGone(t)) continue;
+      const auto at = [&](uint32_t i) { return mesh.places[mesh.vertices[3 * t + i]]; };
+      const uint64_t area =
+          roughLength(crossProduct(wayBetween(at(0), at(1)), wayBetween(at(0), at(2))));
+      by_area.push_back({UINT64_MAX - area, t});
+    }
+    std::sort(by_area.begin(), by_area.end());
+    for (size_t i = most; i < by_area.size(); ++i) triangles_.remove(by_area[i].second);
+    left_ = most;
+  }
+
   CollapsingTriangles triangles_;
-  uint64_t left_;
+  uint64_t left_;  ///< triangles
   MeshPieces pieces_;
+  uint32_t pieces_left_;
   std::vector<State> states_;  ///< of each piece
   StepHeap heap_;              ///< vertices, and behind them the pieces that vanish next
   SweptError error_;
-  Star star_;                  ///< of the latest vertex that was looked at
-  std::vector<Step> steps_;    ///< of it
+  Star star_;                ///< of the latest vertex that was looked at
+  std::vector<Step> steps_;  ///< of it
   std::vector<uint32_t> changed_;
 };
 

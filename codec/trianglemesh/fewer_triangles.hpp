@@ -5,9 +5,9 @@
 //
 // A piece is what hangs together. At first its collapses keep its shape and its texture as well as
 // the surface. Where no such collapse is left, any that keeps the surface will do. In the end the
-// piece vanishes as a whole: crumbs of a scan take more triangles than a small budget has. All
-// pieces are in one line by what their next step costs, so that crumbs go long before a large piece
-// loses its shape.
+// piece vanishes as a whole, since the crumbs of a scan may be more than the triangles of a small
+// budget; of the last piece the largest triangles are left. All pieces are in one line by what
+// their next step costs, so that crumbs go long before a large piece loses its shape.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +16,10 @@
 
 namespace tetrakis::inline trianglemesh {
 
-/// mesh: as decoded. Returns one without cut sides, whose vertices and wedges are numbered by first
-/// use. No edge opens: of one piece, closed, nothing is left where `most` is below four or so.
-/// Takes a time of n log n, and with the mesh up to 300 bytes a triangle.
+/// mesh: as decoded; most: 1 or more. Returns a mesh without cut sides, whose vertices and wedges
+/// are numbered by first use. No edge opens, but where `most` is below what the last piece needs (a
+/// ball four triangles, a ring some ten). Takes a time of n log n, and with the mesh up to 300 bytes
+/// a triangle.
 CodedTriangles fewerTriangles(CodedTriangles mesh, uint64_t most);
 
 }  // namespace tetrakis::inline trianglemesh

@@ -939,9 +939,9 @@ typedef struct tks_object_mesh {
  * Of triangles that are coded as they are, TKS_MESH_CODED and 0 give all, and TKS_MESH_BUDGET never
  * gives more than max_triangles: their vertices collapse into neighbours, those first whose
  * triangles move least. Pieces, handles and borders stay what they are, no triangle turns far, and
- * each vertex keeps a texcoord that it had there. What is asked for is more than that where there
- * are many pieces, seams or handles: then triangles may turn and be drawn with texcoords of their
- * neighbours, and small pieces vanish; of a closed piece nothing is left below four triangles.
+ * each vertex keeps a texcoord that it had there. Where so few triangles cannot do that, because of
+ * many pieces, seams or handles, triangles turn and get texcoords of their neighbours, small pieces
+ * vanish, and of the last one the largest triangles are left.
  *
  * TKS_USAGE: the stream is no object. TKS_LIMIT: as tks_decode_mesh, with 100 bytes more a sample;
  * or 300 bytes a triangle that is coded as it is. TKS_CORRUPT: these triangles break a rule. */

@@ -137,14 +137,15 @@ TEST(TriangleObjects, AreDrawnWithFewerTriangles) {
   for (const uint32_t most : {1599u, 1000u, 300u, 40u, 1u}) {
     ASSERT_EQ(tks_decode_object(stream.get(), TKS_MESH_BUDGET, most, &mesh), TKS_OK);
     EXPECT_LE(mesh.triangle_count, most);
+    EXPECT_GT(mesh.triangle_count, 0u);
     if (most >= 40) {
       EXPECT_GT(mesh.triangle_count + 2, most);
       EXPECT_EQ(2 * mesh.vertex_count, mesh.triangle_count);
     }
     for (uint32_t v = 0; v < mesh.vertex_count; ++v)
-      EXPECT_EQ(places.count({mesh.position[3 * v], mesh.position[3 * v + 1],
-                              mesh.position[3 * v + 2]}),
-                1u);
+      EXPECT_EQ(
+          places.count({mesh.position[3 * v], mesh.position[3 * v + 1], mesh.position[3 * v + 2]}),
+          1u);
     for (uint32_t i = 0; i < 3 * mesh.triangle_count; ++i)
       EXPECT_LT(mesh.triangles[i], mesh.vertex_count);
     tks_free_object_mesh(&mesh);

@@ -176,8 +176,7 @@ TEST_F(CliObject, TrianglesStayAsTheyAre) {
   EXPECT_LE(few->triangles.size(), 100u);
   EXPECT_GT(few->triangles.size(), 90u);
   EXPECT_TRUE(few->texture.has_value());
-  EXPECT_LT(compared("--mesh blob.glb --triangles 100")["surface_psnr"],
-            figures["surface_psnr"]);
+  EXPECT_LT(compared("--mesh blob.glb --triangles 100")["surface_psnr"], figures["surface_psnr"]);
 }
 
 TEST_F(CliObject, OptionsOfTerrainAreRefused) {

@@ -121,6 +121,7 @@ bool isNumberedByUse(const std::vector<uint32_t>& numbers, size_t count) {
 /// What every mesh is, however few triangles were asked for.
 void expectSound(const CodedTriangles& whole, const CodedTriangles& few, uint64_t most) {
   EXPECT_LE(trianglesOf(few), most);
+  EXPECT_GT(trianglesOf(few), 0u);
   EXPECT_TRUE(isNumberedByUse(few.vertices, few.places.size()));
   EXPECT_TRUE(isNumberedByUse(few.wedges, few.texcoords.size()));
   EXPECT_EQ(few.wedges.size(), whole.wedges.empty() ? 0 : few.vertices.size());
@@ -133,7 +134,8 @@ void expectSound(const CodedTriangles& whole, const CodedTriangles& few, uint64_
     ASSERT_EQ(few.vertices[after(other)], few.vertices[side]);
   }
   const CornerFans fans = cornerFans(few.sides);
-  EXPECT_EQ(fans.of_corner, few.vertices);
+  for (uint32_t corner = 0; corner < few.vertices.size(); ++corner)
+    EXPECT_EQ(few.vertices[corner], few.vertices[fans.first[fans.of_corner[corner]]]);
   const std::set<Vertex> before = verticesOf(whole), left = verticesOf(few);
   EXPECT_TRUE(std::includes(before.begin(), before.end(), left.begin(), left.end()));
 }
@@ -193,9 +195,14 @@ PaintedMesh paintedBox(uint32_t side) {
 
 TEST(FewerTriangles, KeepTheSurface) {
   const std::vector<TriangleMesh> meshes = {
-      made::sphere(4),          made::torus(40, 20),        made::openGrid(30, 20),
-      made::pipe(20, 12),       made::moebiusStrip(60),     made::sphereWithLimbs(3),
-      needles(4),               made::beside(made::torus(20, 12), made::pipe(20, 12), {9, 1, 4})};
+      made::sphere(4),
+      made::torus(40, 20),
+      made::openGrid(30, 20),
+      made::pipe(20, 12),
+      made::moebiusStrip(60),
+      made::sphereWithLimbs(3),
+      needles(4),
+      made::beside(made::torus(20, 12), made::pipe(20, 12), {9, 1, 4})};
   for (const TriangleMesh& mesh : meshes) {
     for (const uint32_t places : {60u, 4096u, 1u << 20}) {
       const CodedTriangles whole = coded(mesh, {}, places);
@@ -286,9 +293,12 @@ TEST(FewerTriangles, OfCrumbsAreTheLargest) {
 
 TEST(FewerTriangles, AreNoMoreHoweverFewAreAskedFor) {
   std::mt19937 random(11);
-  std::vector<TriangleMesh> meshes = {made::sphere(2),        made::torus(9, 7),
-                                      made::openGrid(6, 5),   made::moebiusStrip(9),
-                                      made::openGrid(1, 1),   needles(2),
+  std::vector<TriangleMesh> meshes = {made::sphere(2),
+                                      made::torus(9, 7),
+                                      made::openGrid(6, 5),
+                                      made::moebiusStrip(9),
+                                      made::openGrid(1, 1),
+                                      needles(2),
                                       made::beside(made::torus(9, 7), made::sphere(1), {5, 5, 5})};
   for (const uint32_t count : {1u, 3u, 40u, 300u}) meshes.push_back(made::soup(random, 30, count));
   for (const TriangleMesh& mesh : meshes) {
@@ -337,10 +347,16 @@ TEST(FewerTriangles, OfAWideFanAreFound) {
 TEST(FewerTriangles, OfAnyCodewordAreFound) {
   std::mt19937 random(5);
   int decoded = 0;
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < 3000; ++round) {
     const bool textured = round % 2 == 0;
-    TriangleMeshHeader header{1 + random() % 120, static_cast<uint8_t>(1 + random() % 20), 1,
-                              {}, static_cast<uint8_t>(textured ? 1 + random() % 20 : 0), 0, {}, {}};
+    TriangleMeshHeader header{2 + random() % 14,
+                              static_cast<uint8_t>(1 + random() % 20),
+                              1,
+                              {},
+                              static_cast<uint8_t>(textured ? 1 + random() % 20 : 0),
+                              0,
+                              {},
+                              {}};
     for (int i = 0; i < 3000; ++i)
       header.code.push_back(static_cast<char>(random() % (1 + random() % 256)));
     const Result<CodedTriangles> whole = decodeTriangles(header);
