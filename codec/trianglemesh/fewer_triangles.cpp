@@ -82,7 +82,8 @@ class Thinning {
     for (Step step : steps_) {
       if (best && best->cost < step.cost) break;
       if (strictly) {
-        const auto cost = error_.cost(step.target, triangles_.heirsOf(star_, step.target));
+        const WedgeHeirs heirs = triangles_.heirsOf(star_, step.target);
+        const auto cost = error_.cost(step.target, heirs, step.cost);
         if (!cost) continue;
         step.cost = *cost;
       }

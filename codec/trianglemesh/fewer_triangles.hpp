@@ -18,8 +18,8 @@ namespace tetrakis::inline trianglemesh {
 
 /// mesh: as decoded; most: 1 or more. Returns a mesh without cut sides, whose vertices and wedges
 /// are numbered by first use. No edge opens, but where `most` is below what the last piece needs (a
-/// ball four triangles, a ring some ten). Takes a time of n log n, and with the mesh up to 300 bytes
-/// a triangle.
+/// ball four triangles, a ring some ten). Takes a time of n log n, and up to 300 bytes a triangle,
+/// the mesh among them.
 CodedTriangles fewerTriangles(CodedTriangles mesh, uint64_t most);
 
 }  // namespace tetrakis::inline trianglemesh

@@ -3,74 +3,70 @@
 // binary heap that knows where each number is. Of those that cost the same it is the lowest.
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace tetrakis::inline trianglemesh {
 
 class StepHeap {
  public:
-  static constexpr uint32_t kNone = UINT32_MAX;
+  explicit StepHeap(size_t bound) : places_(bound, kNowhere) {}
 
-  explicit StepHeap(size_t bound) : places_(bound, kNone), costs_(bound) {}
-
-  bool empty() const { return heap_.empty(); }
-  bool holds(uint32_t number) const { return places_[number] != kNone; }
-  uint64_t costOf(uint32_t number) const { return costs_[number]; }
-  uint32_t cheapest() const { return heap_.front(); }
+  bool holds(uint32_t number) const { return places_[number] != kNowhere; }
+  uint64_t costOf(uint32_t number) const { return heap_[places_[number]].cost; }
+  uint32_t cheapest() const { return heap_.front().number; }
 
   /// Adds the number, or changes its cost.
   void set(uint32_t number, uint64_t cost) {
     if (!holds(number)) {
       places_[number] = static_cast<uint32_t>(heap_.size());
-      heap_.push_back(number);
+      heap_.emplace_back();
     }
-    costs_[number] = cost;
-    sink(rise(places_[number]));
+    settle({cost, number}, places_[number]);
   }
 
   void erase(uint32_t number) {
+    if (!holds(number)) return;
     const uint32_t place = places_[number];
-    if (place == kNone) return;
-    places_[number] = kNone;
-    const uint32_t last = heap_.back();
+    places_[number] = kNowhere;
+    const Entry last = heap_.back();
     heap_.pop_back();
-    if (last == number) return;
-    put(last, place);
-    sink(rise(place));
+    if (last.number != number) settle(last, place);
   }
 
  private:
-  bool isBefore(uint32_t a, uint32_t b) const {
-    return std::pair(costs_[a], a) < std::pair(costs_[b], b);
+  static constexpr uint32_t kNowhere = UINT32_MAX;
+
+  struct Entry {
+    uint64_t cost = 0;
+    uint32_t number = 0;
+    bool operator<(const Entry& other) const {
+      return cost != other.cost ? cost < other.cost : number < other.number;
+    }
+  };
+
+  void put(const Entry& entry, size_t place) {
+    heap_[place] = entry;
+    places_[entry.number] = static_cast<uint32_t>(place);
   }
-  void put(uint32_t number, size_t place) {
-    heap_[place] = number;
-    places_[number] = static_cast<uint32_t>(place);
-  }
-  size_t rise(size_t place) {
-    const uint32_t number = heap_[place];
-    for (; place > 0 && isBefore(number, heap_[(place - 1) / 2]); place = (place - 1) / 2)
+
+  /// Puts the entry at the place, or above or below it where it belongs.
+  void settle(const Entry& entry, size_t place) {
+    for (; place > 0 && entry < heap_[(place - 1) / 2]; place = (place - 1) / 2)
       put(heap_[(place - 1) / 2], place);
-    put(number, place);
-    return place;
-  }
-  void sink(size_t place) {
-    const uint32_t number = heap_[place];
     while (2 * place + 1 < heap_.size()) {
       size_t child = 2 * place + 1;
-      if (child + 1 < heap_.size() && isBefore(heap_[child + 1], heap_[child])) ++child;
-      if (!isBefore(heap_[child], number)) break;
+      if (child + 1 < heap_.size() && heap_[child + 1] < heap_[child]) ++child;
+      if (!(heap_[child] < entry)) break;
       put(heap_[child], place);
       place = child;
     }
-    put(number, place);
+    put(entry, place);
   }
 
-  std::vector<uint32_t> heap_, places_;
-  std::vector<uint64_t> costs_;
+  std::vector<Entry> heap_;
+  std::vector<uint32_t> places_;  ///< of each number in it
 };
 
 }  // namespace tetrakis::inline trianglemesh

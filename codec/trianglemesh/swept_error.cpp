@@ -121,7 +121,8 @@ uint64_t SweptError::least(size_t target) const {
   return sum;
 }
 
-std::optional<uint64_t> SweptError::cost(size_t target, const WedgeHeirs& heirs) const {
+std::optional<uint64_t> SweptError::cost(size_t target, const WedgeHeirs& heirs,
+                                         uint64_t least) const {
   const PlaceWay& way = ways_[target];
   uint64_t before_it = 0, behind_it = 0;
   for (size_t i = 0; i < normals_.size(); ++i) {
@@ -135,7 +136,7 @@ std::optional<uint64_t> SweptError::cost(size_t target, const WedgeHeirs& heirs)
   }
   if (!keepsTexture(target, heirs)) return {};
   const uint64_t lost = before_it - std::min(before_it, behind_it);
-  return costSum(least(target), areaCost(lost, distanceOf(way)) / kLostPart);
+  return costSum(least, areaCost(lost, distanceOf(way)) / kLostPart);
 }
 
 bool SweptError::keepsTexture(size_t target, const WedgeHeirs& heirs) const {
