@@ -20,10 +20,15 @@ Status studyBytes(const SurfaceModel& model, const SurfaceStudyOptions& options,
                   SurfaceFigures& figures);
 
 /// Triangles at equal error: meshes of at most so many triangles as a column says, of a stream of
-/// 64 kB, beside meshoptimizer's. Fails if one of ours has another topology than the model. Before
-/// that the same of a stream that has all triangles of the model, and errors at equal triangles.
+/// 64 kB, beside meshoptimizer's. Fails if one of ours has another topology than the model.
 Status studyTriangles(const SurfaceModel& model, const SurfaceStudyOptions& options,
                       SurfaceFigures& figures);
+
+/// Errors at equal triangles, and triangles at equal error, of meshes of at most so many triangles
+/// as a column says, of a stream that keeps all triangles of the model, beside meshoptimizer's.
+/// Says so if one of ours has another topology than the model.
+Status studyKept(const SurfaceModel& model, const SurfaceStudyOptions& options,
+                 SurfaceFigures& figures);
 
 /// Errors of prefixes of a stream of 64 kB, of as many kB as a column says, beside streams made for
 /// their length, with any base and with the same base.

@@ -29,7 +29,8 @@ class Thinning {
         pieces_(triangles_.mesh()),
         pieces_left_(pieces_.count()),
         states_(pieces_.count()),
-        heap_(triangles_.mesh().places.size() + pieces_.count()) {
+        heap_(triangles_.mesh().places.size() + pieces_.count()),
+        error_(triangles_.mesh().places) {
     for (uint32_t piece = 0; piece < pieces_.count(); ++piece) {
       states_[piece].triangles = pieces_.triangles(piece);
       lookAtAll(piece);
@@ -141,7 +142,7 @@ class Thinning {
         area = costSum(area, roughLength(crossProduct(wayTo(after(at)), wayTo(before(at)))));
       });
     }
-    return areaCost(area / 3, SweptError::distanceOf(wayBetween(low, high)));
+    return error_.areaCost(area / 3, SweptError::distanceOf(wayBetween(low, high)));
   }
 
   void takeStep(uint32_t vertex) {

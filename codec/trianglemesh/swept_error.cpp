@@ -60,12 +60,21 @@ uint64_t costSum(uint64_t a, uint64_t b) {
   return a > UINT64_MAX - b ? UINT64_MAX : a + b;
 }
 
-uint64_t areaCost(uint64_t area, uint64_t distance) {
+/// Costs grow with the cube of the numbers of places: from 14 bits on, finer grids have the same.
+SweptError::SweptError(const std::vector<Place>& places) {
+  constexpr int kBits = 14;
+  uint64_t all = 0;
+  for (const Place& place : places)
+    for (const int32_t number : place) all |= static_cast<uint64_t>(number);
+  spare_bits_ = 3 * std::max(0, static_cast<int>(std::bit_width(all)) - kBits);
+}
+
+uint64_t SweptError::areaCost(uint64_t area, uint64_t distance) const {
   const auto times = [](uint64_t a, uint64_t b) {
     if (std::bit_width(a) + std::bit_width(b) <= 64) return a * b;
     return a > UINT64_MAX / b ? UINT64_MAX : a * b;
   };
-  return times(times(area, distance), distance);
+  return times(times(area, distance) >> spare_bits_, distance);
 }
 
 /// How high a body is over its area, or an area over its line.

@@ -30,12 +30,17 @@ PlaceWay crossProduct(const PlaceWay& a, const PlaceWay& b);
 /// Within a fourteenth; 0 for none alone. A root would take longer than all else here.
 uint64_t roughLength(const PlaceWay& way);
 
-/// What it costs that an area lies so far away. What 64 bits cannot hold is their largest number.
-uint64_t areaCost(uint64_t area, uint64_t distance);
+/// What 64 bits cannot hold is their largest number.
 uint64_t costSum(uint64_t a, uint64_t b);
 
 class SweptError {
  public:
+  /// places: of all vertices.
+  explicit SweptError(const std::vector<Place>& places);
+
+  /// What it costs that an area lies so far away, in units that 64 bits hold enough of.
+  uint64_t areaCost(uint64_t area, uint64_t distance) const;
+
   /// How long a way is, in the unit of distances: sixteenths of a cell.
   static uint64_t distanceOf(const PlaceWay& way) { return roughLength(way) << kDistanceBits; }
 
@@ -63,6 +68,7 @@ class SweptError {
   }
   void findSeams();
 
+  int spare_bits_;  ///< that costs are told without
   const CodedTriangles* mesh_ = nullptr;
   const Star* star_ = nullptr;
   std::vector<PlaceWay> ways_;     ///< from the centre to each point
