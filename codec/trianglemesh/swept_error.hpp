@@ -50,8 +50,9 @@ class SweptError {
   /// What it costs at least if the centre goes to points[target].
   uint64_t least(size_t target) const;
 
-  /// What it costs, which is no less than `least`, that of the target; nothing if a triangle that stays turns too far or loses its area, be it in
-  /// space or on the texture, or if a wedge has no heir.
+  /// What it costs, which is no less than `least`, that of the target; nothing if a triangle that
+  /// stays turns too far or loses its area, be it in space or on the texture, or if a wedge has no
+  /// heir.
   std::optional<uint64_t> cost(size_t target, const WedgeHeirs& heirs, uint64_t least) const;
 
   /// What it costs if triangles may turn: as if all of them went all the way.
