@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "api/memory.hpp"
 #include "api/written.hpp"
 #include "codec/trianglemesh/coded_triangles.hpp"
+#include "codec/trianglemesh/fewer_triangles.hpp"
 
 namespace tetrakis::inline api {
 namespace {
@@ -36,7 +38,7 @@ void copyTriangles(const TriangleMeshHeader& header, const CodedTriangles& mesh,
   const std::vector<uint32_t>& vertices = textured ? mesh.wedges : mesh.vertices;
   const std::vector<uint32_t> corners = cornersOfVertices(vertices);
   out.vertex_count = static_cast<uint32_t>(corners.size());
-  out.triangle_count = static_cast<uint32_t>(header.triangles);
+  out.triangle_count = static_cast<uint32_t>(vertices.size() / 3);
   out.position = allocate<double>(3 * corners.size());
   out.triangles = allocate<uint32_t>(vertices.size());
   std::copy(vertices.begin(), vertices.end(), out.triangles);
@@ -61,13 +63,11 @@ Status decodeTriangleObject(const tks_decoder& decoder, tks_mesh_kind kind, uint
                             tks_object_mesh& out) {
   if (kind != TKS_MESH_BUDGET && kind != TKS_MESH_CODED)
     return {TKS_USAGE, "Unknown kind of mesh."};
-  const TriangleMeshHeader& header = decoder.parsed.header.triangle_mesh;
-  if (kind == TKS_MESH_BUDGET && max_triangles > 0 && max_triangles < header.triangles)
-    return {TKS_USAGE, "The object has " + std::to_string(header.triangles) +
-                           " triangles, which are coded as they are: there is no mesh of fewer."};
-  const Result<CodedTriangles> mesh = decodedTriangles(decoder);
+  Result<CodedTriangles> mesh = decodedTriangles(decoder);
   if (!mesh.ok()) return mesh.status();
-  copyTriangles(header, *mesh, out);
+  const bool all = kind == TKS_MESH_CODED || max_triangles == 0;
+  copyTriangles(decoder.parsed.header.triangle_mesh,
+                all ? *std::move(mesh) : fewerTriangles(*std::move(mesh), max_triangles), out);
   return {};
 }
 

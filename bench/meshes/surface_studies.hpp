@@ -24,6 +24,12 @@ Status studyBytes(const SurfaceModel& model, const SurfaceStudyOptions& options,
 Status studyTriangles(const SurfaceModel& model, const SurfaceStudyOptions& options,
                       SurfaceFigures& figures);
 
+/// Errors at equal triangles, and triangles at equal error, of meshes of at most so many triangles
+/// as a column says, of a stream that keeps all triangles of the model, beside meshoptimizer's.
+/// Says so if one of ours has another topology than the model.
+Status studyKept(const SurfaceModel& model, const SurfaceStudyOptions& options,
+                 SurfaceFigures& figures);
+
 /// Errors of prefixes of a stream of 64 kB, of as many kB as a column says, beside streams made for
 /// their length, with any base and with the same base.
 Status studyPrefixes(const SurfaceModel& model, SurfaceFigures& figures);

@@ -129,4 +129,40 @@ Status studyTriangles(const SurfaceModel& model, const SurfaceStudyOptions& opti
   return {};
 }
 
+Status studyKept(const SurfaceModel& model, const SurfaceStudyOptions& options,
+                 SurfaceFigures& figures) {
+  constexpr uint64_t kAll = 8 << 20;
+  const Result<SurfaceObject> object = surfaceObject(model, {kAll, TKS_OBJECT_TRIANGLES, false});
+  if (!object.ok()) return object.status();
+  const FloatMesh whole = floatMesh(model.mesh());
+  const auto stream = object->stream.bytes();
+  const int64_t euler = edgesOf(cleaned(model.mesh()).mesh).euler;
+  const ErrorCurve peers = simplifiedMeshes(model, options.sizes);
+  ColumnValues errors, theirs, ours, at_equal_error, open;
+  for (const double wanted : figures.columns()) {
+    const auto triangles = static_cast<uint32_t>(wanted);
+    if (triangles >= model.mesh().triangles.size()) {
+      for (ColumnValues* line : {&errors, &theirs, &ours, &at_equal_error, &open})
+        line->push_back(std::nullopt);
+      continue;
+    }
+    const Result<tools::PaintedMesh> mesh = decodedPrefix(stream, stream.size(), triangles);
+    if (!mesh.ok()) return mesh.status();
+    const Edges edges = edgesOf(mesh->mesh);
+    if (edges.euler != euler) std::printf("  another topology at %u triangles\n", triangles);
+    open.push_back(edges.open);
+    errors.push_back(errorOf(model, mesh->mesh));
+    theirs.push_back(errorOf(model, triangleMesh(simplified(whole, triangles))));
+    ours.push_back(static_cast<double>(mesh->mesh.triangles.size()));
+    at_equal_error.push_back(costAt({peers}, *errors.back()));
+  }
+  figures.printColumns("kept triangles, at most", 0);
+  SurfaceFigures::print("open edges", open, 0);
+  SurfaceFigures::print("error", errors, 2);
+  SurfaceFigures::print("meshoptimizer: error", theirs, 2);
+  figures.ratios(model.name, "error of kept triangles over meshoptimizer", errors, theirs);
+  figures.ratios(model.name, "kept triangles over meshoptimizer", ours, at_equal_error);
+  return {};
+}
+
 }  // namespace tetrakis::bench

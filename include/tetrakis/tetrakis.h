@@ -942,8 +942,9 @@ void tks_free_globe_mesh(tks_globe_mesh* mesh);
  * of the forest, counted as in tks_pixel, moved by TKS_MESH_BUDGET to where the triangles come
  * nearest to all samples. Without a texture a sample is one vertex; beside one vertices on sides
  * come once for each patch, with the same position to the last bit. Of triangles that are coded as
- * they are vertices come once for each texcoord that they have. Taken for one where they are equal,
- * vertices leave no edge open but at borders of the object. */
+ * they are vertices come once for each texcoord that they have, and TKS_MESH_BUDGET leaves some of
+ * them, where they are. Taken for one where they are equal, vertices leave no edge open but at
+ * borders of the object. */
 typedef struct tks_object_mesh {
   uint32_t vertex_count, triangle_count;
   double* position;    /* 3 a vertex */
@@ -958,11 +959,18 @@ typedef struct tks_object_mesh {
 
 /* The surface of an object as a mesh. TKS_MESH_BUDGET: the best mesh of at most max_triangles
  * triangles, by the squared distance between surfaces; 0: of every sample; no fewer than two for
- * each patch. TKS_MESH_CODED: the vertices whose heights the stream tells. Triangles that are coded
- * as they are come all. Positions have the same bits on every machine. TKS_USAGE: the stream is no
- * object; it has more triangles, coded as they are, than max_triangles. TKS_LIMIT: as
- * tks_decode_mesh, with 100 bytes more a sample; or 300 bytes a triangle that is coded as it is.
- * TKS_CORRUPT: these triangles break a rule. */
+ * each patch. TKS_MESH_CODED: the vertices whose heights the stream tells. Positions have the same
+ * bits on every machine.
+ *
+ * Of triangles that are coded as they are, TKS_MESH_CODED and 0 give all, and TKS_MESH_BUDGET never
+ * gives more than max_triangles: their vertices collapse into neighbours, those first whose
+ * triangles move least. Pieces, handles and borders stay what they are, no triangle turns far, and
+ * each vertex keeps a texcoord that it had there. Where so few triangles cannot do that, because of
+ * many pieces, seams or handles, triangles turn and get texcoords of their neighbours, small pieces
+ * vanish, and of the last one the largest triangles are left.
+ *
+ * TKS_USAGE: the stream is no object. TKS_LIMIT: as tks_decode_mesh, with 100 bytes more a sample;
+ * or 300 bytes a triangle that is coded as it is. TKS_CORRUPT: these triangles break a rule. */
 tks_status tks_decode_object(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
                              tks_object_mesh* out);
 void tks_free_object_mesh(tks_object_mesh* mesh);

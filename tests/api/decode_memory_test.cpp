@@ -515,9 +515,18 @@ TEST(DecodeMemory, GlobesStayBelowTheLimitThatLetsThemPass) {
     }
 }
 
-/// And meshes of objects, whose places are fitted within a budget.
-TEST(DecodeMemory, ObjectsStayBelowTheLimitThatLetsThemPass) {
-  const Bytes bytes = encodeMesh(made::torus(128, 64), budget(6000), TKS_OBJECT_RESAMPLED).stream;
+TriangleMesh crumbs(uint32_t count) {
+  TriangleMesh all;
+  for (uint32_t i = 0; i < count; ++i) {
+    const double x = i % 100, y = i / 100;
+    const auto first = static_cast<uint32_t>(all.points.size());
+    all.points.insert(all.points.end(), {{x, y, 0}, {x + 0.5, y, 0.1}, {x, y + 0.5, 0.2}});
+    all.triangles.push_back({first, first + 1, first + 2});
+  }
+  return all;
+}
+
+void expectObjectsBelowTheLimit(const Bytes& bytes) {
   for (const uint32_t triangles : {0u, 3000u, 40000u}) {
     MeasuredCall measured;
     measured.status = TKS_LIMIT;
@@ -539,6 +548,14 @@ TEST(DecodeMemory, ObjectsStayBelowTheLimitThatLetsThemPass) {
     }
     EXPECT_EQ(measured.status, TKS_OK);
   }
+}
+
+/// And meshes of objects, whose places are fitted within a budget.
+TEST(DecodeMemory, ObjectsStayBelowTheLimitThatLetsThemPass) {
+  for (const tks_object_kind kind : {TKS_OBJECT_RESAMPLED, TKS_OBJECT_TRIANGLES})
+    expectObjectsBelowTheLimit(encodeMesh(made::torus(128, 64), budget(60000), kind).stream);
+  // Each triangle has three vertices of its own.
+  expectObjectsBelowTheLimit(encodeMesh(crumbs(5000), budget(60000), TKS_OBJECT_TRIANGLES).stream);
 }
 
 /// Levels and windows of streams in regions take memory in proportion to themselves.

@@ -52,6 +52,16 @@ void printScreenMesh(const std::string& name, Decoder& decoder) {
   printMesh(name + ".textured", decoder.screenMesh({&camera, 1}, 1000, &image));
 }
 
+/// Of triangles that are coded as they are, with a part of them.
+void printObject(const std::string& name, Decoder& decoder) {
+  const uint32_t all = decoder.info().object_triangles;
+  for (const uint32_t most : {all / 2, all / 8, all / 32}) {
+    if (most == 0) continue;
+    const auto mesh = decoder.objectMesh(TKS_MESH_BUDGET, most);
+    if (mesh) std::printf("%s  %s\n", conformance::cornerDigest(*mesh).c_str(), name.c_str());
+  }
+}
+
 void printPrefix(const std::string& name, std::span<const uint8_t> prefix) {
   auto decoder = Decoder::open(prefix);
   if (!decoder) return;
@@ -64,6 +74,7 @@ void printPrefix(const std::string& name, std::span<const uint8_t> prefix) {
   printMesh(name + ".coded", decoder->codedMesh());
   printMesh(name + ".budget", decoder->budgetMesh(1000));
   printScreenMesh(name + ".screen", *decoder);
+  printObject(name + ".object", *decoder);
 }
 
 void printStream(const std::string& name, std::span<const uint8_t> stream) {

@@ -122,11 +122,16 @@ void makeMeshes(tetrakis::Decoder& decoder) {
 
 /// Of streams that hold an object.
 void makeObjects(tetrakis::Decoder& decoder) {
-  for (const tks_mesh_kind kind : {TKS_MESH_BUDGET, TKS_MESH_CODED}) {
-    const auto mesh = decoder.objectMesh(kind);
-    if (!mesh) continue;
-    for (const uint32_t corner : mesh->triangles())
-      if (corner >= mesh->vertexCount()) std::abort();
+  const uint32_t coded = decoder.info().object_triangles;
+  for (const uint32_t most : {0u, 1 + coded / 2, 1 + coded / 20}) {
+    for (const tks_mesh_kind kind : {TKS_MESH_BUDGET, TKS_MESH_CODED}) {
+      const auto mesh = decoder.objectMesh(kind, most);
+      if (!mesh) continue;
+      if (coded > 0 && most > 0 && kind == TKS_MESH_BUDGET && mesh->triangleCount() > most)
+        std::abort();
+      for (const uint32_t corner : mesh->triangles())
+        if (corner >= mesh->vertexCount()) std::abort();
+    }
   }
 }
 

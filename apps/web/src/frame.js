@@ -41,7 +41,7 @@ const TRIANGLES_OF_BYTE = 4;
 
 /** As many as were asked for, and no more than the bytes of a prefix feed. */
 function trianglesFor({triangles}, opened, info) {
-  if (info.objectTriangles) return info.objectTriangles;  // there is no mesh of fewer
+  if (info.objectTriangles) return triangles;  // the header holds all of them
   const isComplete = opened.size >= info.streamBytes;
   return isComplete ? triangles
     : Math.min(triangles, Math.max(2, TRIANGLES_OF_BYTE * info.geometryBytes));

@@ -64,7 +64,8 @@ export interface FrameOptions {
   signal?: AbortSignal;
   /** The mesh has at most so many, a whole number from 2 on, or those of the coarsest one: of long
    * grids that has as many as squares of the short side take (1025 x 3: 1024). Default 20000. Of a
-   * part of the stream it has no more than its bytes feed. Of info.objectTriangles it has all. */
+   * part of the stream it has no more than its bytes feed; of info.objectTriangles it has as many
+   * of any part. */
   triangles?: number;
   /** What is looked at. 16 numbers: of the mesh only what they may show. With a picture: bytes are
    * fetched that help it most, if the stream has an index and the server knows ranges. Of objects
@@ -150,8 +151,8 @@ export interface TerrainInfo {
   hasTexture: boolean;
   /** A scan, a sculpture, a designed part: frames have an `object`. */
   isObject: boolean;
-  /** Of an object whose triangles are coded as they are, which all frames have; 0: of any other
-   * stream. An object has heights, over a base mesh, or such triangles. */
+  /** How many triangles an object has that are coded as they are; frames have as many as they are
+   * asked for. 0: any other stream. An object has heights, over a base mesh, or such triangles. */
   objectTriangles: number;
   /** What its surface is made of: factors of a glTF material, as JSON with glTF's names; ''. */
   material: string;

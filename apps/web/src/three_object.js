@@ -81,7 +81,8 @@ export class TksObject extends RefiningMesh {
   get isPlanned() {
     return false;
   }
-  /** Triangles that are coded as they are, all of them, are in the header. */
+  /** Of triangles that are coded as they are, which are in the header, the first frame has as many
+   * as any. */
   get hasFinalMesh() {
     return Boolean(this.frame?.object && this.frame.info.objectTriangles);
   }

@@ -80,7 +80,8 @@ export class RefiningMesh extends Mesh {
 
   /** Shows what opening brought. */
   async begin() {
-    const triangles = Math.min(FIRST_FRAME.triangles, this.triangles);
+    const most = this.terrain.info.objectTriangles ? Infinity : FIRST_FRAME.triangles;
+    const triangles = Math.min(most, this.triangles);
     this.show(await this.terrain.decode(
       {...FIRST_FRAME, frame: this.number, bytes: this.#firstBytes(), triangles, normals: true}));
   }

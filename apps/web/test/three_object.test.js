@@ -193,6 +193,9 @@ test('of triangles as they are the texture alone refines, and repeats', {skip, .
     }
     assert.ok(object.frame.complete);
     assert.equal(widths.at(-1), info.textureWidth);
+    const few = await new TksLoader().setTerrainOptions({triangles: 500}).parseAsync(
+      file.buffer.slice(file.byteOffset, file.byteOffset + file.length));
+    assert.ok(few.geometry.index.count <= 3 * 500 && few.geometry.index.count > 3 * 480);
     assert.ok(widths[0] < info.textureWidth, `${widths}`);
     assert.ok(widths.every((width, i) => i === 0 || width >= widths[i - 1]), `${widths}`);
     const {map} = object.material;

@@ -112,7 +112,9 @@ export class Refiner {
   #options(triangles) {
     const {info} = this.#terrain, {texels, height} = this.#wanted;
     return {
-      triangles, texels, mesh: !this.#object.hasFinalMesh, normals: true,
+      // Those that are coded as they are have no slider.
+      triangles: info.objectTriangles || triangles, texels, mesh: !this.#object.hasFinalMesh,
+      normals: true,
       surface: hasTint(info), samples: 1024,
       signal: this.#ended(), globe: globeFor(info, Number(height)), frame: this.#wanted.frame,
     };

@@ -38,8 +38,7 @@ def shape_of(stream: Any, triangles: int = 0, y_is_up: bool = False) -> Shape:
 
 
 def _of_object(stream: Any, triangles: int, y_is_up: bool) -> Shape:
-    # Triangles that are coded as they are come all.
-    mesh = stream.object(0 if stream.info.base_mesh is None else triangles)
+    mesh = stream.object(triangles)
     points = mesh.points[:, [0, 2, 1]] * [1, -1, 1] if y_is_up else mesh.points
     return _welded(stream, points, mesh.triangles, mesh.texcoords, mesh.atlas)
 

@@ -407,8 +407,11 @@ def test_triangles_come_back_as_they_are():
         near = np.abs(mesh.points[:, np.newaxis] - points).max(axis=2).min(axis=1)
         assert near.max() < 0.01 and len(mesh.points) == len(points)
         assert len(mesh.triangles) == len(triangles)
-        with pytest.raises(tetrakis.TksUsageError, match="98 triangles"):
-            opened.object(97)
+        for most in (97, 40, 10, 1):
+            few = opened.object(most)
+            assert 0 < len(few.triangles) <= most
+            assert {*map(tuple, few.points)} <= {*map(tuple, mesh.points)}
+        assert len(opened.object(40).triangles) >= 38
         assert opened._repr_html_().count("98 triangles") == 1
 
 

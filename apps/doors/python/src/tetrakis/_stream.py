@@ -422,7 +422,8 @@ class Stream:
         """The surface of an object as the best mesh of at most `triangles` triangles, by the
         squared distance between surfaces, but no fewer than two for each of its patches. 0: of
         every sample. With its texture, where it has one, as an image that lies on the mesh.
-        Triangles that are coded as they are come all: fewer cannot be asked for.
+        Of triangles that are coded as they are there are no more than asked for: vertices collapse
+        into neighbours, and small parts vanish where `triangles` are few.
 
         coded: the vertices whose heights the stream tells, however many these are.
         bytes: of a prefix of so many bytes.
