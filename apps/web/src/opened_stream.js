@@ -29,7 +29,7 @@ export class OpenedStream extends Opened {
     }
     super(instance, decoder, header.length);
     this.#header = copy;
-    if (component.length > 0) this.#choose(chain, component);
+    if (component.length > 0) this.#choose(chain, component, first);
   }
   /** The address of a decoder of a header, [address, size]. */
   static #open(instance, chain, header, {heights, texture}) {
@@ -41,9 +41,11 @@ export class OpenedStream extends Opened {
     });
   }
   /** Takes others than the first components. */
-  #choose(chain, component) {
-    const {instance, size} = this;
+  #choose(chain, component, first) {
+    const {instance} = this;
     try {
+      this.#passSketch(chain, first);
+      const {size} = this;
       const choice = choiceOf(component, this.info().components);
       const chosen = OpenedStream.#open(instance, chain, [this.#header, size], choice);
       instance.calls.tks_close(this.decoder);
@@ -52,6 +54,17 @@ export class OpenedStream extends Opened {
       if (error instanceof TksError) this.close();
       throw error;
     }
+  }
+  /** A sketch has components of its own: the choice is among those of the header, if it is here. */
+  #passSketch(chain, first) {
+    const {instance} = this, {showsSketch, headerBytes} = this.info();
+    const header = showsSketch ? first(headerBytes) : [];
+    if (!showsSketch || header.length < headerBytes) return;
+    const copy = instance.allocate(header.length);
+    instance.view(Uint8Array, copy, header.length).set(header);
+    const whole = OpenedStream.#open(instance, chain, [copy, header.length], FIRST);
+    this.close();
+    [this.decoder, this.#header, this.size] = [whole, copy, header.length];
   }
   /** How many bytes a decoder opens, as far as those that are here tell. */
   static #leastBytes(instance, first) {
