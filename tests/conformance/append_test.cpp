@@ -71,6 +71,7 @@ void appendAndCompare(const Vector& vector, uint64_t opened, size_t stride) {
           << vector.name << ": " << tks_message(growing.get());
     }
     if (begin == opened) opening.assign(opening.size(), 0xee);  // no longer needed
+    growing.lookAgain();
     Stream fresh(Prefix(bytes).first(end));
     ASSERT_TRUE(decodedFrom(growing) == decodedFrom(fresh))
         << vector.name << ": " << end << " of " << bytes.size() << " bytes, by " << stride;

@@ -114,6 +114,8 @@ class Stream {
   const std::string& message() const { return message_; }
   const tks_info& info() const { return info_; }
   tks_decoder* get() const { return decoder_; }
+  /// To be called once more bytes came: a sketch gives way to a stream of other sizes.
+  void lookAgain() { EXPECT_EQ(tks_get_info(decoder_, &info_), TKS_OK); }
 
   size_t heightsBytes() const {
     return size_t{info_.width} * info_.height * tks_sample_bytes(info_.sample);
