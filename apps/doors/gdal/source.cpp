@@ -102,18 +102,19 @@ bool Source::cutBytes() {
   if (!settings_.bytes) return true;
   const uint64_t beside = info_.index == TKS_INDEX_NONE ? 0 : info_.header_bytes;
   end_ = beside + std::min(*settings_.bytes, end_ - beside);
-  if (end_ >= info_.header_bytes)
+  if (end_ >= info_.least_bytes)
     return reopen(std::min(end_, std::max(kHeaderGuess, info_.header_bytes)));
   reportFailure(TKS_TRUNCATED, name_,
-                "BYTES ends inside the header, which takes " + std::to_string(info_.header_bytes) +
+                "BYTES ends inside the header, which takes " + std::to_string(info_.least_bytes) +
                     " bytes.");
   return false;
 }
 
 std::string Source::checksumOfHeader() const {
-  // The last four bytes of the header (docs/FORMAT.md, section 2).
+  // The last four bytes of the header that is shown (docs/FORMAT.md, section 2).
   constexpr size_t kBytes = 4;
-  return hexadecimal(bytes_.at(info_.header_bytes - kBytes).first<kBytes>());
+  const uint64_t end = info_.shows_sketch ? info_.least_bytes : info_.header_bytes;
+  return hexadecimal(bytes_.at(end - kBytes).first<kBytes>());
 }
 
 void Source::rest() {

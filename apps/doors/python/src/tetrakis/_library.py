@@ -223,6 +223,8 @@ class TriangleMesh(ctypes.Structure):
         ("texcoords", c_void_p),
         ("kind", c_int),
         ("sketch_bytes", c_uint64),
+        ("material", c_char_p),
+        ("texels", c_uint32),
     ]
 
 
