@@ -122,6 +122,17 @@ def test_vectors_read_or_are_refused(vector, tmp_path):
     assert number == 7
 
 
+def test_a_sketch_is_read_until_the_header_is_there(tmp_path):
+    whole = REPOSITORY / "conformance/vectors/sketch_33x33.tks"
+    cut = tmp_path / "cut.tks"
+    cut.write_bytes(whole.read_bytes()[:100])
+    assert opened(whole).RasterXSize == 33
+    for dataset in (opened(cut), opened(whole, "BYTES=100")):
+        assert dataset.RasterXSize == 9
+        assert dataset.ReadAsArray().shape == (9, 9)
+    refused(lambda: opened(whole, "BYTES=40"), "BYTES ends inside the header, which takes 48 bytes.")
+
+
 def test_foreign_files(tmp_path):
     for data in (b"", b"TKS", b"TKS\x1a", b"GIF89a" + bytes(100), b"TKS\x1b" + bytes(99)):
         name = tmp_path / "foreign.tks"
