@@ -104,9 +104,9 @@ bool Source::cutBytes() {
   end_ = beside + std::min(*settings_.bytes, end_ - beside);
   if (end_ >= info_.least_bytes)
     return reopen(std::min(end_, std::max(kHeaderGuess, info_.header_bytes)));
-  reportFailure(TKS_TRUNCATED, name_,
-                "BYTES ends inside the header, which takes " + std::to_string(info_.least_bytes) +
-                    " bytes.");
+  reportFailure(
+      TKS_TRUNCATED, name_,
+      "BYTES ends inside the header, which takes " + std::to_string(info_.least_bytes) + " bytes.");
   return false;
 }
 
