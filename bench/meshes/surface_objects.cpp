@@ -14,6 +14,7 @@ Result<SurfaceObject> surfaceObject(const SurfaceModel& model, const ObjectOptio
   given.positions = mesh.points.front().data();
   given.triangles = mesh.triangles.front().data();
   given.kind = options.kind;
+  given.sketch_bytes = options.sketched ? 0 : TKS_NO_SKETCH;
   tks_image image{};
   if (options.textured) {
     given.texcoords = model.painted.texcoords.front().data();

@@ -15,6 +15,7 @@ struct ObjectOptions {
   uint64_t bytes = 0;  ///< of the stream, at most
   tks_object_kind kind = TKS_OBJECT_AUTO;
   bool textured = false;
+  bool sketched = false;  ///< with a sketch, if the encoder chooses so; peers have none
 };
 
 struct SurfaceObject {

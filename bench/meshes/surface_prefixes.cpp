@@ -40,13 +40,15 @@ std::optional<double> errorOfBytes(const SurfaceModel& model, std::span<const ui
 }  // namespace
 
 Status studyPrefixes(const SurfaceModel& model, SurfaceFigures& figures) {
-  const Result<SurfaceObject> whole = surfaceObject(model, {64 << 10, TKS_OBJECT_RESAMPLED, false});
+  const Result<SurfaceObject> whole =
+      surfaceObject(model, {64 << 10, TKS_OBJECT_RESAMPLED, false, true});
   if (!whole.ok()) return whole.status();
   ColumnValues prefixes, made, on_same_base;
   for (const double kilobytes : figures.columns()) {
     const auto bytes = static_cast<size_t>(kilobytes * kKilobyte);
     prefixes.push_back(errorOfBytes(model, whole->stream.bytes(), bytes));
-    const Result<SurfaceObject> own = surfaceObject(model, {bytes, TKS_OBJECT_RESAMPLED, false});
+    const Result<SurfaceObject> own =
+        surfaceObject(model, {bytes, TKS_OBJECT_RESAMPLED, false, true});
     made.push_back(own.ok() ? errorOfBytes(model, own->stream.bytes(), bytes) : std::nullopt);
     const Result<Buffer> same = onTheSameBase(whole->stream.bytes(), bytes);
     on_same_base.push_back(same.ok() ? errorOfBytes(model, same->bytes(), bytes) : std::nullopt);
