@@ -32,12 +32,10 @@ bool alike(const tks_image& a, const tks_image& b) {
 }
 
 Status checkFrame(const tks_heights* heights, const tks_image* image,
-                  const tks_encode_options& options, const FrameArguments& before) {
+                  const FrameArguments& before) {
   if ((heights != nullptr && heights->domain == TKS_DOMAIN_FOREST) ||
       (image != nullptr && image->domain == TKS_DOMAIN_FOREST))
     return misuse("Frames do not lie on a forest.");
-  if (options.max_error > 0 && image != nullptr)
-    return misuse("A texture in frames beside heights takes bytes, a PSNR or lossless.");
   if (before.frames() == 0) return {};
   const bool same_parts =
       (heights == nullptr) == before.heights.empty() && (image == nullptr) == before.images.empty();
@@ -70,8 +68,7 @@ Status takeFrame(const tks_heights* heights, const tks_image* image,
   if (Status status = takeArguments(heights, image, &options, known); !status.ok()) return status;
   const tks_heights* const known_heights = heights != nullptr ? &known.heights : nullptr;
   const tks_image* const known_image = image != nullptr ? &known.image : nullptr;
-  if (Status status = checkFrame(known_heights, known_image, known.options, out); !status.ok())
-    return status;
+  if (Status status = checkFrame(known_heights, known_image, out); !status.ok()) return status;
   if (out.frames() == 0) {
     out.options = known.options;
     out.options.explain = nullptr;

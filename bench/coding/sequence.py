@@ -2,8 +2,10 @@
 """bench/sequence runs this: sequence.py TETRAKIS FOLDER|FILE... Each FOLDER holds frames (*.tif or
 *.png); a FILE that GDAL reads has a frame in each band, of which the first 128 count. It prints
 bytes: of a sequence in groups of 16, of one whose groups go on from the one before, of each frame
-by itself, and of peers. Needs NumPy, GDAL's Python module, zfpy and aomenc."""
+by itself, and of peers (sequence_videos.py). With --pace HEIGHTS TEXTURES it prints the frames a
+second that one core encodes of both. Needs NumPy, GDAL's Python module, zfpy, aomenc and x265."""
 
+import resource
 import subprocess
 import sys
 import tempfile
@@ -13,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import zfpy
 from osgeo import gdal
+from sequence_videos import av1, hevc
 
 gdal.UseExceptions()
 gdal.SetConfigOption("GRIB_NORMALIZE_UNITS", "NO")  # as the file has them
@@ -86,52 +89,6 @@ def zfp(cube, **bound):
     return len(zfpy.compress_numpy(np.ascontiguousarray(cube, np.float32), **bound))
 
 
-def write_y4m(frames, path):
-    """8 bits, 4:4:4, BT.709 in full range."""
-    height, width, _ = frames[0].shape
-    with open(path, "wb") as out:
-        out.write(f"YUV4MPEG2 W{width} H{height} F25:1 Ip A1:1 C444 XCOLORRANGE=FULL\n".encode())
-        for frame in frames:
-            r, g, b = np.moveaxis(frame.astype(np.float64), 2, 0)
-            y = 0.2126 * r + 0.7152 * g + 0.0722 * b
-            planes = [y, (b - y) / 1.8556 + 128, (r - y) / 1.5748 + 128]
-            out.write(b"FRAME\n")
-            for plane in planes:
-                out.write(np.clip(np.rint(plane), 0, 255).astype(np.uint8).tobytes())
-
-
-def psnr_of_video(path, frames):
-    """Of all samples of the frames, in RGB."""
-    height, width, _ = frames[0].shape
-    subprocess.run(["aomdec", "--rawvideo", "-o", path + ".yuv", path], check=True)
-    raw = Path(path + ".yuv").read_bytes()
-    planes = np.frombuffer(raw, np.uint8).reshape(len(frames), 3, height, width).astype(np.float64)
-    squares = 0.0
-    for (y, u, v), frame in zip(planes, frames):
-        b, r = y + 1.8556 * (u - 128), y + 1.5748 * (v - 128)
-        g = (y - 0.2126 * r - 0.0722 * b) / 0.7152
-        shown = np.clip(np.rint(np.stack([r, g, b], axis=2)), 0, 255)
-        squares += np.sum((shown - frame) ** 2)
-    return 10 * np.log10(255**2 / (squares / (len(frames) * height * width * 3)))
-
-
-def av1(names, intra):
-    """(PSNR, bytes) of libaom at several qualities: of key frames alone, or of groups as ours."""
-    frames = [np.moveaxis(gdal.Open(str(n)).ReadAsArray(), 0, 2) for n in names]
-    curve = []
-    with tempfile.TemporaryDirectory() as out:
-        write_y4m(frames, out + "/in.y4m")
-        for level in (20, 28, 36, 44, 52, 60):
-            key = ["--kf-max-dist=0"] if intra else [f"--kf-max-dist={GROUP}"]
-            subprocess.run(
-                ["aomenc", "--obu", "--i444", "--end-usage=q", f"--cq-level={level}",
-                 "--cpu-used=3", "--passes=2", *key, "-o", out + "/v.obu",
-                 out + "/in.y4m"], check=True, capture_output=True)
-            size = Path(out + "/v.obu").stat().st_size
-            curve.append((psnr_of_video(out + "/v.obu", frames), size))
-    return sorted(curve)
-
-
 def bytes_at(curve, psnr):
     """Between the qualities that were coded; nothing beyond them."""
     if not curve[0][0] <= psnr <= curve[-1][0]:
@@ -195,17 +152,39 @@ def textures(program, name, names):
              "frames": tetrakis(program, names, 1, "--lossless")[0],
              "png": sum(n.stat().st_size for n in names)}
     tell(name, "lossless", found)
-    intra, inter = av1(names, True), av1(names, False)
+    frames = [np.moveaxis(gdal.Open(str(n)).ReadAsArray(), 0, 2) for n in names]
+    videos = {"av1_intra": av1(frames), "av1": av1(frames, GROUP), "x265": hevc(frames, 8)}
     for psnr in ("32", "38"):
         ours, seconds = tetrakis(program, names, GROUP, "--psnr", psnr)
         frames = tetrakis(program, names, 1, "--psnr", psnr)[0]
         print(f"{name:10} {psnr} dB        sequence {ours}  frames {frames}  "
-              f"av1_intra {bytes_at(intra, float(psnr))}  av1 {bytes_at(inter, float(psnr))}  "
+              + "".join(f"{k} {bytes_at(v, float(psnr))}  " for k, v in videos.items()) +
               f"of frames {ours / frames:.3f}  {len(names) / seconds:.1f} frames a second",
               flush=True)
 
 
+def pace(program, heights_folder, textures_folder):
+    """Frames of heights with textures that one core encodes in a second of processor time."""
+    names = [str(Path(f) / "*") for f in (heights_folder, textures_folder)]
+    count = len(frames_of(Path(heights_folder), None))
+    for group in (["1"], ["1", "--reference", "2k"], ["4"], ["16"]):
+        cells = []
+        for target in (["--rate", "16k"], ["--rate", "64k"], ["--psnr", "38"], ["--lossless"]):
+            with tempfile.TemporaryDirectory() as out:
+                before = resource.getrusage(resource.RUSAGE_CHILDREN)
+                subprocess.run(
+                    [program, "encode", names[0], "--texture", names[1], "--fps", "2", "--group",
+                     *group, *target, "--threads", "1", "-q", "-o", out + "/s.tks"], check=True)
+                after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            taken = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+            cells.append(f"{' '.join(target)}: {count / taken:.1f}")
+        print(f"groups of {' '.join(group):17}  {'  '.join(cells)}", flush=True)
+
+
 def main():
+    if sys.argv[2] == "--pace":
+        pace(sys.argv[1], *sys.argv[3:5])
+        return
     program, sources = sys.argv[1], [Path(a) for a in sys.argv[2:]]
     for source in sources:
         with tempfile.TemporaryDirectory() as folder:

@@ -39,6 +39,8 @@ struct Part {
   }
 };
 
+using Parts = std::array<std::optional<Part>, kComponents>;
+
 /// frames: HeightFrames or TextureFrames, which outlive the result.
 template <class Memory>
 Part partOf(const GroupInputs& inputs, const auto& frames) {
@@ -107,16 +109,34 @@ struct Group {
   std::optional<TextureFrames> texture;
 };
 
-/// The packets that a PSNR of the heights and of the texture needs.
-std::vector<Packet> keepForPsnr(const GroupInputs& inputs, const Group& group,
-                                const std::array<std::optional<Part>, kComponents>& parts,
-                                std::vector<Packet> packets) {
+/// What a PSNR of the heights and of the texture needs.
+Needs needsOfPsnr(const GroupInputs& inputs, const Group& group, const Parts& parts) {
   const double psnr = inputs.options.psnr;
   Needs needs = {0, 0};
   if (group.heights)
     needs[0] = need(parts[0], worstMeanSquare(peakOf(inputs.heights, group.heights->truth), psnr));
   if (group.texture)
     needs[1] = need(parts[1], worstMeanSquare(group.texture->truth.front().white(), psnr));
+  return needs;
+}
+
+/// All heights, since their steps keep the largest error. The texture gets the bytes that are worth
+/// as much as those that bring heights as near to their steps as these are to the samples: to a
+/// mean square of a 12th, that of errors spread evenly within a step. If heights take no bytes, it
+/// gets all.
+Needs needsBesideBound(const Parts& parts, std::span<const Packet> packets) {
+  const uint64_t heights = need(parts[0], 1. / 12);
+  if (heights == 0) return {kAllBytes, kAllBytes};
+  return {kAllBytes, sentWith(packets, Component::kGeometry, heights)[1]};
+}
+
+/// The packets that the target needs, of those in their order.
+std::vector<Packet> keepForTarget(const GroupInputs& inputs, const Group& group, const Parts& parts,
+                                  std::vector<Packet> packets) {
+  const bool is_bounded = inputs.options.max_error > 0 && group.heights && group.texture;
+  if (inputs.options.psnr <= 0 && !is_bounded) return packets;
+  const Needs needs =
+      is_bounded ? needsBesideBound(parts, packets) : needsOfPsnr(inputs, group, parts);
   const auto quality_after = [&](Component component, uint64_t bytes) {
     return qualityOf(std::sqrt(parts[static_cast<size_t>(component)]->meanSquare(bytes)));
   };
@@ -141,7 +161,7 @@ Result<std::vector<uint8_t>> encodeForTarget(const GroupInputs& inputs) {
     group.heights = *std::move(heights);
   }
   if (!inputs.images.empty()) group.texture = textureFor(inputs);
-  std::array<std::optional<Part>, kComponents> parts;
+  Parts parts;
   Selection selection;
   if (group.heights) {
     parts[0] = partOf<HeightsMemory>(inputs, *group.heights);
@@ -151,9 +171,7 @@ Result<std::vector<uint8_t>> encodeForTarget(const GroupInputs& inputs) {
     parts[1] = partOf<TextureMemory>(inputs, *group.texture);
     selection.texture = group.texture->coded;
   }
-  selection.packets = ordered(parts[0], parts[1]);
-  if (inputs.options.psnr > 0)
-    selection.packets = keepForPsnr(inputs, group, parts, std::move(selection.packets));
+  selection.packets = keepForTarget(inputs, group, parts, ordered(parts[0], parts[1]));
   selection.packets = joinNeighbours(selection.packets);
   if (inputs.options.bytes != 0)
     selection.packets = keepWithinBudget(selection.packets, inputs.options.bytes);

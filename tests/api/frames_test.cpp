@@ -171,6 +171,31 @@ TEST(Frames, EverySampleKeepsTheLargestError) {
   }
 }
 
+TEST(Frames, ALargestErrorGivesTexturesTheBytesThatSuitTheHeights) {
+  const FrameRasters frames = movingFrames({Pattern::kRidges, 48, 40, 1, TKS_I16}, 5);
+  const FrameRasters images = movingFrames({Pattern::kRidges, 64, 64, 3, TKS_U8}, 5);
+  const std::vector<tks_image> all = imagesOf(images);
+  double before = 0;
+  for (const double error : {1.0, 10.0, 100.0}) {
+    const std::vector<tks_heights> heights = heightsOf(frames);
+    Stream stream(encodeFrames(heights, all, within(error)));
+    ASSERT_EQ(stream.status(), TKS_OK);
+    double squares = 0;
+    for (size_t t = 0; t < frames.size(); ++t) {
+      showFrame(stream, t);
+      EXPECT_LE(largestError(frames[t], stream.heights()), error) << "frame " << t;
+      squares += squaredError(images[t], stream.texture());
+    }
+    EXPECT_GT(squares, before) << error;
+    before = squares;
+  }
+  const FrameRasters flat(3, samples::make({Pattern::kFlat, 20, 20, 1, TKS_I16}));
+  const FrameRasters over(3, samples::make({Pattern::kRidges, 20, 20, 3, TKS_U8}));
+  Stream stream(encodeFrames(heightsOf(flat), imagesOf(over), within(1)));
+  ASSERT_EQ(stream.status(), TKS_OK);
+  EXPECT_LE(squaredError(over.front(), stream.texture()), 20 * 20 * 3.);
+}
+
 TEST(Frames, WhatStandsStillTakesBytesOnce) {
   const FrameRasters still(8, samples::make({Pattern::kRidges, 64, 64, 1, TKS_I16}));
   const size_t one = encode(&still.front(), nullptr, lossless()).size();
