@@ -125,6 +125,38 @@ TEST_F(Serving, ThinLinksGetLessOfEveryGroup) {
   for (uint64_t frame = 0; frame < kFrames; ++frame) EXPECT_FALSE(sequence.heights(frame).empty());
 }
 
+TEST_F(Serving, ReceiversTellOfTheirCameraOnceTheyKnowTheGround) {
+  const Running server(save("v.tks", bytes_));
+  int looks = 0;
+  ReceiveOptions options{.url = server.url()};
+  options.look = [&](Decoder& decoder) -> Result<tks_screen_camera> {
+    ++looks;
+    EXPECT_EQ(decoder.info().width, 70u);
+    tks_screen_camera camera = makeScreenCamera();
+    camera.width = 320;
+    camera.height = 240;
+    camera.clip[0] = 2 / 69., camera.clip[3] = -1;  // from above, all ground
+    camera.clip[5] = 2 / 59., camera.clip[7] = -1;
+    camera.clip[15] = 1;
+    return camera;
+  };
+  Bytes all;
+  const Result<Reception> looked =
+      tools::receiveSequence(options, [&](std::span<const uint8_t> bytes) {
+        all.insert(all.end(), bytes.begin(), bytes.end());
+        return Status();
+      });
+  ASSERT_TRUE(looked.ok()) << looked.status().message();
+  expectFrames(all);
+  EXPECT_EQ(looks, 1);
+  constexpr uint64_t kOfView = 48;  // bytes of a matrix
+  EXPECT_GE(looked->control_bytes, kOfView * (looked->messages - 1));
+  options.look = [](Decoder&) -> Result<tks_screen_camera> {
+    return Status(TKS_USAGE, "sees no ground");
+  };
+  EXPECT_EQ(tools::receiveSequence(options, {}).status().message(), "sees no ground");
+}
+
 TEST_F(Serving, LiesAndStrangersAreRefused) {
   const Running server(save("a.tks", bytes_));
   httplib::Client client = server.client();

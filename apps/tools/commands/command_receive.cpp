@@ -8,6 +8,7 @@
 #include "apps/tools/commands/options.hpp"
 #include "apps/tools/files/positive.hpp"
 #include "apps/tools/output/output.hpp"
+#include "apps/tools/report/viewed_mesh.hpp"
 #include "apps/tools/serve/received_sequence.hpp"
 
 namespace tetrakis::tools {
@@ -15,15 +16,27 @@ namespace {
 
 struct ReceiveArguments {
   ReceiveOptions options;
+  CameraChoice cameras;
   std::string output, channel;
   double seconds = 0;
   bool force = false;
 };
 
+/// A control message tells of one camera.
+Result<tks_screen_camera> cameraOver(Decoder& decoder, const CameraChoice& choice) {
+  Result<std::vector<tks_screen_camera>> cameras = meshCameras(decoder, choice);
+  if (!cameras.ok()) return cameras.status();
+  if (cameras->size() == 1) return cameras->front();
+  return Status(TKS_USAGE,
+                "a receiver looks with one camera, not with " + std::to_string(cameras->size()));
+}
+
 Result<ReceiveOptions> optionsOf(const ReceiveArguments& arguments) {
   ReceiveOptions options = arguments.options;
   if (arguments.seconds > 0) options.seconds = arguments.seconds;
   if (options.seconds && !options.live) return Status(TKS_USAGE, "--seconds takes --live");
+  if (!arguments.cameras.isDefault())
+    options.look = [&](Decoder& decoder) { return cameraOver(decoder, arguments.cameras); };
   if (arguments.channel.empty()) return options;
   const Result<double> rate = parseRate(arguments.channel, "bit");
   if (!rate.ok()) return Status(TKS_USAGE, "--channel: " + rate.status().message());
@@ -79,6 +92,7 @@ void addReceive(CLI::App& app, CommandLine& line) {
                   "Bits a second of the link: 256k/s; frames pass as if no more came")
       ->type_name("RATE");
   addTriangles(verb, options.triangles, "The receiver draws meshes of so many triangles");
+  addCameraOptions(verb, arguments->cameras);
   CLI::Option* const live =
       verb.add_flag("--live", options.live, "Follow the newest frame, for --seconds");
   verb.add_option("--seconds", arguments->seconds, "How long to follow it")

@@ -52,8 +52,10 @@ class Reading {
 
   /// waits: for frames behind those that are known.
   Status ask(uint64_t frame, bool waits) {
+    if (Status status = look(); !status.ok()) return status;
     tks_wants wants = makeWants();
     wants.frame = frame;
+    wants.view = view_ ? &*view_ : nullptr;
     wants.link = options_.link;
     wants.triangles = options_.triangles;
     const Result<std::vector<uint8_t>> control = receiver_.control(wants);
@@ -80,6 +82,17 @@ class Reading {
   }
 
  private:
+  /// A camera over the ground is known once a frame tells of the ground.
+  Status look() {
+    if (!options_.look || view_ || receiver_.info().end_frame == 0) return {};
+    Result<Decoder> decoder = receiver_.decoder(receiver_.info().first_frame);
+    if (!decoder.ok()) return decoder.status();
+    const Result<tks_screen_camera> camera = options_.look(*decoder);
+    if (!camera.ok()) return camera.status();
+    view_ = *camera;
+    return {};
+  }
+
   Status refused(const httplib::Response& response) const {
     std::string why = response.body.substr(0, 300);
     while (!why.empty() && why.back() == '\n') why.pop_back();
@@ -91,6 +104,7 @@ class Reading {
   const Url& url_;
   httplib::Client client_;
   Receiver receiver_;
+  std::optional<tks_screen_camera> view_;
   Reception reception_;
 };
 

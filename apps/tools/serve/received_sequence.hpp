@@ -20,6 +20,8 @@ struct ReceiveOptions {
   uint32_t triangles = 0;              ///< of the meshes that are drawn; 0: any number
   bool live = false;                   ///< the newest frame again and again, for `seconds`
   std::optional<double> seconds = {};  ///< how long that goes on; none: for ever
+  /// The camera of the receiver, over the first frame that came; empty: all ground counts alike.
+  std::function<Result<tks_screen_camera>(Decoder&)> look = {};
 };
 
 /// What came.
