@@ -196,21 +196,140 @@ TEST_F(SurfaceFiles, PolygonsAreCutAndLinesDropped) {
   EXPECT_EQ(note, "1 polygon is cut into triangles, 1 point or line is left out");
 }
 
-TEST_F(SurfaceFiles, PartsAreJoinedAndTheTextureOfMostIsTaken) {
-  ASSERT_TRUE(writeImage(path("most.png"), chequers(3)).ok());
-  text("a.mtl", "newmtl one\nKd 1 0.5 0.25\nmap_Kd C:\\old\\most.png\nnewmtl two\nmap_Kd b.png\n");
+using Colour = std::array<int, 3>;
+
+ImageFile plain(uint32_t width, uint32_t height, const Colour& colour) {
+  ImageFile image{width, height, 3, TKS_U8, {}};
+  for (size_t i = 0; i < size_t{width} * height; ++i)
+    for (const int value : colour) image.data.push_back(std::byte(value));
+  return image;
+}
+
+/// What the surface shows between the corners of a triangle, whose weights these are.
+Colour shownAt(const SurfaceFile& surface, size_t triangle, const std::array<double, 3>& weights) {
+  const ImageFile& image = *surface.texture;
+  double x = -0.5, y = -0.5;
+  for (size_t k = 0; k < 3; ++k) {
+    x += weights[k] * double(surface.texcoords[3 * triangle + k][0]) * image.width;
+    y += weights[k] * double(surface.texcoords[3 * triangle + k][1]) * image.height;
+  }
+  const auto at = [&](double column, double row, size_t channel) {
+    const double c = std::clamp(column, 0.0, image.width - 1.0),
+                 r = std::clamp(row, 0.0, image.height - 1.0);
+    return double(image.data[(size_t(r) * image.width + size_t(c)) * 3 + channel]);
+  };
+  Colour colour{};
+  const double left = std::floor(x), top = std::floor(y), u = x - left, v = y - top;
+  for (size_t channel = 0; channel < 3; ++channel) {
+    const double upper = (1 - u) * at(left, top, channel) + u * at(left + 1, top, channel);
+    const double lower = (1 - u) * at(left, top + 1, channel) + u * at(left + 1, top + 1, channel);
+    colour[channel] = int(std::lround((1 - v) * upper + v * lower));
+  }
+  return colour;
+}
+
+constexpr std::array<std::array<double, 3>, 5> kWithin{
+    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5, 0.5, 0}, {0.4, 0.3, 0.3}}};
+
+TEST_F(SurfaceFiles, TexturesAndColoursOfPartsBecomeOneTexture) {
+  ASSERT_TRUE(writeImage(path("red.png"), plain(16, 8, {200, 10, 20})).ok());
+  ASSERT_TRUE(writeImage(path("blue.png"), plain(3, 40, {10, 20, 250})).ok());
+  text("a.mtl",
+       "newmtl one\nKd 1 0.5 1\nmap_Kd red.png\nnewmtl two\nmap_Kd blue.png\n"
+       "newmtl three\nKd 0 1 0\nnewmtl four\nKd 0 1 0\nmap_Kd gone.png\n");
   std::string note;
   const SurfaceFile surface =
       read(text("a.obj",
                 "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
-                "usemtl two\nf 1/1 3/2 2/3\nusemtl one\nf 1/1 2/2 4/3\nf 2/1 3/2 4/3\n"),
+                "usemtl two\nf 1/1 3/2 2/3\nusemtl one\nf 1/1 2/2 4/3\nusemtl three\n"
+                "f 2/1 3/2 4/3\nusemtl four\nf 4/1 3/2 1/3\n"),
+           &note);
+  ASSERT_TRUE(surface.texture.has_value());
+  const std::array<Colour, 4> colours{{{10, 20, 250}, {200, 5, 20}, {0, 255, 0}, {0, 255, 0}}};
+  for (size_t triangle = 0; triangle < 4; ++triangle)
+    for (const auto& weights : kWithin)
+      EXPECT_EQ(shownAt(surface, triangle, weights), colours[triangle]) << triangle;
+  EXPECT_EQ(surface.base_colour, (std::array<double, 4>{1, 1, 1, 1}));
+  EXPECT_EQ(note, "4 parts are joined, 3 textures become one, its texture 'gone.png' is not there");
+}
+
+TEST_F(SurfaceFiles, TexturesThatRepeatStandInTheirPageAsOften) {
+  ImageFile ramp = plain(64, 4, {0, 0, 0});
+  for (size_t i = 0; i < ramp.data.size(); ++i) ramp.data[i] = std::byte(i / 3 % 64 * 3);
+  ASSERT_TRUE(writeImage(path("ramp.png"), ramp).ok());
+  text("r.mtl", "newmtl one\nmap_Kd ramp.png\nnewmtl two\nKd 0 1 0\n");
+  const SurfaceFile surface = read(text(
+      "r.obj",
+      "mtllib r.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt -7.75 0.5\nvt -5.25 0.5\n"
+      "vt -6.25 3.5\nvt 1e30 0\nusemtl one\nf 1/1 2/2 3/3\nf 1/4 2/4 3/4\nusemtl two\nf 3 2 1\n"));
+  ASSERT_TRUE(surface.texture.has_value());
+  EXPECT_NEAR(shownAt(surface, 0, {1, 0, 0})[0], 3 * (64 * 0.25 - 0.5), 1);
+  EXPECT_NEAR(shownAt(surface, 0, {0, 1, 0})[1], 3 * (64 * 0.75 - 0.5), 1);
+  EXPECT_NEAR(shownAt(surface, 0, {0.5, 0.5, 0})[2], 3 * (64 * 0.5 - 0.5), 1);
+  EXPECT_EQ(shownAt(surface, 2, {0.3, 0.3, 0.4}), (Colour{0, 255, 0}));
+  for (const auto& [u, v] : surface.texcoords)
+    EXPECT_TRUE(u >= 0 && u <= 1 && v >= 0 && v <= 1) << u << ' ' << v;
+}
+
+TEST_F(SurfaceFiles, WideAndTallTexturesTakeNoImageOfBothSides) {
+  ASSERT_TRUE(writeImage(path("wide.png"), plain(30000, 1, {200, 10, 20})).ok());
+  ASSERT_TRUE(writeImage(path("tall.png"), plain(1, 30000, {10, 20, 250})).ok());
+  text("w.mtl", "newmtl one\nmap_Kd wide.png\nnewmtl two\nKd 0 1 0\nmap_Kd tall.png\n");
+  std::string note;
+  const SurfaceFile surface =
+      read(text("w.obj",
+                "mtllib w.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                "usemtl one\nf 1/1 2/2 3/3\nusemtl two\nf 3/3 2/2 1/1\n"),
+           &note);
+  ASSERT_TRUE(surface.texture.has_value());
+  EXPECT_LT(uint64_t{surface.texture->width} * surface.texture->height, uint64_t{1} << 27);
+  EXPECT_NE(note.find("30000 x 1 is left out"), std::string::npos) << note;
+  EXPECT_EQ(shownAt(surface, 1, kWithin[4]), (Colour{0, 20, 0}));
+}
+
+TEST_F(SurfaceFiles, ColoursAtCornersBecomeATexture) {
+  std::string note;
+  const SurfaceFile surface =
+      read(text("c.ply",
+                "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+                "element face 3\nproperty list uchar int vertex_indices\nend_header\n"
+                "0 0 0 100 50 60\n1 0 0 150 80 40\n0 1 0 90 100 60\n0 0 1 130 140 150\n"
+                "3 0 1 2\n3 0 1 3\n3 2 1 3\n"),
+           &note);
+  ASSERT_TRUE(surface.texture.has_value());
+  EXPECT_TRUE(surface.has_corner_colours);
+  const std::array<Colour, 4> colours{
+      {{100, 50, 60}, {150, 80, 40}, {90, 100, 60}, {130, 140, 150}}};
+  for (size_t triangle = 0; triangle < surface.triangles.size(); ++triangle) {
+    for (const auto& weights : kWithin) {
+      const Colour shown = shownAt(surface, triangle, weights);
+      for (size_t channel = 0; channel < 3; ++channel) {
+        double expected = 0;
+        for (size_t k = 0; k < 3; ++k)
+          expected += weights[k] * colours[surface.triangles[triangle][k]][channel];
+        EXPECT_NEAR(shown[channel], expected, 1) << triangle;
+      }
+    }
+  }
+  EXPECT_EQ(note, "colours at corners become a texture");
+}
+
+TEST_F(SurfaceFiles, PartsAreJoined) {
+  ASSERT_TRUE(writeImage(path("most.png"), chequers(3)).ok());
+  text("a.mtl", "newmtl one\nKd 1 0.5 0.25\nmap_Kd C:\\old\\most.png\n");
+  std::string note;
+  const SurfaceFile surface =
+      read(text("a.obj",
+                "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n"
+                "usemtl one\nf 1/1 3/2 2/3\no b\nusemtl one\nf 1/1 2/2 4/3\nf 2/1 3/2 4/3\n"),
            &note);
   EXPECT_EQ(surface.points.size(), 4U);
   EXPECT_EQ(surface.triangles.size(), 3U);
   ASSERT_TRUE(surface.texture.has_value());
   EXPECT_TRUE(surface.texture->data == chequers(3).data);
   EXPECT_EQ(surface.base_colour, (std::array<double, 4>{1, 0.5, 0.25, 1}));
-  EXPECT_EQ(note, "2 parts are joined, 1 part has a texture of its own that is left out");
+  EXPECT_EQ(note, "2 parts are joined");
 }
 
 TEST_F(SurfaceFiles, AMissingTextureIsANote) {

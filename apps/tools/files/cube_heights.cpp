@@ -63,6 +63,11 @@ Result<tks_geographic_grid> gridOf(uint32_t width, uint32_t height, const GeoTra
   return grid;
 }
 
+Result<tks_geographic_grid> gridOf(const tks_info& info) {
+  return gridOf(info.grid_width, info.grid_height, std::to_array(info.geotransform), info.geo_keys,
+                info.crs);
+}
+
 Result<std::vector<float>> resampled(const HeightFile& file, uint32_t depth, uint32_t threads,
                                      CubeErrors& errors) {
   if (!file.geotransform) return refused("nothing tells where the heights lie");
@@ -104,26 +109,25 @@ bool isGridOnCube(const tks_info& info) {
          std::equal(info.forest.sides, info.forest.sides + 4 * kCubePatches, tks_cube_sides());
 }
 
-Result<std::vector<float>> surfaceOfCube(const tks_info& info, std::span<const float> surface,
-                                         const std::optional<tks_window>& window) {
-  const auto grid = gridOf(info.grid_width, info.grid_height, std::to_array(info.geotransform),
-                           info.geo_keys, info.crs);
+Result<std::vector<float>> gridOfCube(const tks_info& info, std::span<const float> surface) {
+  const Result<tks_geographic_grid> grid = gridOf(info);
   if (!grid.ok()) return grid.status();
-  const tks_window all{0, 0, info.grid_width, info.grid_height};
-  const tks_window part = window.value_or(all);
-  std::vector<float> heights(size_t{part.width} * part.height);
+  std::vector<float> heights(size_t{grid->width} * grid->height);
   std::array<char, 256> message{};
-  const tks_status status = tks_grid_from_cube(surface.data(), info.forest.depth, &*grid, &part, 1,
-                                               heights.data(), message.data(), message.size());
+  const tks_status status = tks_grid_from_cube(surface.data(), info.forest.depth, &*grid, nullptr,
+                                               1, heights.data(), message.data(), message.size());
   if (status != TKS_OK) return Status(status, message.data());
   return heights;
 }
 
-Result<std::vector<std::byte>> gridOfCube(const tks_info& info, std::span<const float> surface,
-                                          const std::optional<tks_window>& window) {
-  const Result<std::vector<float>> heights = surfaceOfCube(info, surface, window);
-  if (!heights.ok()) return heights.status();
-  return samplesOf(*heights, info.sample, info.scale, info.offset);
+Result<std::vector<float>> gridOfCube(Decoder& decoder, const tks_window& window) {
+  const Result<tks_geographic_grid> grid = gridOf(decoder.info());
+  if (!grid.ok()) return grid.status();
+  return decoder.grid(*grid, window);
+}
+
+std::vector<std::byte> samplesOfGrid(const tks_info& info, std::span<const float> heights) {
+  return samplesOf(heights, info.sample, info.scale, info.offset);
 }
 
 }  // namespace tetrakis::tools

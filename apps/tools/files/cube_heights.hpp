@@ -4,14 +4,13 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "apps/tools/files/files.hpp"
 #include "tetrakis/result.hpp"
-#include "tetrakis/tetrakis.h"
+#include "tetrakis/tetrakis.hpp"
 
 namespace tetrakis::tools {
 
@@ -31,12 +30,13 @@ Result<HeightFile> onCube(const HeightFile& grid, uint32_t depth, uint32_t threa
 /// Whether the heights of a stream lie on a cube and were made of a grid.
 bool isGridOnCube(const tks_info& info);
 
-/// The heights of the grid, or of a window of it, of such a stream. surface: its cube, as heights.
-Result<std::vector<float>> surfaceOfCube(const tks_info& info, std::span<const float> surface,
-                                         const std::optional<tks_window>& window);
+/// The heights of the grid of such a stream. surface: its cube, as heights.
+Result<std::vector<float>> gridOfCube(const tks_info& info, std::span<const float> surface);
 
-/// The samples of the grid, or of a window of it, likewise.
-Result<std::vector<std::byte>> gridOfCube(const tks_info& info, std::span<const float> surface,
-                                          const std::optional<tks_window>& window);
+/// Those of a window of the grid, of which no more is decoded than it needs.
+Result<std::vector<float>> gridOfCube(Decoder& decoder, const tks_window& window);
+
+/// Heights as samples of the stream's type.
+std::vector<std::byte> samplesOfGrid(const tks_info& info, std::span<const float> heights);
 
 }  // namespace tetrakis::tools

@@ -98,7 +98,8 @@ struct MeshMaps {
   Material material{};
   bool is_lit = false;  ///< the material counts, even without maps
 
-  bool none() const { return images == decltype(images){} && !is_lit; }
+  bool none() const { return !hasImages() && !is_lit; }
+  bool hasImages() const { return images != decltype(images){}; }
   const ImageFile* at(MapKind kind) const { return images[static_cast<size_t>(kind)]; }
 };
 

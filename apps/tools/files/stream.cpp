@@ -37,20 +37,25 @@ Result<std::vector<std::byte>> samplesOf(Decoder& decoder, const std::optional<t
   return window ? decoder.heights(*window) : decoder.heights();
 }
 
-/// Of heights on a cube, which are decoded whole.
+/// Of heights on a cube.
 Result<std::vector<std::byte>> gridSamples(Decoder& decoder,
                                            const std::optional<tks_window>& window,
                                            uint64_t copies) {
   const tks_info& info = decoder.info();
-  const Extent all = shownHeights(info);
-  const uint64_t asked = window ? uint64_t{window->width} * window->height : all.samples();
-  const uint64_t floats = sizeof(float) * (uint64_t{info.width} * info.height + asked);
-  const Result<uint64_t> fits = decoder.checkMemory(TKS_PART_HEIGHTS, nullptr, 0,
-                                                    floats + heightsBytes(info, window) + copies);
+  using Samples = Result<std::vector<std::byte>>;
+  const auto samples = [&](const Result<std::vector<float>>& heights) -> Samples {
+    if (!heights) return heights.status();
+    return samplesOfGrid(info, *heights);
+  };
+  if (window) return samples(gridOfCube(decoder, *window));
+  const uint64_t floats =
+      sizeof(float) * (uint64_t{info.width} * info.height + shownHeights(info).samples());
+  const Result<uint64_t> fits =
+      decoder.checkMemory(TKS_PART_HEIGHTS, nullptr, 0, floats + heightsBytes(info) + copies);
   if (!fits) return fits.status();
   const Result<std::vector<float>> surface = decoder.surface();
   if (!surface) return surface.status();
-  return gridOfCube(info, *surface, window);
+  return samples(gridOfCube(info, *surface));
 }
 
 /// The last tick that is not later than so many seconds. Its time may be a rounded number: the tick

@@ -58,8 +58,26 @@ void take(const aiMaterial& material, const char* key, unsigned type, double& fa
   if (material.Get(key, type, 0, value) == aiReturn_SUCCESS) factor = value;
 }
 
+/// A texture holds the light of such a surface: its factors are those of programs that cannot show
+/// it so.
+bool isUnlit(const aiMaterial& material) {
+  int model = 0;
+  return material.Get(AI_MATKEY_SHADING_MODEL, model) == aiReturn_SUCCESS &&
+         model == aiShadingMode_Unlit;
+}
+
+void takeAlpha(const aiMaterial& material, MaterialFactors& factors) {
+  aiString mode;
+  if (material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == aiReturn_SUCCESS)
+    factors.alpha_mode = alphaModeOf(mode.C_Str());
+  if (factors.alpha_mode == AlphaMode::kMask)
+    take(material, "$mat.gltf.alphaCutoff", 0, factors.alpha_cutoff);
+}
+
 MaterialFactors factorsOf(const aiMaterial& material, bool is_gltf) {
   MaterialFactors factors;
+  if (is_gltf && isUnlit(material)) return factors;
+  if (is_gltf) takeAlpha(material, factors);
   if (!is_gltf) factors.metallic = 0;
   take(material, "$mat.metallicFactor", 0, factors.metallic);
   take(material, "$mat.roughnessFactor", 0, factors.roughness);

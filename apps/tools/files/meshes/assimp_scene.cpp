@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <unordered_map>
 #include <utility>
 
@@ -94,8 +95,10 @@ class Joiner {
  public:
   explicit Joiner(MeshImport& mesh) : mesh_(mesh) {}
 
-  /// texcoords: which of the part's place the texture.
-  void add(const Part& part, unsigned texcoords) {
+  /// texcoords: which of the part's place the texture. with_colours: its corners have colours.
+  void add(const Part& part, unsigned texcoords, bool with_colours) {
+    if (with_colours) mesh_.corner_colours.resize(3 * mesh_.triangles.size(), {1, 1, 1, 1});
+    colours_ = with_colours ? part.mesh->mColors[0] : nullptr;
     places_.assign(part.mesh->mNumVertices, kNone);
     const bool mirrors = part.placement.mirrors();
     const aiVector3D* const coordinates =
@@ -112,6 +115,8 @@ class Joiner {
       addTriangle(part, corners, coordinates);
     }
     if (!mesh_.texcoords.empty()) mesh_.texcoords.resize(3 * mesh_.triangles.size());
+    if (!mesh_.corner_colours.empty())
+      mesh_.corner_colours.resize(3 * mesh_.triangles.size(), {1, 1, 1, 1});
   }
 
  private:
@@ -129,6 +134,7 @@ class Joiner {
     }
     mesh_.triangles.push_back(triangle);
     for (size_t k = 0; coordinates && k < 3; ++k) addTexcoord(coordinates[corners[k]]);
+    for (size_t k = 0; colours_ && k < 3; ++k) addColour(colours_[corners[k]]);
   }
   /// Triangles count from 1, as vertices of files do.
   void fail(const char* what) {
@@ -150,7 +156,14 @@ class Joiner {
     mesh_.texcoords.push_back(finite ? std::array{at.x, at.y} : std::array{0.0F, 0.0F});
   }
 
+  void addColour(const aiColor4D& colour) {
+    const auto known = [](float value) { return std::isfinite(value) ? value : 0.0F; };
+    mesh_.corner_colours.push_back(
+        {known(colour.r), known(colour.g), known(colour.b), known(colour.a)});
+  }
+
   MeshImport& mesh_;
+  const aiColor4D* colours_ = nullptr;  ///< of the vertices of the part
   std::unordered_map<Position, uint32_t, PositionHash> numbers_{};
   std::vector<uint32_t> places_{};  ///< of the vertices of a part among the points
 };
@@ -226,6 +239,41 @@ void takeMaterial(const aiScene& scene, const SceneMaterial& material, MeshImpor
   }
 }
 
+/// A texture says more than the colours beside it.
+bool hasCornerColours(const Part& part, const SceneMaterial& material) {
+  return material.texture.path.empty() && part.mesh->HasVertexColors(0);
+}
+
+/// What tells looks apart. Of parts with one texture the first says the colour.
+using LookKey = std::pair<std::string, std::array<double, 4>>;
+LookKey lookOf(const Part& part, const SceneMaterial& material) {
+  if (!material.texture.path.empty()) return {material.texture.path, {}};
+  return {hasCornerColours(part, material) ? "\n" : "", material.colour};
+}
+
+/// The number of the look of each part. One look of all parts, without colours at corners, is said
+/// by the mesh itself.
+std::vector<size_t> takeLooks(const aiScene& scene, const std::vector<Part>& parts,
+                              const std::vector<SceneMaterial>& materials, MeshImport& mesh) {
+  std::map<LookKey, size_t> numbers;
+  std::vector<size_t> looks;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const auto [place, is_new] =
+        numbers.try_emplace(lookOf(parts[i], materials[i]), mesh.looks.size());
+    looks.push_back(place->second);
+    if (!is_new) continue;
+    mesh.looks.push_back({materials[i].colour, hasCornerColours(parts[i], materials[i])});
+    mesh.look_textures.push_back(imported(scene, materials[i].texture));
+  }
+  if (mesh.looks.size() == 1 && mesh.looks.front().at_corners == 0) {
+    mesh.looks.clear();
+    mesh.look_textures.clear();
+  }
+  for (size_t slot = 0; !mesh.looks.empty() && slot < kMapSlots; ++slot)
+    if (!mesh.maps[slot].path.empty()) mesh.facts.map_faults[slot] = MapFault::kSeveralLooks;
+  return looks;
+}
+
 /// "" where Assimp has made it up (of OBJ and glTF).
 std::string nameOf(const aiMesh& mesh) {
   const std::string name = mesh.mName.C_Str();
@@ -265,13 +313,15 @@ void joinScene(const aiScene& scene, MeshImport& mesh) {
       [](const TextureUse& a, const TextureUse& b) { return a.triangles < b.triangles; });
   takeMaterial(scene, most.material, mesh);
   mesh.facts.parts = parts.size();
-  mesh.facts.other = parts.size() - most.parts;
   mesh.facts.other_maps = most.other_maps;
   if (parts.size() == 1) mesh.name = nameOf(*parts[0].mesh);
+  const std::vector<size_t> looks = takeLooks(scene, parts, materials, mesh);
   Joiner joiner(mesh);
   for (size_t i = 0; i < parts.size(); ++i) {
     const SceneTexture* const leading = materials[i].leading();
-    joiner.add(parts[i], leading ? leading->texcoords : 0);
+    joiner.add(parts[i], leading ? leading->texcoords : 0,
+               hasCornerColours(parts[i], materials[i]));
+    if (!mesh.looks.empty()) mesh.runs.push_back({mesh.triangles.size(), looks[i]});
   }
 }
 

@@ -68,6 +68,12 @@ Status addMaps(Glb& glb, const MeshFile& mesh, MeshTexture format, json& materia
   if (given.factors.emissive != MaterialFactors().emissive)
     material["emissiveFactor"] = given.factors.emissive;
   if (given.factors.is_double_sided) material["doubleSided"] = true;
+  if (given.factors.colour != MaterialFactors().colour)
+    material["pbrMetallicRoughness"]["baseColorFactor"] = given.factors.colour;
+  if (given.factors.alpha_mode != AlphaMode::kOpaque)
+    material["alphaMode"] = nameOf(given.factors.alpha_mode);
+  if (given.factors.alpha_mode == AlphaMode::kMask)
+    sayUnusual(material, "alphaCutoff", given.factors.alpha_cutoff, 0.5);
   return {};
 }
 

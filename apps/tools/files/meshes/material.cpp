@@ -35,10 +35,13 @@ void take(const json& text, const json::json_pointer& at, double least, double m
 }  // namespace
 
 std::string materialText(const Material& material) {
-  const auto& [metallic, roughness, emissive, scale, strength, is_double_sided] = material.factors;
+  const auto& [metallic, roughness, emissive, scale, strength, is_double_sided, colour, alpha_mode,
+               alpha_cutoff] = material.factors;
   json text = json::object(), surface = json::object();
   put(surface, "metallicFactor", metallic, 1);
   put(surface, "roughnessFactor", roughness, 1);
+  if (colour != MaterialFactors().colour)
+    for (const double part : colour) surface["baseColorFactor"].push_back(asWritten(part));
   if (!surface.empty()) text["pbrMetallicRoughness"] = surface;
   if (emissive != MaterialFactors().emissive)
     for (const double part : emissive) text["emissiveFactor"].push_back(asWritten(part));
@@ -46,6 +49,8 @@ std::string materialText(const Material& material) {
   if (material.occlusion_is_red) text["occlusionTexture"] = json::object();
   if (strength != 1) text["occlusionTexture"] = {{"strength", asWritten(strength)}};
   if (is_double_sided) text["doubleSided"] = true;
+  if (alpha_mode != AlphaMode::kOpaque) text["alphaMode"] = nameOf(alpha_mode);
+  if (alpha_mode == AlphaMode::kMask) put(text, "alphaCutoff", alpha_cutoff, 0.5);
   return text.empty() ? "" : text.dump(-1, ' ', true);
 }
 
@@ -66,12 +71,21 @@ Material materialOf(std::string_view text) {
         light != parsed.end() && light->is_array())
       part((std::string("/emissiveFactor/") + axis).c_str(),
            factors.emissive[static_cast<size_t>(axis - '0')]);
+  const json::json_pointer colour("/pbrMetallicRoughness/baseColorFactor");
+  for (const char channel : {'0', '1', '2', '3'})
+    if (parsed.contains(colour) && parsed[colour].is_array())
+      part((colour.to_string() + '/' + channel).c_str(),
+           factors.colour[static_cast<size_t>(channel - '0')]);
   constexpr double kMostScale = 1e6;
   take(parsed, json::json_pointer("/normalTexture/scale"), -kMostScale, kMostScale,
        factors.normal_scale);
   const auto two = parsed.find("doubleSided");
   factors.is_double_sided = two != parsed.end() && two->is_boolean() && two->get<bool>();
   material.occlusion_is_red = parsed.contains("occlusionTexture");
+  part("/alphaCutoff", factors.alpha_cutoff);
+  const auto mode = parsed.find("alphaMode");
+  if (mode != parsed.end() && mode->is_string())
+    factors.alpha_mode = alphaModeOf(mode->get<std::string>());
   return material;
 }
 

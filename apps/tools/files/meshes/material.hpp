@@ -19,12 +19,29 @@ inline constexpr std::array<const char*, 4> kMapNames{"normal", "metallic_roughn
                                                       "emissive"};
 inline constexpr size_t kMapKinds = kMapNames.size();
 
+/// How alpha counts: not at all, by what lies above the cutoff, as a part of what is seen.
+enum class AlphaMode : uint8_t { kOpaque, kMask, kBlend };
+inline constexpr std::array<const char*, 3> kAlphaModes{"OPAQUE", "MASK", "BLEND"};
+
+inline const char* nameOf(AlphaMode mode) {
+  return kAlphaModes[static_cast<size_t>(mode)];
+}
+/// kOpaque of a name that is none.
+inline AlphaMode alphaModeOf(std::string_view name) {
+  size_t mode = kAlphaModes.size() - 1;
+  while (mode > 0 && name != kAlphaModes[mode]) --mode;
+  return static_cast<AlphaMode>(mode);
+}
+
 /// What maps are multiplied by; its usual values.
 struct MaterialFactors {
   double metallic = 1, roughness = 1;
   std::array<double, 3> emissive{0, 0, 0};
   double normal_scale = 1, occlusion_strength = 1;
   bool is_double_sided = false;
+  std::array<double, 4> colour{1, 1, 1, 1};  ///< RGBA; of a texture its colours have RGB already
+  AlphaMode alpha_mode = AlphaMode::kOpaque;
+  double alpha_cutoff = 0.5;  ///< with kMask
 };
 
 struct Material {

@@ -24,7 +24,7 @@ Status checkMesh(const MeshFile& mesh) {
   if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
     return refuse("a mesh has a normal for every vertex, or none");
   }
-  if ((mesh.texture || !mesh.maps.none()) && mesh.texcoords.empty()) {
+  if ((mesh.texture || mesh.maps.hasImages()) && mesh.texcoords.empty()) {
     return refuse("a textured mesh needs texture coordinates");
   }
   const auto finite = [](float value) { return std::isfinite(value); };

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <span>
 #include <system_error>
+#include <type_traits>
 
 #include "apps/tools/files/separate_process.hpp"
 
@@ -42,6 +43,11 @@ void forArrays(Import& mesh, Visit visit) {
   };
   visit_texture(mesh.texture);
   for (auto& map : mesh.maps) visit_texture(map);
+  visit(mesh.looks);
+  visit(mesh.runs);
+  visit(mesh.corner_colours);
+  if constexpr (!std::is_const_v<Import>) mesh.look_textures.resize(mesh.looks.size());
+  for (auto& texture : mesh.look_textures) visit_texture(texture);
 }
 
 std::vector<std::byte> packed(const MeshImport& mesh) {

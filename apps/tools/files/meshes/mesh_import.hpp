@@ -29,16 +29,15 @@ enum class MapSlot : uint8_t {
 inline constexpr size_t kMapSlots = 7;
 
 /// Why a map cannot lie on the mesh as the file has it.
-enum class MapFault : uint8_t { kNone, kOtherTexcoords, kOtherTransform };
+enum class MapFault : uint8_t { kNone, kOtherTexcoords, kOtherTransform, kSeveralLooks };
 
 /// What there is to know about a mesh beside its arrays. Its parts are the meshes of the file where
 /// the nodes of its scene place them.
 struct MeshFacts {
   std::array<double, 4> base_colour{1, 1, 1, 1};  ///< RGBA of the material of most triangles
   uint64_t parts = 0;                             ///< that have triangles
-  uint64_t other = 0;       ///< of them, parts with another texture than that of most triangles
-  uint64_t polygons = 0;    ///< that became several triangles
-  uint64_t dropped = 0;     ///< points and lines
+  uint64_t polygons = 0;                          ///< that became several triangles
+  uint64_t dropped = 0;                           ///< points and lines
   uint64_t unplaced = 0;    ///< texture coordinates that are no numbers, and have become 0
   uint64_t other_maps = 0;  ///< of the parts with that texture, parts with other maps
   MaterialFactors factors{};
@@ -54,6 +53,18 @@ struct ImportedTexture {
   std::vector<std::byte> file{};  ///< of one that is embedded
 };
 
+/// What parts have in common that look alike: a texture, else a colour, or one at each corner.
+struct LookFacts {
+  std::array<double, 4> colour{1, 1, 1, 1};  ///< RGBA, which multiplies what there is
+  uint64_t at_corners = 0;                   ///< 1: colours at corners; else there are none
+};
+
+/// Triangles in a row that look alike.
+struct LookRun {
+  uint64_t end = 0;   ///< number behind that of the last triangle
+  uint64_t look = 0;  ///< number of the look
+};
+
 /// All parts, joined.
 struct MeshImport {
   MeshFacts facts{};
@@ -64,6 +75,11 @@ struct MeshImport {
   std::vector<std::array<float, 2>> texcoords{};     ///< 3 a triangle, v upwards; or none
   ImportedTexture texture{};                         ///< of most triangles
   std::array<ImportedTexture, kMapSlots> maps{};     ///< of the same material, by MapSlot
+  // Where parts look different, or have colours at their corners; else these are empty.
+  std::vector<LookFacts> looks{};
+  std::vector<ImportedTexture> look_textures{};        ///< of each look
+  std::vector<LookRun> runs{};                         ///< of all triangles
+  std::vector<std::array<float, 4>> corner_colours{};  ///< RGBA, 3 a triangle; or none
 };
 
 /// More triangles are refused.

@@ -114,7 +114,7 @@ Status addMaps(const MeshMaps& maps, LibraryWriter& library) {
 }  // namespace
 
 Status writeObj(const std::string& path, const MeshFile& mesh) {
-  if (!mesh.texture && mesh.maps.none()) return writeText(path, objText(mesh, ""));
+  if (!mesh.texture && !mesh.maps.hasImages()) return writeText(path, objText(mesh, ""));
   LibraryWriter library(path);
   Status status;
   if (mesh.texture) status = library.add(*mesh.texture, "", "map_Kd");

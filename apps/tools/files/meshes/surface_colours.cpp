@@ -13,12 +13,11 @@ double lightOf(double value) {
   return value <= 0.04045 ? value / 12.92 : portable::pow((value + 0.055) / 1.055, 2.4);
 }
 
-namespace {
-
-/// Both from 0 to 1.
 double valueOf(double light) {
   return light <= 0.0031308 ? light * 12.92 : 1.055 * portable::pow(light, 1 / 2.4) - 0.055;
 }
+
+namespace {
 
 using Values = std::array<std::byte, 256>;
 

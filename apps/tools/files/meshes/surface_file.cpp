@@ -11,6 +11,7 @@
 #include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/meshes/mesh_import.hpp"
 #include "apps/tools/files/meshes/surface_texture.hpp"
+#include "apps/tools/files/meshes/texture_pages.hpp"
 
 namespace tetrakis::tools {
 namespace {
@@ -25,9 +26,6 @@ std::string counted(uint64_t count, const std::string& one, const std::string& m
 std::vector<std::string> remarksOn(const MeshFacts& facts) {
   std::vector<std::string> remarks;
   if (facts.parts > 1) remarks.push_back(std::to_string(facts.parts) + " parts are joined");
-  if (facts.other > 0)
-    remarks.push_back(counted(facts.other, "part has a texture of its own that is left out",
-                              "parts have textures of their own that are left out"));
   if (facts.other_maps > 0)
     remarks.push_back(counted(facts.other_maps, "part has other maps, which are left out",
                               "parts have other maps, which are left out"));
@@ -60,7 +58,16 @@ SurfaceFile surfaceOf(MeshImport& mesh, const std::string& path) {
   surface.base_colour = mesh.facts.base_colour;
   surface.name = mesh.name.empty() ? fs::path(path).stem().string() : mesh.name;
   surface.y_is_up = mesh.facts.y_is_up;
+  surface.has_corner_colours = !mesh.corner_colours.empty();
   return surface;
+}
+
+/// The looks of all parts in one image, on texture coordinates that lie in it.
+void takePages(TexturePages pages, SurfaceFile& surface, std::vector<std::string>& remarks) {
+  surface.texture = std::move(pages.image);
+  surface.texcoords = std::move(pages.texcoords);
+  surface.base_colour = {1, 1, 1, 1};
+  remarks.insert(remarks.end(), pages.remarks.begin(), pages.remarks.end());
 }
 
 }  // namespace
@@ -90,9 +97,13 @@ Result<SurfaceFile> readSurface(const std::string& path, std::string* note,
   }
   std::vector<std::string> remarks = remarksOn(mesh->facts);
   SurfaceMaps maps = findMaps(*mesh, path, parts.maps);
+  const bool has_looks = parts.texture && !mesh->looks.empty();
+  TexturePages pages = has_looks ? pageTextures(*mesh, path) : TexturePages();
   SurfaceFile surface = surfaceOf(*mesh, path);
   surface.maps = std::move(maps);
-  if (parts.texture && !surface.texcoords.empty()) {
+  if (has_looks) {
+    takePages(std::move(pages), surface, remarks);
+  } else if (parts.texture && !surface.texcoords.empty()) {
     FoundTexture found = findTexture(*mesh, path);
     surface.texture = std::move(found.image);
     if (!found.remark.empty()) remarks.push_back(found.remark);

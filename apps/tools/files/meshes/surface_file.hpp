@@ -26,6 +26,7 @@ struct SurfaceFile {
   std::vector<std::array<float, 2>> texcoords;
   std::optional<ImageFile> texture;               ///< RGB or RGBA of 8 bits; its colours alone
   std::array<double, 4> base_colour{1, 1, 1, 1};  ///< RGBA, which multiplies the texture
+  bool has_corner_colours = false;                ///< a texture of the file's own has them as cells
   SurfaceMaps maps;
   std::string name;      ///< of the mesh, or of the file
   bool y_is_up = false;  ///< else the format does not say what is up
@@ -41,19 +42,21 @@ struct SurfaceParts {
 bool isMeshFile(const std::string& path);
 
 /// note: what was joined, cut, left out or not found, in one sentence without the file's name; "":
-/// nothing. A texture that is missing is such a thing. Where the file names no texture, that is
-/// taken which lies beside it under the same name. TKS_IO: the file cannot be read; TKS_USAGE: it
-/// is damaged or no mesh, has no triangles, or coordinates that are not finite; TKS_LIMIT: it has
-/// more than 2^26 triangles, or takes more memory or time than it may.
-/// What becomes of maps the note does not say.
+/// nothing. A texture that is missing is such a thing. Where parts have several textures or
+/// colours, or colours at their corners, the texture holds all of them (texture_pages.hpp). Where
+/// the file names no texture, that is taken which lies beside it under the same name. TKS_IO: the
+/// file cannot be read; TKS_USAGE: it is damaged or no mesh, has no triangles, or coordinates that
+/// are not finite; TKS_LIMIT: it has more than 2^26 triangles, or takes more memory or time than it
+/// may. What becomes of maps the note does not say.
 Result<SurfaceFile> readSurface(const std::string& path, std::string* note = nullptr,
                                 const SurfaceParts& parts = {});
 
 /// The image without its alpha: grey or RGB. A further colour is left out as well.
 ImageFile withoutAlpha(const ImageFile& image);
 
-/// What a stored value of sRGB shows; both from 0 to 1.
+/// What a stored value of sRGB shows, and the value that shows it; all from 0 to 1.
 double lightOf(double value);
+double valueOf(double light);
 
 /// What a mesh shows of the texture that it has: the image without its alpha, multiplied by the
 /// mesh's base colour. That is a factor of light where glTF gives it, and of the stored values

@@ -78,6 +78,8 @@ class MapReader {
       return {{}, "it lies on other texture coordinates"};
     if (faultOf(slot) == MapFault::kOtherTransform)
       return {{}, "the material moves it in a way of its own"};
+    if (faultOf(slot) == MapFault::kSeveralLooks)
+      return {{}, "the parts have several textures or colours"};
     FoundTexture found = readMap(textureOf(slot), mesh_path_, "its file");
     if (found.image) found.image = withoutAlpha(*found.image);
     return {std::move(found.image), std::move(found.remark)};

@@ -109,11 +109,14 @@ FoundTexture readMap(const ImportedTexture& map, const std::string& mesh_path,
                           : readEmbedded(map.file, shown, asValues);
 }
 
+FoundTexture readTexture(const ImportedTexture& texture, const std::string& mesh_path) {
+  return texture.file.empty() ? readNamed(texture, mesh_path, "its texture", asColours)
+                              : readEmbedded(texture.file, "the embedded texture", asColours);
+}
+
 FoundTexture findTexture(const MeshImport& mesh, const std::string& mesh_path) {
-  if (!mesh.texture.file.empty())
-    return readEmbedded(mesh.texture.file, "the embedded texture", asColours);
-  if (!mesh.texture.path.empty())
-    return readNamed(mesh.texture, mesh_path, "its texture", asColours);
+  if (!mesh.texture.path.empty() || !mesh.texture.file.empty())
+    return readTexture(mesh.texture, mesh_path);
   const std::string path = fileBeside(mesh_path);
   if (path.empty()) return {};
   FoundTexture found = asColours(readImage(path), "the picture beside it");

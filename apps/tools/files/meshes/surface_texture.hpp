@@ -21,6 +21,9 @@ struct FoundTexture {
 FoundTexture readMap(const ImportedTexture& map, const std::string& mesh_path,
                      const std::string& shown);
 
+/// A texture that the file names or holds.
+FoundTexture readTexture(const ImportedTexture& texture, const std::string& mesh_path);
+
 /// The embedded one; or the file that the mesh names, from the folder of the mesh, or of that name
 /// in this folder, as paths are often those of another machine; or if it names none, a picture
 /// called like the mesh.
