@@ -189,8 +189,8 @@ Status AnswerPlan::give(size_t place, uint64_t most, Ground ground) {
     }
     return gaps;
   };
-  const auto ranges =
-      planFetch((*group)->parsed, *sighted, missing, {std::min(most, left_ - kMostPieceHead), 0});
+  const auto ranges = planFetch((*group)->parsed, nullptr, *sighted, missing,
+                                {std::min(most, left_ - kMostPieceHead), 0});
   if (!ranges.ok()) return ranges.status();
   for (const FetchRange& range : *ranges)
     if (range.gain > 0) add(place, {head + range.begin, head + range.end});

@@ -10,6 +10,7 @@
 
 #include "api/decoder.hpp"
 #include "api/group_chain.hpp"
+#include "api/index_pages.hpp"
 #include "base/shown_text.hpp"
 #include "bitstream/track/track.hpp"
 
@@ -61,16 +62,15 @@ struct Run {
 
 /// Whether the decoder may take them, in their order.
 Status check(const tks_decoder& decoder, std::span<const Run> runs) {
-  const bool anywhere = !decoder.parsed.header.index.empty();
+  const bool anywhere = hasIndex(decoder);
   uint64_t next = decoder.data.size();
   for (const auto& [place, bytes] : runs) {
     if (bytes.size() > std::numeric_limits<uint64_t>::max() - place)
       return {TKS_USAGE, "No stream has so many bytes."};
     if (bytes.empty()) continue;
     if (place > next && !anywhere) {
-      return {TKS_USAGE,
-              "The stream has no front index, so that its bytes come in their order: byte " +
-                  std::to_string(next) + " is the next."};
+      return {TKS_USAGE, "The stream has no index, so that its bytes come in their order: byte " +
+                             std::to_string(next) + " is the next."};
     }
     next = std::max(next, place + bytes.size());
   }
@@ -113,10 +113,14 @@ Status putShown(tks_decoder& decoder, std::span<const Run> runs) {
   return {};
 }
 
-/// The decoder goes on as one of the stream whose sketch it showed, or of a finer sketch. If memory
-/// ends on the way it is lost.
+/// The decoder goes on as one of the stream whose sketch it showed. If memory ends on the way it is
+/// lost.
 Status takeInPlace(tks_decoder& decoder) {
-  Result<OwnedDecoder> opened = openBehind(decoder.sketched->all, &decoder.limits, {});
+  const SketchedBytes& sketched = *decoder.sketched;
+  const ComponentChoice choice = decoder.parsed.header.choice;
+  Result<OwnedDecoder> opened = openBehind(sketched.all, &decoder.limits, {}, choice);
+  if (opened.status().code() == TKS_USAGE)  // the stream has no component of that number and kind
+    opened = openBehind(sketched.all, &decoder.limits, {});
   if (!opened.ok()) {
     decoder.is_lost = false;
     return refuse(decoder, opened.status());
@@ -128,10 +132,6 @@ Status takeInPlace(tks_decoder& decoder) {
   next.texture_level = std::min(decoder.texture_level, coarsestLevelOf(header.texture));
   next.threads = decoder.threads;
   next.remembers = true;
-  if (next.sketched) {
-    next.sketched->own = std::move(decoder.sketched->own);
-    next.sketched->all = next.sketched->own;
-  }
   decoder = std::move(next);
   return {};
 }
@@ -232,7 +232,8 @@ int fedLevel(const tks_decoder& decoder, Component component, const auto& of_str
   if (isComplete(decoder)) return 0;
   const auto& header = *of_stream;
   int fed = coarsestLevelOf(of_stream);
-  const auto regions = regionsOf(header.width, header.height, header.regions.side_log2);
+  const auto regions =
+      regionsOf(header.width, header.height, header.regions.side_log2, header.wavelet.patches());
   for (size_t i = 0; i < regions.size(); ++i) {
     const uint64_t bytes = decoder.packets.bytesOf(component, static_cast<uint32_t>(i));
     if (bytes == 0) continue;

@@ -115,12 +115,13 @@ Result<std::vector<View>> askedViews(const tks_decoder& decoder, tks_part part,
 
 View decodedFor(const StreamHeader& header, tks_part part, const View& view) {
   if (!view.window || view.level == 0) return view;
-  const auto decoded = [&](const auto& component) {
-    const bool lifted = !component.direct() && component.wavelet.forest == nullptr &&
+  const auto decoded = [&](const auto& component, bool masked) {
+    const bool lifted = !component.direct() && (component.wavelet.forest == nullptr || !masked) &&
                         component.frames.none() && component.repeats.none();
     return lifted ? view : View{view.level, {}, view.frame, view.patch_rows};
   };
-  return part == TKS_PART_TEXTURE ? decoded(*header.texture) : decoded(*header.geometry);
+  return part == TKS_PART_TEXTURE ? decoded(*header.texture, header.texture->alpha_bytes > 0)
+                                  : decoded(*header.geometry, header.layers.validity_bytes > 0);
 }
 
 DecodedHeights decodeHeights(tks_decoder& decoder, const View& asked) {

@@ -14,6 +14,7 @@
 #include "bitstream/stream/borrowed_packets.hpp"
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
+#include "bitstream/stream/page_index.hpp"
 #include "bitstream/stream/pieces.hpp"
 #include "bitstream/stream/scattered_packets.hpp"
 #include "bitstream/stream/sketch.hpp"
@@ -57,6 +58,7 @@ struct tks_decoder {
   tetrakis::ParsedHeader parsed;
   std::optional<tetrakis::BaseMesh> base_mesh;
   tks_index index = TKS_INDEX_NONE;
+  std::optional<tetrakis::PageIndex> pages;  ///< of TKS_INDEX_PAGES
   tetrakis::TakenPackets packets;
   std::optional<tetrakis::ScatteredPackets> scattered;  ///< once bytes left a gap
   int heights_level = 0, texture_level = 0;

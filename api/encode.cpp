@@ -205,10 +205,6 @@ Status checkOnForests(const tks_heights* heights, const tks_image* image,
     return misuse("On a forest there is no budget of triangles and no error of pictures.");
   if (o.camera_count > 0 && (heights == nullptr || heights->base_mesh.position_bits == 0))
     return misuse("Cameras look at a forest that has heights over a base mesh.");
-  const bool any_grid =
-      (heights != nullptr && !onForest(heights)) || (image != nullptr && !onForest(image));
-  if ((o.regions > 1 && !any_grid) || o.index == TKS_INDEX_WINDOWS)
-    return misuse("On a forest there are no regions.");
   if (heights == nullptr || image == nullptr) return {};
   // An image of longitudes and latitudes may lie over a globe, which has no base mesh.
   if (!onForest(image) && heights->base_mesh.position_bits == 0) return {};

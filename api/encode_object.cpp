@@ -10,6 +10,7 @@
 #include "api/encoded_stream.hpp"
 #include "api/guarded.hpp"
 #include "api/object_inputs.hpp"
+#include "api/object_maps.hpp"
 #include "api/object_pictures.hpp"
 #include "base/portable_math.hpp"
 #include "base/watch.hpp"
@@ -127,6 +128,9 @@ Status encodeObject(const tks_triangle_mesh* mesh, const tks_image* image,
   GivenObject object(given, *triangles, image != nullptr ? &texture : nullptr, known);
   if (object.source.cleaned().mesh.triangles.empty())
     return misusedObject("No triangle of the mesh is left: all have corners at equal places.");
+  Result<std::vector<GivenMap>> maps = takenMaps(given, image != nullptr);
+  if (!maps.ok()) return maps.status();
+  object.maps = *std::move(maps);
   std::optional<ObjectPictures> pictures;
   if (known.camera_count > 0 && image == nullptr)
     return misusedObject("Cameras weigh an image against the mesh, and there is none.");
@@ -137,7 +141,8 @@ Status encodeObject(const tks_triangle_mesh* mesh, const tks_image* image,
   }
   const Result<BothKinds> both = encodedAs(given.kind, object);
   if (!both.ok()) return both.status();
-  const Result<CodedObject> coded = withSketch(object, both->taken());
+  Result<CodedObject> coded = withSketch(object, both->taken());
+  if (coded.ok()) coded = withMaps(object, *std::move(coded));
   if (!coded.ok()) return coded.status();
   if (report != nullptr) giveSized(reportOf(object.source, *both, *coded), *report);
   giveBytes(coded->stream, out);

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "api/index_pages.hpp"
 #include "bitstream/stream/geometry_header.hpp"
-#include "bitstream/stream/scattered_packets.hpp"
 
 namespace tetrakis::inline api {
 
@@ -20,16 +20,13 @@ std::vector<bool> neededCoefficients(const StreamHeader& header, Component compo
   return needed;
 }
 
-/// Calls take(track, bytes) with what the index tells of each packet of a component.
+/// Calls take(track, bytes) with what the index tells of each packet of a component that is known.
 template <class Take>
 void forEachPacket(const tks_decoder& decoder, Component component, const Take& take) {
-  const StreamHeader& header = decoder.parsed.header;
-  const uint64_t end = decoder.parsed.bytes + header.payload_bytes;
-  for (const IndexedPacket& packet : IndexedPackets(header, decoder.parsed.bytes)) {
-    const PacketHead& head = packet.entry.packet;
-    if (head.component == component)
-      take(head.track, std::min(packet.end, end) - std::min(packet.payload, end));
-  }
+  forEachKnownPacket(decoder,
+                     [&](const PacketHead& head, uint64_t, uint64_t payload, uint64_t end) {
+                       if (head.component == component) take(head.track, end - payload);
+                     });
 }
 
 const auto& codewordsThere(const tks_decoder& decoder, Component component) {
@@ -58,8 +55,25 @@ std::vector<bool> lackingTracks(const tks_decoder& decoder, size_t count) {
   for (const auto& [track, codeword] : codewordsThere(decoder, Component::kGeometry))
     if (track < count) missing[track] -= std::min<uint64_t>(missing[track], codeword.size());
   std::vector<bool> lacking(count);
-  for (size_t i = 0; i < count; ++i) lacking[i] = missing[i] > 0;
+  for (size_t i = 0; i < count; ++i)
+    lacking[i] = missing[i] > 0 || (decoder.pages && !decoder.pages->knowsTrack(i));
   return lacking;
+}
+
+/// How many bytes are missing of tracks that are not needed. Where a page of the index is not
+/// known, all but those of the needed ones are counted, which are known; if these are not, nothing.
+uint64_t missingBeside(const tks_decoder& decoder, Component component,
+                       const std::vector<bool>& needed) {
+  std::vector<bool> elsewhere = needed;
+  elsewhere.flip();
+  if (!decoder.pages) return missingOf(decoder, component, elsewhere);
+  for (size_t i = 0; i < needed.size(); ++i)
+    if (needed[i] && !decoder.pages->knowsTrack(i)) return 0;
+  uint64_t there = missingOf(decoder, component, needed);
+  for (const auto& [track, codeword] : codewordsThere(decoder, component))
+    if (!decoder.pages->grid().isCorrection(track)) there += codeword.size();
+  const uint64_t all = decoder.pages->coefficientBytes();
+  return all - std::min(all, there);
 }
 
 template <class Header>
@@ -68,9 +82,8 @@ Header counted(const tks_decoder& decoder, const Header& header, Component compo
   Header result = header;
   uint64_t& rounded = result.wavelet.rounded_bytes;
   if (!decoder.packets.has_gap || rounded == 0) return result;
-  std::vector<bool> elsewhere = neededCoefficients(decoder.parsed.header, component, view);
-  elsewhere.flip();
-  rounded -= std::min(rounded, missingOf(decoder, component, elsewhere));
+  const std::vector<bool> needed = neededCoefficients(decoder.parsed.header, component, view);
+  rounded -= std::min(rounded, missingBeside(decoder, component, needed));
   return result;
 }
 
@@ -108,7 +121,7 @@ Codewords heightTracksFor(tks_decoder& decoder, const View& view) {
   // Without fraction bits all heights change with the last coefficient, which makes them round.
   const bool all_wait =
       geometry.wavelet.fraction_bits == 0 || corrections * tracks.size() > kMostLookedUp;
-  const auto parts = correctionParts(geometry.extent(), geometry.regions.side_log2);
+  const auto parts = correctionParts(geometry);
   for (size_t i = 0; i < parts.size(); ++i) {
     std::span<const uint8_t>& codeword = tracks[coefficients + i];
     if (!codeword.empty() && (all_wait || lacksSome({0, parts[i]}))) codeword = {};

@@ -80,10 +80,12 @@ uint64_t HeightsBytes::validity() const {
 
 uint64_t HeightsBytes::decodingLines() const {
   const bool forest = header_.wavelet.forest != nullptr;
-  const bool cut = view_.window ? corrected_ || forest : forest && header_.drawn && view_.level > 0;
+  const View decoded = decodedView(header_, layers_, view_);
+  const bool cut =
+      view_.window ? corrected_ || !decoded.window : forest && header_.drawn && view_.level > 0;
   if (!cut) return decodingTaken();
-  // Corrected and direct samples of a window, and those of a forest, are cut out of more.
-  const HeightsBytes all(*this, decodedView(header_, layers_, view_));
+  // Corrected and direct samples of a window are cut out of more.
+  const HeightsBytes all(*this, decoded);
   return all.decodingTaken() + shown_ * (2 * kValueBytes + 1);
 }
 
@@ -146,8 +148,9 @@ uint64_t HeightsBytes::parts() const {
   const uint64_t count = correctionTracks(header_, layers_);
   if (count == 0) return 0;
   const uint64_t at_a_time = std::clamp<uint64_t>(decoder_.threads, 1, count);
-  const Region largest =
-      largestRegions(header_.width, header_.height, header_.regions.side_log2).front();
+  const Region largest = largestRegions(header_.width, header_.height, header_.regions.side_log2,
+                                        header_.wavelet.patches())
+                             .front();
   const uint64_t samples = uint64_t{largest.x1} * largest.y1;
   const uint64_t beside = kindOfCorrections(layers_).of(largest.x1);
   const uint64_t once = at_a_time * (samples * kSample + beside) + count * sizeof(Window);

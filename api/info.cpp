@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "api/decoder.hpp"
 #include "api/guarded.hpp"
@@ -19,6 +20,34 @@ namespace tetrakis::inline api {
 
 namespace {
 
+/// Whether the records of index pages, which follow the stream, list its packets.
+Status verifyPages(const tks_decoder& decoder) {
+  PageIndex pages = *PageIndex::of(decoder.parsed);
+  const auto [begin, end] = pages.records();
+  if (decoder.data.size() < end) {
+    return {TKS_TRUNCATED, "The index of the stream ends at byte " +
+                               std::to_string(decoder.data.size()) + " of " + std::to_string(end) +
+                               "."};
+  }
+  for (const uint32_t page : pages.pagesIn({begin, end})) {
+    const auto [from, to] = pages.record(page);
+    const Status status = pages.take(page, decoder.data.subspan(from, to - from));
+    if (!status.ok()) return status;
+  }
+  std::vector<size_t> passed(pages.grid().pages());  // packets of each page
+  uint64_t at = decoder.parsed.bytes;
+  for (const PacketHead& head : decoder.packets.payload.heads) {
+    const uint32_t page = pages.grid().pageOf(head.track);
+    const std::vector<PagedPacket>& listed = pages.packets(page);
+    if (passed[page] == listed.size()) return wrongIndex();
+    PagedPacket packet = listed[passed[page]++];
+    packet.head.quality = head.quality;  // which pages do not state
+    if (packet.begin != at || packet.head != head) return wrongIndex();
+    at = packet.end();
+  }
+  return pages.knownPackets() == decoder.packets.payload.heads.size() ? Status() : wrongIndex();
+}
+
 Status verify(const tks_decoder& decoder) {
   if (decoder.sketched)
     return {TKS_TRUNCATED, "The stream ends inside its header, at byte " +
@@ -30,11 +59,15 @@ Status verify(const tks_decoder& decoder) {
     return {TKS_TRUNCATED, "The stream ends at byte " + std::to_string(decoder.data.size()) +
                                " of " + std::to_string(total) + "."};
   }
-  if (decoder.data.size() > total) {
-    return {TKS_CORRUPT, "Corrupt stream: " + std::to_string(decoder.data.size() - total) +
-                             " bytes follow its end at byte " + std::to_string(total) + "."};
+  const uint64_t end = decoder.pages ? decoder.pages->records().end : total;
+  if (decoder.data.size() > end) {
+    return {TKS_CORRUPT, "Corrupt stream: " + std::to_string(decoder.data.size() - end) +
+                             " bytes follow its end at byte " + std::to_string(end) + "."};
   }
-  const std::span<const uint8_t> payload = decoder.data.subspan(decoder.parsed.bytes);
+  if (decoder.data.size() > total)
+    if (Status pages = verifyPages(decoder); !pages.ok()) return pages;
+  const std::span<const uint8_t> payload =
+      decoder.data.subspan(decoder.parsed.bytes, header.payload_bytes);
   if (header.payload_crc && *header.payload_crc != crc32(payload))
     return {TKS_CORRUPT, "The stream is damaged: the checksum of its payload does not match."};
   return header.triangle_mesh.none() ? Status() : checkTriangles(decoder);
@@ -157,6 +190,7 @@ void fillStream(const tks_decoder& decoder, tks_info& info) {
   info.header_bytes = info.least_bytes = decoder.parsed.bytes;
   info.stream_bytes = decoder.parsed.bytes + header.payload_bytes;
   info.available_bytes = decoder.data.size();
+  if (decoder.pages) info.available_bytes = std::min(info.available_bytes, info.stream_bytes);
   if (const auto& sketched = decoder.sketched) {
     info.shows_sketch = 1;
     info.header_bytes = sketched->header_bytes;
@@ -174,6 +208,8 @@ void fillStream(const tks_decoder& decoder, tks_info& info) {
   info.triangles = header.triangles;
   info.object_triangles = static_cast<uint32_t>(header.triangle_mesh.triangles);
   info.index = decoder.index;
+  if (decoder.pages)
+    info.index_bytes = decoder.pages->records().end - decoder.pages->records().begin;
   info.components = static_cast<uint32_t>(header.components.size());
   info.material = header.material.c_str();
 }

@@ -69,7 +69,8 @@ inline uint64_t stateBytes(const tks_decoder& decoder, const auto& header, const
   state -= std::min(state, levels.bytes());
   if (view.window && decoder.most_of_windows > 0) {
     needs.kept = true;
-    const uint64_t tracks = regionCount(header.width, header.height, header.regions.side_log2);
+    const uint64_t tracks = regionCount(header.width, header.height, header.regions.side_log2,
+                                        header.wavelet.patches());
     const uint64_t all = needs.bytes();
     const uint64_t room =
         decoder.most_of_windows - std::min(decoder.most_of_windows, windows.bytes());
@@ -82,7 +83,8 @@ inline uint64_t stateBytes(const tks_decoder& decoder, const auto& header, const
 /// What there is for each track all the time, and for the patches of a forest.
 inline uint64_t trackBytes(const auto& header) {
   const SharedForest& forest = header.wavelet.forest;
-  return kTrackBytes * regionCount(header.width, header.height, header.regions.side_log2) +
+  return kTrackBytes * regionCount(header.width, header.height, header.regions.side_log2,
+                                   header.wavelet.patches()) +
          (forest != nullptr ? Pyramid::bytesOf(*forest) : 0);
 }
 
@@ -93,7 +95,14 @@ struct PlanesBytes {
 
   PlanesBytes(const tks_decoder& decoder, const auto& header, const View& view, uint32_t planes,
               bool masked) {
-    if (const SharedForest& forest = header.wavelet.forest; forest != nullptr) {
+    const SharedForest& forest = header.wavelet.forest;
+    if (forest != nullptr && view.window) {
+      const ForestBlocks blocks(specOf(header.wavelet), view);
+      coefficients = kValueBytes * blocks.coefficients();
+      work = blocks.workBytes();
+      return;
+    }
+    if (forest != nullptr) {
       coefficients = kValueBytes * area(view.extentIn(header.extent()));
       work = ForestLifting::bytesOf(*forest, view.level);
       return;

@@ -154,21 +154,39 @@ Status codeTileFor(const MosaicPlan& plan, tks_tile given, const tks_mosaic_sour
   return runTask(plan, *tile, known.reader(), *storage, std::max(1u, threads));
 }
 
-Status mergeFor(const MosaicPlan& plan, const tks_mosaic_files* files, tks_index index,
-                tks_write_at write, void* user) {
+Result<LayoutOptions> takeLayout(const tks_merge_options* given) {
+  LayoutOptions options;
+  if (given == nullptr) return options;
+  tks_merge_options known{};
+  const Status status =
+      takeSized("the options", *given, offsetof(tks_merge_options, preview), known);
+  if (!status.ok()) return status;
+  switch (known.layout) {
+    case TKS_LAYOUT_PROGRESSIVE:
+      break;
+    case TKS_LAYOUT_WINDOWS:
+      options.layout = Layout::kWindows;
+      break;
+    case TKS_LAYOUT_MIXED:
+      options.layout = Layout::kMixed;
+      break;
+    default:
+      return misused("There is no such layout.");
+  }
+  if (known.preview > 0) options.preview = known.preview;
+  if (options.preview && options.layout != Layout::kMixed)
+    return misused("Only the mixed layout has a preview.");
+  return options;
+}
+
+Status mergeFor(const MosaicPlan& plan, const tks_mosaic_files* files,
+                const tks_merge_options* options, tks_write_at write, void* user) {
   if (write == nullptr) return outputMissing();
   const Result<MosaicFiles> storage = takeFiles(files);
   if (!storage.ok()) return storage.status();
-  if (index != TKS_INDEX_NONE && index != TKS_INDEX_WINDOWS)
-    return misused("A mosaic has no index, or one for windows.");
-  const bool windows = index == TKS_INDEX_WINDOWS;
-  if (windows && plan.header.lossless == 0 && !plan.target.bounded) {
-    return misused(
-        "Only a lossless mosaic, or one within a largest error, is laid out for "
-        "windows: a shorter stream would lack whole regions.");
-  }
-  const MergeOptions options{windows ? TrackOrder::kTracks : TrackOrder::kSlopes, windows};
-  return mergeParts(plan, *storage, options,
+  const Result<LayoutOptions> layout = takeLayout(options);
+  if (!layout.ok()) return layout.status();
+  return mergeParts(plan, *storage, *layout,
                     [&](uint64_t offset, std::span<const uint8_t> bytes) -> Status {
                       if (write(user, offset, bytes.data(), bytes.size()) == 0) return {};
                       return {TKS_IO, "The stream cannot be written."};
@@ -265,10 +283,10 @@ tks_status tks_mosaic_is_done(const uint8_t* plan, size_t plan_size, tks_tile ti
 }
 
 tks_status tks_mosaic_merge(const uint8_t* plan, size_t plan_size, const tks_mosaic_files* files,
-                            tks_index index, tks_write_at write, void* user, char* message,
-                            size_t message_size) {
+                            const tks_merge_options* options, tks_write_at write, void* user,
+                            char* message, size_t message_size) {
   return reporting(message, message_size, [&]() -> Status {
     const Result<MosaicPlan> known = takePlan(plan, plan_size);
-    return known.ok() ? mergeFor(*known, files, index, write, user) : known.status();
+    return known.ok() ? mergeFor(*known, files, options, write, user) : known.status();
   });
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "api/index_pages.hpp"
 #include "api/memory.hpp"
 #include "bitstream/stream/geometry_header.hpp"
 #include "bitstream/stream/scattered_packets.hpp"
@@ -21,10 +22,11 @@ namespace {
 
 /// For each track of coefficients, by its number, whether the view needs it.
 std::vector<bool> neededTracks(const auto& header, const View& view) {
-  const Pyramid pyramid(header.extent());
-  const ViewSynthesis synthesis(specOf(header.wavelet), pyramid, view);
+  const WaveletSpec spec = specOf(header.wavelet);
+  const Pyramid pyramid = pyramidOf(spec, {}, header.extent());
+  const ViewSynthesis synthesis(spec, pyramid, view);
   const std::vector<Region> regions =
-      regionsOf(header.width, header.height, header.regions.side_log2);
+      regionsOf(header.width, header.height, header.regions.side_log2, header.wavelet.patches());
   std::vector<bool> needed(regions.size());
   needed.front() = true;  // the component's opening and the coarsest levels
   for (size_t i = 1; i < regions.size(); ++i)
@@ -38,15 +40,16 @@ std::vector<bool> neededTracks(const StreamHeader& header, Component component, 
   if (view.isWhole())
     return std::vector<bool>(trackCounts(header)[static_cast<size_t>(component)].tracks, true);
   if (component == Component::kTexture)
-    return neededTracks(*header.texture, codedView(*header.texture, view));
+    return neededTracks(*header.texture,
+                        decodedView(*header.texture, codedView(*header.texture, view)));
   const GeometryHeader& geometry = *header.geometry;
-  const View lines = codedView(geometry, view);
-  std::vector<bool> needed = neededTracks(geometry, decodedView(geometry, header.layers, lines));
+  const View decoded = decodedView(geometry, header.layers, codedView(geometry, view));
+  std::vector<bool> needed = neededTracks(geometry, decoded);
   if (header.layers.region_masks) addMaskTracks(geometry, needed);
   if (correctionTracks(geometry, header.layers) == 0) return needed;
   const Window all{0, 0, geometry.width, geometry.height};
-  for (const Window& part : correctionParts(geometry.extent(), geometry.regions.side_log2))
-    needed.push_back(view.level == 0 && part.meets(lines.window.value_or(all)));
+  for (const Window& part : correctionParts(geometry))
+    needed.push_back(view.level == 0 && part.meets(decoded.window.value_or(all)));
   return needed;
 }
 
@@ -82,23 +85,19 @@ Result<std::vector<View>> askedViewsOfPart(const tks_decoder& decoder, tks_part 
 /// The ranges of the packets of such tracks; of streams for windows each track has its own.
 std::vector<tks_range> rangesOfTracks(const tks_decoder& decoder, Component component,
                                       const std::vector<bool>& needed) {
-  const StreamHeader& header = decoder.parsed.header;
   const bool regions_apart = decoder.index == TKS_INDEX_WINDOWS;
-  const uint64_t end = decoder.parsed.bytes + header.payload_bytes;
   std::vector<tks_range> ranges;
   std::optional<uint32_t> last;
-  for (const IndexedPacket& packet : IndexedPackets(header, decoder.parsed.bytes)) {
-    const PacketHead& head = packet.entry.packet;
-    if (head.component != component || head.track >= needed.size() || !needed[head.track]) continue;
-    const uint64_t size = std::min(packet.end, end) - packet.begin;
+  forEachKnownPacket(decoder, [&](const PacketHead& head, uint64_t begin, uint64_t, uint64_t end) {
+    if (head.component != component || head.track >= needed.size() || !needed[head.track]) return;
     const bool goes_on = !regions_apart || last == head.track;
     last = head.track;
-    if (goes_on && !ranges.empty() && ranges.back().offset + ranges.back().size == packet.begin) {
-      ranges.back().size += size;
+    if (goes_on && !ranges.empty() && ranges.back().offset + ranges.back().size == begin) {
+      ranges.back().size += end - begin;
     } else {
-      ranges.push_back({packet.begin, size, 0});
+      ranges.push_back({begin, end - begin, 0});
     }
-  }
+  });
   return ranges;
 }
 
@@ -137,9 +136,8 @@ Result<std::vector<tks_range>> neededRanges(tks_decoder& decoder, tks_part part,
   const Result<std::vector<View>> views = askedViewsOfPart(decoder, part, window);
   if (!views.ok()) return views.status();
   const StreamHeader& header = decoder.parsed.header;
-  if (header.index.empty() && header.payload_bytes > 0)
-    return Status(TKS_USAGE,
-                  "The stream has no front index, which would tell where its packets lie.");
+  if (!hasIndex(decoder) && header.payload_bytes > 0)
+    return Status(TKS_USAGE, "The stream has no index, which would tell where its packets lie.");
   const Component component = part == TKS_PART_TEXTURE ? Component::kTexture : Component::kGeometry;
   std::vector<bool> needed;
   for (const View& view : *views) {
@@ -151,7 +149,13 @@ Result<std::vector<tks_range>> neededRanges(tks_decoder& decoder, tks_part part,
                    std::logical_or<bool>());
   }
   if (part == TKS_PART_VALIDITY && !header.layers.region_masks) needed.assign(1, true);
-  return withGap(decoder, rangesOfTracks(decoder, component, needed));
+  const Result<std::vector<ByteRange>> records = lackingRecords(decoder, needed);
+  if (!records.ok()) return records.status();
+  if (records->empty()) return withGap(decoder, rangesOfTracks(decoder, component, needed));
+  std::vector<tks_range> ranges;
+  for (const ByteRange& record : *records)
+    ranges.push_back({record.begin, record.end - record.begin, 0});
+  return ranges;
 }
 
 }  // namespace

@@ -10,12 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include "api/collapsed_object.hpp"
 #include "api/guarded.hpp"
 #include "api/memory.hpp"
 #include "api/triangle_object.hpp"
 #include "api/written.hpp"
 #include "codec/basemesh/base_mesh.hpp"
 #include "codec/basemesh/bent_base.hpp"
+#include "codec/mesh/forest/glued_triangles.hpp"
 #include "codec/mesh/forest/object_gains.hpp"
 #include "codec/mesh/meshes.hpp"
 
@@ -57,21 +59,53 @@ ObjectPlaces placesOf(const BaseMesh& mesh, std::span<const float> heights) {
   return all;
 }
 
+std::vector<ForestVertex> joined(const ForestLattice& lattice, std::span<const ForestVertex> a,
+                                 std::span<const ForestVertex> b) {
+  std::vector<uint8_t> in(lattice.vertexCount());
+  for (const ForestVertex v : a) in[v] = 1;
+  for (const ForestVertex v : b) in[v] = 1;
+  std::vector<ForestVertex> both;
+  for (ForestVertex v = 0; v < in.size(); ++v)
+    if (in[v] != 0) both.push_back(v);
+  return both;
+}
+
+uint64_t trianglesOf(const ForestLattice& lattice, std::span<const ForestVertex> vertices) {
+  const ClosureGraph graph = lattice.graph();
+  uint64_t triangles = lattice.baseTriangles();
+  for (const ForestVertex v : vertices) triangles += graph.costs[v];
+  return triangles;
+}
+
+/// The closed set of a mesh without double edges, of at most max_triangles triangles unless those
+/// of the base, and `needed` beside them, are more.
 std::vector<ForestVertex> chosenPlaces(const ForestLattice& lattice,
-                                       const DecodedGeometry& geometry,
-                                       const ForestMeshing& meshing, const ObjectPlaces& all) {
-  if (!hasBudget(meshing)) return chosenVertices(lattice, geometry, meshing, {});
+                                       const DecodedGeometry& geometry, uint32_t max_triangles,
+                                       const ObjectPlaces& all) {
   const auto rasters = coordinatesOfErrors(lattice.forest(), all.units);
   const std::vector<std::span<const int32_t>> coordinates(rasters.begin(), rasters.end());
-  return chosenVertices(lattice, geometry, meshing, coordinates);
+  const std::vector<ForestVertex> needed = singleEdges(lattice);
+  const auto within = [&](uint64_t most) {
+    const ForestMeshing meshing{TKS_MESH_BUDGET, static_cast<uint32_t>(most)};
+    return joined(lattice, chosenVertices(lattice, geometry, meshing, coordinates), needed);
+  };
+  std::vector<ForestVertex> vertices = within(max_triangles);
+  if (needed.empty() || trianglesOf(lattice, vertices) <= max_triangles) return vertices;
+  const uint64_t spare = trianglesOf(lattice, needed) - lattice.baseTriangles();
+  return max_triangles > spare ? within(max_triangles - spare) : needed;
+}
+
+std::vector<uint8_t> knownOf(std::span<const float> heights) {
+  std::vector<uint8_t> known;
+  for (const float height : heights) known.push_back(std::isnan(height) ? 0 : 1);
+  return known;
 }
 
 /// Moves the vertices of a mesh to where their triangles come nearest to all samples, which takes
 /// coordinate by coordinate what fitted heights take (codec/mesh/forest/forest_mesh.hpp).
 void fitPlaces(const ForestLattice& lattice, std::span<const float> heights, double unit,
                std::span<const ForestVertex> vertices, ObjectPlaces& all) {
-  std::vector<uint8_t> known;
-  for (const float height : heights) known.push_back(std::isnan(height) ? 0 : 1);
+  const std::vector<uint8_t> known = knownOf(heights);
   for (size_t axis = 0; axis < 3; ++axis) {
     const std::vector<int32_t>& units = all.units[axis];
     const std::vector<double> fitted = fittedHeights(lattice, units, known, vertices);
@@ -93,50 +127,76 @@ void fillTexcoords(const Forest& forest, const Forest& texels,
   }
 }
 
-void copyObject(const Forest& forest, const ForestSurface& surface, const ObjectPlaces& places,
-                tks_object_mesh& out) {
-  const auto& vertices = surface.mesh.vertices;
-  out.vertex_count = static_cast<uint32_t>(vertices.size());
-  out.triangle_count = static_cast<uint32_t>(surface.mesh.triangleCount());
-  out.position = allocate<double>(3 * vertices.size());
-  out.pixel = allocate<double>(2 * vertices.size());
-  out.height = allocate<float>(vertices.size());
-  out.triangles = allocate<uint32_t>(surface.mesh.triangles.size());
-  for (size_t v = 0; v < vertices.size(); ++v) {
-    std::copy_n(places.places[vertices[v]].begin(), 3, out.position + 3 * v);
-    out.pixel[2 * v] = vertices[v] % forest.side() + 0.5;
-    out.pixel[2 * v + 1] = static_cast<double>(vertices[v] / forest.side()) + 0.5;
+void copyObject(const Forest& forest, const ObjectVertices& mesh, std::span<const float> heights,
+                const ObjectPlaces& places, tks_object_mesh& out) {
+  out.vertex_count = static_cast<uint32_t>(mesh.places.size());
+  out.triangle_count = static_cast<uint32_t>(mesh.triangles.size() / 3);
+  out.position = allocate<double>(3 * mesh.places.size());
+  out.pixel = allocate<double>(2 * mesh.places.size());
+  out.height = allocate<float>(mesh.places.size());
+  out.triangles = allocate<uint32_t>(mesh.triangles.size());
+  for (size_t v = 0; v < mesh.places.size(); ++v) {
+    std::copy_n(places.places[mesh.places[v]].begin(), 3, out.position + 3 * v);
+    out.height[v] = heights[mesh.places[v]];
+    out.pixel[2 * v] = mesh.texels[v] % forest.side() + 0.5;
+    out.pixel[2 * v + 1] = static_cast<double>(mesh.texels[v] / forest.side()) + 0.5;
   }
-  std::copy(surface.heights.begin(), surface.heights.end(), out.height);
-  std::copy(surface.mesh.triangles.begin(), surface.mesh.triangles.end(), out.triangles);
+  std::copy(mesh.triangles.begin(), mesh.triangles.end(), out.triangles);
+}
+
+/// All of the vertices, where no budget is too small for them.
+ObjectVertices wholeMesh(const ForestLattice& lattice, std::span<const ForestVertex> vertices,
+                         std::span<const float> heights, bool apart) {
+  LatticeMesh mesh = apart ? patchesOf(lattice, vertices) : meshOf(lattice, vertices);
+  std::vector<float> of_vertices;
+  for (const uint32_t sample : mesh.vertices) of_vertices.push_back(heights[sample]);
+  leaveOutVoids(mesh, of_vertices);
+  return {mesh.vertices, mesh.vertices, std::move(mesh.triangles)};
+}
+
+/// Moves places.
+ObjectVertices budgetMesh(const ForestLattice& lattice, const DecodedGeometry& geometry,
+                          std::span<const float> heights, const ForestMeshing& meshing, double unit,
+                          ObjectPlaces& places) {
+  std::vector<ForestVertex> vertices =
+      chosenPlaces(lattice, geometry, meshing.max_triangles, places);
+  const bool is_few = trianglesOf(lattice, vertices) > meshing.max_triangles;
+  if (is_few) {
+    const uint32_t base = lattice.baseTriangles();
+    const bool is_fine = uint64_t{kMostFromBase} * meshing.max_triangles > base;
+    vertices = chosenPlaces(lattice, geometry, is_fine ? 2 * base : base, places);
+  }
+  if (vertices.size() < lattice.vertexCount()) fitPlaces(lattice, heights, unit, vertices, places);
+  if (!is_few) return wholeMesh(lattice, vertices, heights, meshing.apart);
+  return collapsedObject(gluedTriangles(lattice, vertices, knownOf(heights)), places.places,
+                         meshing.max_triangles, meshing.apart);
 }
 
 Status decodeObject(tks_decoder& decoder, const ForestMeshing& meshing, tks_object_mesh& out) {
   const StreamHeader& header = decoder.parsed.header;
   if (!decoder.base_mesh)
     return {TKS_USAGE, "The stream is no object: its heights, if it has any, have no base mesh."};
-  constexpr uint64_t kSample = 100;
+  constexpr uint64_t kSample = 100, kPatch = 1600;
   const BaseMesh& base = *decoder.base_mesh;
   const Result<const DecodedHeights*> decoded =
-      heightsForMesh(decoder, meshing, kSample * base.forest->raster().samples());
+      heightsForMesh(decoder, meshing,
+                     kSample * base.forest->raster().samples() + kPatch * base.forest->patches());
   if (!decoded.ok()) return decoded.status();
+  const DecodedGeometry& geometry = (*decoded)->geometry;
   std::vector<float> heights(base.forest->raster().samples());
   writeSurface(decoder, **decoded, heights.data());
   ObjectPlaces places = placesOf(base, heights);
   const ForestLattice lattice(*base.forest);
-  const std::vector<ForestVertex> vertices =
-      chosenPlaces(lattice, (*decoded)->geometry, meshing, places);
-  if (hasBudget(meshing) && vertices.size() < lattice.vertexCount())
-    fitPlaces(lattice, heights, base.cell / (1 << BentBase::kPlaceBits), vertices, places);
-  ForestSurface surface{meshing.apart ? patchesOf(lattice, vertices) : meshOf(lattice, vertices),
-                        {}};
-  for (const uint32_t sample : surface.mesh.vertices) surface.heights.push_back(heights[sample]);
-  leaveOutVoids(surface.mesh, surface.heights);
-  copyObject(*base.forest, surface, places, out);
+  const ObjectVertices mesh =
+      hasBudget(meshing) ? budgetMesh(lattice, geometry, heights, meshing,
+                                      base.cell / (1 << BentBase::kPlaceBits), places)
+                         : wholeMesh(lattice, chosenVertices(lattice, geometry, meshing, {}),
+                                     heights, meshing.apart);
+  copyObject(*base.forest, mesh, heights, places, out);
   const auto& texture = header.texture;
   if (!texture || texture->wavelet.forest == nullptr) return {};
   out.texcoord = allocate<double>(2 * size_t{out.vertex_count});
-  fillTexcoords(*base.forest, *texture->wavelet.forest, surface.mesh.vertices, out.texcoord);
+  fillTexcoords(*base.forest, *texture->wavelet.forest, mesh.texels, out.texcoord);
   return {};
 }
 

@@ -89,13 +89,13 @@ double GivenObject::wantedError() const {
                                : source.diagonal() * portable::pow(10.0, -options.psnr / 20);
 }
 
-MeshColours GivenObject::colours() const {
-  const size_t values = size_t{image->width} * image->height * image->channels;
-  MeshImage texels{image->width, image->height, image->channels, {}, {}};
-  if (image->sample == TKS_U8)
-    texels.bytes = {static_cast<const uint8_t*>(image->data), values};
+MeshColours GivenObject::coloursOf(const tks_image& of) const {
+  const size_t values = size_t{of.width} * of.height * of.channels;
+  MeshImage texels{of.width, of.height, of.channels, {}, {}};
+  if (of.sample == TKS_U8)
+    texels.bytes = {static_cast<const uint8_t*>(of.data), values};
   else
-    texels.shorts = {static_cast<const uint16_t*>(image->data), values};
+    texels.shorts = {static_cast<const uint16_t*>(of.data), values};
   return {source.cleaned(), {mesh.texcoords, 6 * size_t{mesh.triangle_count}}, texels};
 }
 

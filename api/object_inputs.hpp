@@ -62,6 +62,13 @@ Status misusedObject(const std::string& sentence);
 
 class ObjectPictures;
 
+/// An image that lies on a mesh beside its texture, and becomes a component of that name.
+struct GivenMap {
+  std::string name;
+  tks_image image{};
+  double weight = 0;  ///< as tks_object_map has it
+};
+
 /// A mesh whose fields are sound.
 struct GivenObject {
   /// All outlive this. image: null, or checked.
@@ -74,14 +81,15 @@ struct GivenObject {
         progress(target) {}
 
   double wantedError() const;
-  /// The colours of the image, which is there.
-  MeshColours colours() const;
+  /// The colours of an image that lies on the mesh.
+  MeshColours coloursOf(const tks_image& of) const;
 
   const tks_triangle_mesh& mesh;
   const tks_image* image;
   tks_encode_options options;
   ObjectSource source;
   SearchProgress progress;
+  std::vector<GivenMap> maps;
   const ObjectPictures* pictures = nullptr;  ///< by which streams are compared; null: no image
 };
 
@@ -94,6 +102,7 @@ struct CodedObject {
   uint32_t patches = 0, depth = 0, texture_depth = 0, coded_triangles = 0;
   double resampling_error = 0;
   uint64_t sketch_bytes = 0;
+  std::shared_ptr<const ResampledObject> object;  ///< of a resampled one
 };
 
 Result<TriangleMesh> meshOf(const tks_triangle_mesh& given);

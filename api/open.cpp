@@ -6,10 +6,12 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "api/decoder.hpp"
 #include "api/group_chain.hpp"
 #include "api/guarded.hpp"
+#include "api/index_pages.hpp"
 #include "api/memory.hpp"
 
 namespace tetrakis::inline api {
@@ -51,19 +53,22 @@ Status checkSizes(const StreamHeader& header, const tks_limits& limits) {
   return {};
 }
 
-/// Made for windows if all packets of a region come before those of the next. (The base, which all
-/// regions need, may have some at the end as well.)
+/// Made for windows if all packets of a region follow one another. (The base, which all regions
+/// need, may have some at the end as well.)
 tks_index indexOf(const StreamHeader& header) {
   if (header.index.empty()) return TKS_INDEX_NONE;
-  std::array<uint32_t, kComponents> last{};
+  std::array<std::vector<uint32_t>, kComponents> pieces;  // the region of each
   for (const IndexEntry& entry : header.index) {
-    if (entry.packet.component == Component::kOther) continue;
-    const uint32_t track = entry.packet.track;
-    uint32_t& before = last[static_cast<size_t>(entry.packet.component)];
-    if (track > 0 && track < before) return TKS_INDEX_PACKETS;
-    before = std::max(before, track);
+    const PacketHead& packet = entry.packet;
+    if (packet.component == Component::kOther || packet.track == 0) continue;
+    std::vector<uint32_t>& of = pieces[static_cast<size_t>(packet.component)];
+    if (of.empty() || of.back() != packet.track) of.push_back(packet.track);
   }
-  return last[0] > 0 || last[1] > 0 ? TKS_INDEX_WINDOWS : TKS_INDEX_PACKETS;
+  for (std::vector<uint32_t>& of : pieces) {
+    std::sort(of.begin(), of.end());
+    if (std::adjacent_find(of.begin(), of.end()) != of.end()) return TKS_INDEX_PACKETS;
+  }
+  return pieces[0].empty() && pieces[1].empty() ? TKS_INDEX_PACKETS : TKS_INDEX_WINDOWS;
 }
 
 /// Gives the components what their frames go on from.
@@ -117,7 +122,8 @@ Status open(std::span<const uint8_t> bytes, const tks_limits* limits, const Refe
     decoder.step = header.geometry->step;
     showScale(decoder);
   }
-  decoder.index = indexOf(header);
+  decoder.pages = PageIndex::of(decoder.parsed);
+  decoder.index = decoder.pages ? TKS_INDEX_PAGES : indexOf(header);
   decoder.max_memory = limitOf(known.max_memory, kDefaultMemory, kMostMemory);
   decoder.most_of_windows = decoder.max_memory / kShareOfWindows;
   Result<TakenPackets> taken = takePackets(decoder);
@@ -143,12 +149,12 @@ std::span<const uint8_t> payloadOf(const tks_decoder& decoder) {
 Result<uint64_t> memoryFor(const tks_decoder& decoder, PayloadCount count) {
   if (!decoder.pieces.empty()) {
     count.bytes = decoder.pieces.bytes();
-    count.packets = std::max<uint64_t>(count.packets, decoder.parsed.header.index.size());
+    count.packets = std::max(count.packets, knownPackets(decoder));
   }
   const bool scattered = decoder.scattered || hasGap(decoder);
-  const uint64_t bytes =
-      payloadBytes(count, trackCounts(decoder.parsed.header)) +
-      (scattered ? ScatteredPackets::bytesOf(decoder.parsed.header.index.size()) : 0);
+  const uint64_t bytes = payloadBytes(count, trackCounts(decoder.parsed.header)) +
+                         (scattered ? ScatteredPackets::bytesOf(knownPackets(decoder)) : 0) +
+                         (decoder.pages ? decoder.pages->bytes() : 0);
   if (bytes + decoder.pieces.bytes() <= decoder.max_memory) return bytes;
   return Status(TKS_LIMIT, "Opening the stream takes " + describeBytes(bytes) +
                                " of memory; the limit (max_memory) is " +
@@ -195,7 +201,7 @@ Status takeFollowing(tks_decoder& decoder) {
   return demultiplexMore(payload, decoder.parsed.bytes, taken);
 }
 
-/// What the front index says of the packets, compared with all that was there before the first gap.
+/// What the index says of the packets, compared with all that was there before the first gap.
 Status makeScattered(tks_decoder& decoder) {
   const TakenPackets& before = decoder.packets;
   decoder.scattered.emplace(decoder.parsed, before.payload);
@@ -205,31 +211,43 @@ Status makeScattered(tks_decoder& decoder) {
   return status;
 }
 
-Status takeScattered(tks_decoder& decoder, std::span<const ByteRange> ranges) {
+/// fresh: pages of the index that were not known before.
+Status takeScattered(tks_decoder& decoder, std::span<const ByteRange> ranges,
+                     std::vector<uint32_t> fresh) {
   const Result<uint64_t> bytes = memoryFor(decoder, {});
   if (!bytes.ok()) return bytes.status();
   if (!decoder.scattered) {
     if (Status status = makeScattered(decoder); !status.ok()) return status;
+    if (decoder.pages) fresh = decoder.pages->known();
   }
+  std::vector<PagedPacket> listed;
+  if (decoder.pages) listed = decoder.pages->inOrder(fresh);
+  if (Status status = decoder.scattered->check(decoder.pieces, listed); !status.ok()) return status;
   for (const ByteRange& range : ranges) {
     if (Status status = decoder.scattered->check(decoder.pieces, range); !status.ok())
       return status;
   }
   TakenPackets& taken = decoder.packets;
   taken.bytes = *bytes;
+  if (!listed.empty()) decoder.scattered->take(decoder.pieces, listed, taken.payload);
   for (const ByteRange& range : ranges)
     decoder.scattered->take(decoder.pieces, range, taken.payload);
+  const Status passed = passHeads(payloadOf(decoder), decoder.parsed.bytes, taken.payload);
+  if (passed.ok() && decoder.pages)
+    decoder.scattered->takeFront(decoder.pieces, *decoder.pages, taken.payload);
   taken.has_gap = hasGap(decoder);
   const auto [heights, texture] = decoder.scattered->settle(taken.has_gap, taken.payload);
   if (heights) decoder.heights_memory = decoder.heights_windows = {};
   if (texture) decoder.texture_memory = decoder.texture_windows = {};
-  return passHeads(payloadOf(decoder), decoder.parsed.bytes, taken.payload);
+  return passed;
 }
 
 }  // namespace
 
 Status takeMorePackets(tks_decoder& decoder, std::span<const ByteRange> ranges) {
-  if (decoder.scattered || hasGap(decoder)) return takeScattered(decoder, ranges);
+  Result<std::vector<uint32_t>> fresh = takeRecords(decoder, ranges);
+  if (!fresh.ok()) return fresh.status();
+  if (decoder.scattered || hasGap(decoder)) return takeScattered(decoder, ranges, *fresh);
   return takeFollowing(decoder);
 }
 

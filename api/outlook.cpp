@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "api/guarded.hpp"
+#include "api/index_pages.hpp"
 #include "api/memory.hpp"
 #include "api/written.hpp"
 
@@ -145,7 +146,8 @@ std::vector<WeightedSighting> outlookOf(const CoarseGlobe& globe, const tks_scre
 
 Status checkPlanMemory(const tks_decoder& decoder, uint64_t beside) {
   const uint64_t bytes =
-      decoder.packets.bytes + decoder.pieces.bytes() + planBytes(decoder.parsed.header) + beside;
+      decoder.packets.bytes + decoder.pieces.bytes() +
+      planBytes(decoder.parsed.header, knownPackets(decoder) + lackingPages(decoder)) + beside;
   if (bytes <= decoder.max_memory) return {};
   return {TKS_LIMIT, "Choosing packets takes " + describeBytes(bytes) +
                          " of memory; the limit (max_memory) is " +

@@ -41,8 +41,8 @@ Status plan(tks_decoder& decoder, std::span<const WeightedSighting> sightings,
   const auto missing = [&](uint64_t begin, uint64_t end) {
     return missingIn(decoder, {begin, end});
   };
-  const auto ranges =
-      planFetch(decoder.parsed, sightings, missing, {fetch.bytes, fetch.request_bytes});
+  const auto ranges = planFetch(decoder.parsed, decoder.pages ? &*decoder.pages : nullptr,
+                                sightings, missing, {fetch.bytes, fetch.request_bytes});
   if (!ranges.ok()) return ranges.status();
   std::vector<tks_range> planned;
   for (const FetchRange& range : *ranges)

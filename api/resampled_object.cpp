@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "api/object_maps.hpp"
 #include "api/object_pictures.hpp"
 #include "base/forest.hpp"
 #include "base/portable_math.hpp"
@@ -36,14 +37,6 @@ constexpr uint64_t kLeastHeightBytes = 1000;
 
 /// Texels for each byte of a budget: more cannot be told from fewer.
 constexpr double kTexelsForByte = 64;
-
-/// A texture on the patches of an object.
-struct TexelsOnPatches {
-  Forest forest;
-  std::vector<SurfacePoint> places;  ///< of its texels
-  std::vector<uint16_t> texels;      ///< interleaved
-  uint32_t channels = 0;
-};
 
 /// A base that was tried, and the stream over it.
 struct Trial {
@@ -85,6 +78,7 @@ class ResampledSearch {
     measured.distance = distanceOf(object, (*taken)->heights, kDistanceSamples);
     measured.patches = object.base.forest->patches();
     measured.depth = static_cast<uint32_t>(object.base.forest->depth());
+    measured.object = (*taken)->object;
     return measured;
   }
 
@@ -151,45 +145,28 @@ class ResampledSearch {
 
   /// The heights of a trial beside the texture, which the target is of as well.
   Result<SharedTrial> withTexture(const Trial& trial) {
-    const TexelsOnPatches texture = textureOn(*trial.object);
-    const bool is_byte = given_.image->sample == TKS_U8;
-    const std::vector<uint8_t> bytes(texture.texels.begin(),
-                                     is_byte ? texture.texels.end() : texture.texels.begin());
-    tks_image image = *given_.image;
-    const Extent raster = texture.forest.raster();
-    image.width = raster.width;
-    image.height = raster.height;
-    image.data = is_byte ? static_cast<const void*>(bytes.data()) : texture.texels.data();
-    image.has_geotransform = 0;
-    image.domain = TKS_DOMAIN_FOREST;
-    image.forest = {static_cast<uint32_t>(texture.forest.depth()), texture.forest.patches(),
-                    texture.forest.sides().data()};
-    Result<SharedTrial> made = coded(trial, given_.options, &image);
+    const int depth = texelDepth(*trial.object);
+    const PatchTexels texels(given_, *given_.image, *trial.object, depth);
+    Result<SharedTrial> made = coded(trial, given_.options, &texels.image());
     if (!made.ok()) return made;
     const Result<double> error = given_.pictures->errorOf((*made)->coded.stream);
     if (!error.ok()) return error.status();
     Trial both = **made;
-    both.coded.texture_depth = image.forest.depth;
+    both.coded.texture_depth = static_cast<uint32_t>(depth);
     both.coded.picture_error = *error;
     return std::make_shared<const Trial>(std::move(both));
   }
 
-  /// As many texels as the mesh shows of the image, unless the budget is too small for them.
-  TexelsOnPatches textureOn(const ResampledObject& object) const {
-    const MeshColours colours = given_.colours();
+  /// For as many texels as the mesh shows of its images, unless the budget is too small for them.
+  int texelDepth(const ResampledObject& object) const {
     const double wanted =
-        std::min(colours.shown(), kTexelsForByte * static_cast<double>(given_.options.bytes));
+        std::min(shownTexels(given_), kTexelsForByte * static_cast<double>(given_.options.bytes));
     int depth = 1;
     const double patches = object.base.forest->patches();
     while (depth < TKS_MOST_OBJECT_DEPTH && patches * std::ldexp(1.0, 2 * depth) < wanted &&
            object.base.forest->patches() < Forest::mostPatches(depth + 1))
       ++depth;
-    TexelsOnPatches out{Forest(depth, object.base.forest->sides()),
-                        given_.source.placesOn(object, depth),
-                        {},
-                        given_.image->channels};
-    out.texels = colours.at(out.places);
-    return out;
+    return depth;
   }
 
   /// The fewest bytes over bases whose resampling leaves room for errors.

@@ -47,8 +47,8 @@ class TextureBytes {
   TextureBytes(const tks_decoder& decoder, const View& view)
       : decoder_(decoder),
         header_(*decoder.parsed.header.texture),
-        view_(wholeIfForest(header_, codedView(header_, view))),
-        cut_(view.window && header_.wavelet.forest != nullptr ? area(*view.window) : 0),
+        view_(decodedView(header_, codedView(header_, view))),
+        cut_(view.window && !view_.window ? area(*view.window) : 0),
         shown_(area(view_.extentIn(header_.extent()))),
         copied_(header_.repeats.none() ? 0 : area(view.extentIn(header_.shown()))),
         seen_(header_.alpha_bytes > 0),

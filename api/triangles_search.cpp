@@ -45,7 +45,8 @@ constexpr int kFinestBesideTexture = 13 * kSteps, kTexturedSteps = kSteps / 2;
 uint8_t texcoordFraction(const GivenObject& given) {
   if (given.image == nullptr) return 0;
   const uint32_t later = std::min(given.mesh.texels, kMaxSide);
-  const uint32_t side = std::max({given.image->width, given.image->height, later});
+  uint32_t side = std::max({given.image->width, given.image->height, later});
+  for (const GivenMap& map : given.maps) side = std::max({side, map.image.width, map.image.height});
   return static_cast<uint8_t>(std::bit_width(side - 1) + 1);
 }
 
@@ -286,7 +287,23 @@ class TrianglesSearch {
       if (best.ok() && made->picture_error >= best->picture_error) break;
       best = std::move(made);
     }
+    if (best.ok()) best = withRest(trial, *std::move(best));
     if (best.ok()) best->distance = trial.distanceOf(best->stream, kDistanceSamples);
+    return best;
+  }
+
+  /// Where the image is there to its last bit, and bytes are left, corners get them.
+  Result<CodedObject> withRest(const TriangleTrial& trial, CodedObject best) {
+    const std::optional<std::vector<uint8_t>> tried = trial.streamOf(kFinestBesideTexture);
+    const uint64_t budget = given_.options.bytes, used = best.stream.size();
+    if (!tried || used >= budget) return best;
+    for (int grid = kFinest; grid > kFinestBesideTexture; --grid) {
+      const std::optional<std::vector<uint8_t>> alone = trial.streamOf(grid);
+      if (!alone || used + alone->size() > budget + tried->size()) continue;
+      Result<CodedObject> made = withTexture(trial, grid, alone->size());
+      if (made.ok() && made->picture_error <= best.picture_error) return made;
+      break;
+    }
     return best;
   }
 

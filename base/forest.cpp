@@ -147,6 +147,22 @@ Forest::Place Forest::owner(int64_t n, const Place& sample) const {
   return across(n, side, north || south ? x : y, 0);
 }
 
+OwnedSides::OwnedSides(const Forest& forest)
+    : last_(forest.side() - 1), owned_(forest.patches(), 0x1FF) {
+  forest.forEachShared(2, [&](const Forest::Place& sample, const Forest::Place&) {
+    owned_[sample.patch] &= static_cast<uint16_t>(~(1u << (3 * sample.y + sample.x)));
+  });
+}
+
+uint32_t OwnedSides::every(int log2, uint32_t patch, uint32_t x, uint32_t y) const {
+  const uint32_t of_row = owned_[patch] >> (y == 0 ? 0 : y == last_ ? 6 : 3);
+  uint32_t word = (of_row & 2) != 0 ? ~uint32_t{0} : 0;
+  if (x == 0) word = (word & ~uint32_t{1}) | (of_row & 1);
+  const uint32_t end = (last_ - x) >> log2;
+  if (x > last_ || end > 31 || x + (end << log2) != last_) return word;
+  return (word & ~(uint32_t{1} << end)) | (of_row >> 2 & 1) << end;
+}
+
 BitPlane ownedSamples(const Forest& forest) {
   const uint32_t side = forest.side();
   BitPlane owned(forest.raster());

@@ -127,4 +127,19 @@ void shareOwned(const Forest& forest, std::span<T> raster, uint32_t n, size_t va
 /// Marks the samples of a raster that no other one owns.
 BitPlane ownedSamples(const Forest& forest);
 
+/// The same marks without a bit for each sample: only those at the sides of patches have other
+/// owners.
+class OwnedSides {
+ public:
+  explicit OwnedSides(const Forest& forest);
+
+  /// 32 samples of a row of a patch of the raster that lie 2^log2 apart, from x on: a bit for each
+  /// one that no other one owns.
+  uint32_t every(int log2, uint32_t patch, uint32_t x, uint32_t y) const;
+
+ private:
+  uint32_t last_;                ///< column and row of a patch
+  std::vector<uint16_t> owned_;  ///< of each patch; bit 3 j + i for 3 x 3 samples (i, j)
+};
+
 }  // namespace tetrakis::inline base

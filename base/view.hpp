@@ -49,11 +49,11 @@ struct View {
   }
   /// The column and the row of the plane that the first shown sample lies in.
   uint32_t firstColumn() const { return window ? window->x << level : 0; }
-  uint32_t firstRow() const { return window ? window->y << level : 0; }
+  uint32_t firstRow() const { return rowOf(0); }
   /// The row of the plane that a shown row lies in.
   uint32_t rowOf(uint32_t shown) const {
-    assert(!window || patch_rows == 0 || level == 0);
-    if (level == 0 || patch_rows == 0) return firstRow() + (shown << level);
+    if (window) shown += window->y;
+    if (level == 0 || patch_rows == 0) return shown << level;
     const uint32_t of_patch = shownOf(patch_rows);
     return shown / of_patch * patch_rows + (shown % of_patch << level);
   }

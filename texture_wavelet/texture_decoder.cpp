@@ -249,19 +249,24 @@ Texels viewOf(Texels texels, const View& view) {
   return texels;
 }
 
-/// A window is taken out of all texels, and so is a level of a drawing, whose lattice is that of
+/// A window may be taken out of all texels, and a level of a drawing is, whose lattice is that of
 /// the raster.
 Texels decodeForest(const TextureHeader& header, const Codewords& codewords, const View& view,
                     const DecodeContext<TextureMemory>& context) {
   assert(view.level == 0 || view.patch_rows == header.wavelet.forest->side());
-  const View decoded = header.drawn() ? View{} : wholeIfForest(header, view);
+  const View decoded = header.drawn() ? View{} : decodedView(header, view);
   Texels texels = decodeLines(header, codewords, decoded, context);
+  if (decoded.window) return texels;
   shareOwned(*header.wavelet.forest, std::span(texels.samples), texels.width - 1, texels.channels);
   if (decoded.extentIn(header.extent()) == view.extentIn(header.extent())) return texels;
   return viewOf(std::move(texels), view);
 }
 
 }  // namespace
+
+View decodedView(const TextureHeader& header, const View& view) {
+  return viewOnForest(header, view, !header.direct() && header.alpha_bytes == 0);
+}
 
 Texels decodeTexture(const TextureHeader& header, const Codewords& codewords, const View& view,
                      const DecodeContext<TextureMemory>& context) {

@@ -114,6 +114,9 @@ struct TextureMemory {
 };
 
 /// Decodes what a view shows; in a window the time follows its size if the image has regions.
+/// The part of the coded lines that is decoded for a view of them.
+View decodedView(const TextureHeader& header, const View& view);
+
 /// codewords: any prefix of each track, one for each of regionsOf(). Safe on any bytes and on any
 /// header that readHeader() accepts. The memory is that of earlier calls with the same header, for
 /// views of which it keeps all levels, or with the same view.

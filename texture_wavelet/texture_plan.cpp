@@ -93,7 +93,8 @@ TexturePlan::TexturePlan(const TextureHeader& header, const SharedBits& coded,
                          const std::optional<SynthesisNorms>& norms)
     : layout_(specOf(header.wavelet), pyramidOf(specOf(header.wavelet), coded, header.extent()),
               priorityMapOf(header.priorities, header.extent()), norms),
-      regions_(regionsOf(header.width, header.height, header.regions.side_log2)),
+      regions_(regionsOf(header.width, header.height, header.regions.side_log2,
+                         header.wavelet.patches())),
       weights_(header.weights) {
   for (uint32_t c = 0; c < header.colourPlanes(); ++c)
     planes_.push_back({static_cast<int>(header.priority[c]), modelsOf(header, c)});

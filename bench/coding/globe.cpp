@@ -98,7 +98,7 @@ class Globe {
     if (!decoder.ok()) return decoder.status();
     Result<std::vector<float>> surface = surfaceOfGlobe(*decoder, triangles);
     if (surface.ok() && tools::isGridOnCube(decoder->info()))
-      surface = tools::surfaceOfCube(decoder->info(), *surface, {});
+      surface = tools::gridOfCube(decoder->info(), *surface);
     if (!surface.ok()) return surface.status();
     return rmse({surface->begin(), surface->end()});
   }

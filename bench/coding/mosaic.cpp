@@ -100,8 +100,8 @@ Result<Coded> byMosaic(const tks_heights& heights, tks_mosaic_options options) {
                              sizeof message);
   }
   if (status == TKS_OK) {
-    status = tks_mosaic_merge(plan.data, plan.size, &files, TKS_INDEX_NONE, Mosaic::writeAt,
-                              &mosaic, message, sizeof message);
+    status = tks_mosaic_merge(plan.data, plan.size, &files, nullptr, Mosaic::writeAt, &mosaic,
+                              message, sizeof message);
   }
   tks_free_buffer(&plan);
   if (status != TKS_OK) return Status(status, message);

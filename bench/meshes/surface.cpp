@@ -32,6 +32,7 @@ Status measure(const SurfaceModel& model, const Options& options, Study& study) 
   if (study.name == "bytes") return studyBytes(model, options.study, study.figures);
   if (study.name == "triangles") return studyTriangles(model, options.study, study.figures);
   if (study.name == "kept") return studyKept(model, options.study, study.figures);
+  if (study.name == "few") return studyFew(model, options.study, study.figures);
   if (study.name == "prefixes") return studyPrefixes(model, study.figures);
   return studyTexture(model, options.study, study.figures);
 }
@@ -40,6 +41,7 @@ std::vector<Study> wantedStudies(const Options& options) {
   std::vector<Study> all = {{"bytes", {"at_error", options.errors}},
                             {"prefixes", {"at_kB", {2, 4, 8, 16, 32}}},
                             {"kept", {"at_triangles", {500, 1000, 2000, 4000, 8000, 16000}}},
+                            {"few", {"at_triangles", {125, 250, 500, 1000, 2000, 4000}}},
                             {"texture", {"at_kB", {4, 8, 16, 32}}},
                             {"triangles", {"at_triangles", {2000, 4000, 8000, 16000, 32000}}}};
   std::erase_if(all, [&](const Study& study) {
@@ -82,7 +84,7 @@ int main(int argc, char** argv) {
   Arguments arguments("Triangle meshes of any shape as objects, beside other codecs.");
   arguments.required({"FILE", "meshes, and folders of meshes"}, options.files);
   arguments.choices({"--study", "What is measured (default: all)"}, options.studies,
-                    {"bytes", "triangles", "kept", "prefixes", "texture"});
+                    {"bytes", "triangles", "kept", "few", "prefixes", "texture"});
   arguments.numbers({"--errors", "of bytes, in 1e-4 of the diagonal"}, options.errors);
   arguments.within({"--sizes", "that meshoptimizer simplifies to"}, options.study.sizes, 1, 100);
   arguments.flag({"--points", "also each coding of bytes that was tried"}, options.study.points);

@@ -30,6 +30,10 @@ Status studyTriangles(const SurfaceModel& model, const SurfaceStudyOptions& opti
 Status studyKept(const SurfaceModel& model, const SurfaceStudyOptions& options,
                  SurfaceFigures& figures);
 
+/// The same of a resampled stream of 64 kB, whose patches are more than such meshes have triangles.
+Status studyFew(const SurfaceModel& model, const SurfaceStudyOptions& options,
+                SurfaceFigures& figures);
+
 /// Errors of prefixes of a stream of 64 kB, of as many kB as a column says, beside streams made for
 /// their length, with any base and with the same base.
 Status studyPrefixes(const SurfaceModel& model, SurfaceFigures& figures);

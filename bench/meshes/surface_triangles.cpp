@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <map>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -129,10 +130,13 @@ Status studyTriangles(const SurfaceModel& model, const SurfaceStudyOptions& opti
   return {};
 }
 
-Status studyKept(const SurfaceModel& model, const SurfaceStudyOptions& options,
-                 SurfaceFigures& figures) {
-  constexpr uint64_t kAll = 8 << 20;
-  const Result<SurfaceObject> object = surfaceObject(model, {kAll, TKS_OBJECT_TRIANGLES, false});
+namespace {
+
+/// wanted: of the stream. what: the triangles that are collapsed, in the names of rows.
+Status studyCollapsed(const SurfaceModel& model, const SurfaceStudyOptions& options,
+                      const ObjectOptions& stream_options, const std::string& what,
+                      SurfaceFigures& figures) {
+  const Result<SurfaceObject> object = surfaceObject(model, stream_options);
   if (!object.ok()) return object.status();
   const FloatMesh whole = floatMesh(model.mesh());
   const auto stream = object->stream.bytes();
@@ -156,13 +160,29 @@ Status studyKept(const SurfaceModel& model, const SurfaceStudyOptions& options,
     ours.push_back(static_cast<double>(mesh->mesh.triangles.size()));
     at_equal_error.push_back(costAt({peers}, *errors.back()));
   }
-  figures.printColumns("kept triangles, at most", 0);
+  figures.printColumns((what + ", at most").c_str(), 0);
   SurfaceFigures::print("open edges", open, 0);
   SurfaceFigures::print("error", errors, 2);
   SurfaceFigures::print("meshoptimizer: error", theirs, 2);
-  figures.ratios(model.name, "error of kept triangles over meshoptimizer", errors, theirs);
-  figures.ratios(model.name, "kept triangles over meshoptimizer", ours, at_equal_error);
+  figures.ratios(model.name, "error of " + what + " over meshoptimizer", errors, theirs);
+  figures.ratios(model.name, what + " over meshoptimizer", ours, at_equal_error);
   return {};
+}
+
+}  // namespace
+
+Status studyKept(const SurfaceModel& model, const SurfaceStudyOptions& options,
+                 SurfaceFigures& figures) {
+  constexpr uint64_t kAll = 8 << 20;
+  return studyCollapsed(model, options, {kAll, TKS_OBJECT_TRIANGLES, false}, "kept triangles",
+                        figures);
+}
+
+Status studyFew(const SurfaceModel& model, const SurfaceStudyOptions& options,
+                SurfaceFigures& figures) {
+  constexpr uint64_t kFineBase = 64 << 10;
+  return studyCollapsed(model, options, {kFineBase, TKS_OBJECT_RESAMPLED, false},
+                        "triangles of patches", figures);
 }
 
 }  // namespace tetrakis::bench

@@ -46,6 +46,9 @@ struct WaveletHeader {
   bool ring = false;         ///< what the domain says: the last column lies beside the first one
   SharedForest forest = {};  ///< likewise: the raster is that of a forest
 
+  /// Into how many patches the plane falls, each of which has regions of its own.
+  uint32_t patches() const { return forest != nullptr ? forest->patches() : 1; }
+
   /// planes: bit-planes of the coefficients.
   template <class V>
   void visit(V& v, uint8_t& planes) {

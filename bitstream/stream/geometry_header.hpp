@@ -241,20 +241,23 @@ struct GeometryLayers {
 
 /// How many tracks of coefficients there are.
 inline uint64_t coefficientTracks(const GeometryHeader& header) {
-  return regionCount(header.width, header.height, header.regions.side_log2);
+  return regionCount(header.width, header.height, header.regions.side_log2,
+                     header.wavelet.patches());
 }
 
 /// How many tracks of corrections there are.
 inline uint64_t correctionTracks(const GeometryHeader& header, const GeometryLayers& layers) {
   if (layers.corrections == CorrectionKind::kNone) return 0;
-  return finestRegionCount(header.width, header.height, header.regions.side_log2);
+  return finestRegionCount(header.width, header.height, header.regions.side_log2,
+                           header.wavelet.patches());
 }
 
 /// The rectangles of the plane whose corrections are a codeword each, in the order of the tracks;
 /// without such tracks the whole plane.
-inline std::vector<Window> correctionParts(Extent plane, int region_log2) {
-  std::vector<Window> parts = finestRegions(plane.width, plane.height, region_log2);
-  if (parts.empty()) parts.push_back({0, 0, plane.width, plane.height});
+inline std::vector<Window> correctionParts(const GeometryHeader& header) {
+  std::vector<Window> parts = finestRegions(header.width, header.height, header.regions.side_log2,
+                                            header.wavelet.patches());
+  if (parts.empty()) parts.push_back({0, 0, header.width, header.height});
   return parts;
 }
 

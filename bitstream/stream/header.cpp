@@ -34,7 +34,8 @@ TrackCounts trackCounts(const StreamHeader& header) {
       count.tracks =
           coefficientTracks(*header.geometry) + correctionTracks(*header.geometry, header.layers);
     if (one.component == Component::kTexture)
-      count.tracks = regionCount(header.texture->width, header.texture->height, one.region_log2);
+      count.tracks = regionCount(header.texture->width, header.texture->height, one.region_log2,
+                                 header.texture->wavelet.patches());
     counts.add(one.component, count);
   }
   return counts;

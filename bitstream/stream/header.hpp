@@ -128,6 +128,7 @@ struct StreamHeader {
   Metadata metadata;
   Georeference georeference;
   std::vector<IndexEntry> index;  ///< of all packets, ahead of time
+  std::string pages;  ///< root of an index in pages (page_index.hpp), unchecked; empty: none
   /// GroundPositions as bytes; empty: none. No status depends on them.
   std::string height_positions, texture_positions;
   /// The grid that heights on a forest were resampled from; no samples: none.

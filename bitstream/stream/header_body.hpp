@@ -29,7 +29,8 @@ enum BodyPart : uint64_t {
   kSourceGrid = 73,
   kDetails = 74,
   kSketch = 75,
-  kMaterial = 76
+  kMaterial = 76,
+  kPages = 77
 };
 
 inline constexpr size_t kFixedBytes = kMagic.size() + 3;  // magic, version, profile, level
@@ -101,6 +102,7 @@ void visitBody(V& v, StreamHeader& header) {
   });
   v.part(kDetails, hasDetails(header), [&](auto& part) { visitDetails(part, header); });
   whole(kMaterial, header.material);
+  whole(kPages, header.pages);
   v.endParts(header.later_parts);
 }
 

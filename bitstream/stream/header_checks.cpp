@@ -155,7 +155,7 @@ bool hasTwoSteps(uint8_t filter) {
 Status checkForests(const StreamHeader& header) {
   const auto sound = [](const auto& c) {
     if (!c || c->wavelet.forest == nullptr) return true;
-    return c->regions.side_log2 == 0 && c->repeats.none();
+    return c->repeats.none();
   };
   const GeometryLayers& layers = header.layers;
   bool all = sound(header.geometry) && sound(header.texture);
@@ -171,7 +171,7 @@ Status checkForests(const StreamHeader& header) {
            header.texture->bridge == 0;
   if (all) return {};
   return {TKS_CORRUPT,
-          "Corrupt stream: a forest has regions, repeated lines, voids that are not lifted or flat "
+          "Corrupt stream: a forest has repeated lines, voids that are not lifted or flat "
           "areas beside a filter of four steps."};
 }
 

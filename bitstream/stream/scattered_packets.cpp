@@ -34,72 +34,122 @@ ScatteredPackets::ScatteredPackets(const ParsedHeader& parsed, const Demultiplex
     : header_(&parsed.header),
       counts_(taken.counts),
       begin_(parsed.bytes),
-      end_(parsed.bytes + parsed.header.payload_bytes) {
-  const std::optional<PacketHead>& open = taken.end.open;
-  const size_t complete = taken.heads.size() - (open ? 1 : 0);
-  const uint64_t seen = open && !open->whole ? taken.end.seen : 0;
-  std::array<std::map<uint32_t, uint32_t>, kRoles> last;
-  places_.reserve(header_->index.size());
-  for (const IndexedPacket& packet : IndexedPackets(*header_, parsed.bytes)) {
-    const PacketHead& head = packet.entry.packet;
-    const auto number = static_cast<uint32_t>(packet.number);
-    const auto component = static_cast<size_t>(head.component);
-    places_.push_back({packet.begin, kNone});
-    const auto [before, is_first] = last[component].try_emplace(head.track, number);
-    if (!is_first) places_[std::exchange(before->second, number)].next = number;
-    if (number >= complete)
-      frontiers_[component].try_emplace(head.track,
-                                        Frontier{number, number == complete ? seen : 0});
+      end_(parsed.bytes + parsed.header.payload_bytes),
+      front_(parsed.bytes + taken.end.at),
+      front_taken_(0),
+      front_number_(taken.heads.size()) {
+  if (const std::optional<PacketHead>& open = taken.end.open) {
+    front_ -= headSize(*open, counts_);
+    front_taken_ = open->whole ? 0 : taken.end.seen;
+    --front_number_;
   }
+  std::vector<Place> packets;
+  packets.reserve(header_->index.size());
+  for (const IndexedPacket& packet : IndexedPackets(*header_, parsed.bytes))
+    packets.push_back({packet.begin, packet.entry.packet});
+  know(std::move(packets));
 }
 
-/// The packet that a byte behind the header belongs to.
-uint32_t ScatteredPackets::packetAt(uint64_t place) const {
+void ScatteredPackets::know(std::vector<Place>&& packets) {
+  std::array<std::map<uint32_t, Place*>, kRoles> last;
+  for (Place& packet : packets) {
+    const auto component = static_cast<size_t>(packet.head.component);
+    const auto [before, is_first] = last[component].try_emplace(packet.head.track, &packet);
+    if (!is_first) std::exchange(before->second, &packet)->next = packet.begin;
+    if (packet.begin >= front_)
+      frontiers_[component].try_emplace(
+          packet.head.track, Frontier{packet.begin, packet.begin == front_ ? front_taken_ : 0});
+  }
+  std::vector<Place> both(places_.size() + packets.size());
+  std::merge(places_.begin(), places_.end(), packets.begin(), packets.end(), both.begin(),
+             [](const Place& a, const Place& b) { return a.begin < b.begin; });
+  places_ = std::move(both);
+}
+
+size_t ScatteredPackets::packetAt(uint64_t place) const {
   const auto after = std::upper_bound(places_.begin(), places_.end(), place,
                                       [](uint64_t at, const Place& p) { return at < p.begin; });
-  return static_cast<uint32_t>(after - places_.begin()) - (after == places_.begin() ? 0 : 1);
+  return static_cast<size_t>(after - places_.begin()) - (after == places_.begin() ? 0 : 1);
 }
 
-Status ScatteredPackets::checkHead(const Pieces& pieces, uint32_t packet) const {
-  const PacketHead& told = head(packet);
-  const uint64_t begin = places_[packet].begin;
-  if (told.track >= counts_.of(told).tracks)
+Status ScatteredPackets::checkHead(const Pieces& pieces, const Place& packet) const {
+  if (packet.head.track >= counts_.of(packet.head).tracks)
     return {TKS_CORRUPT, "Corrupt stream: its index names a track that there is not."};
-  const std::vector<uint8_t> bytes = headBytes(told, counts_);
-  const std::span<const uint8_t> there = pieces.from(begin);
-  const size_t known = std::min<uint64_t>({bytes.size(), there.size(), end_ - begin});
-  if (told.length > 0 &&
+  std::vector<uint8_t> bytes = headBytes(packet.head, counts_);
+  if (header_->index.empty()) bytes.pop_back();  // the quality
+  const std::span<const uint8_t> there = pieces.from(packet.begin);
+  const size_t known = std::min<uint64_t>({bytes.size(), there.size(), end_ - packet.begin});
+  if (packet.head.length > 0 &&
       std::equal(bytes.begin(), bytes.begin() + static_cast<ptrdiff_t>(known), there.begin()))
     return {};
   return {TKS_CORRUPT, "Corrupt stream: its index does not describe the packet at byte " +
-                           std::to_string(begin) + "."};
+                           std::to_string(packet.begin) + "."};
 }
 
 Status ScatteredPackets::check(const Pieces& pieces, ByteRange range) const {
   const uint64_t end = std::min(range.end, end_);
-  for (uint32_t i = packetAt(range.begin); i < places_.size() && places_[i].begin < end; ++i)
-    if (Status status = checkHead(pieces, i); !status.ok()) return status;
-  const PacketHead& last = head(static_cast<uint32_t>(places_.size() - 1));
+  for (size_t i = packetAt(range.begin); i < places_.size() && places_[i].begin < end; ++i)
+    if (Status status = checkHead(pieces, places_[i]); !status.ok()) return status;
+  if (header_->index.empty()) return {};  // pages that are not known describe the rest
+  const PacketHead& last = places_.back().head;
   const uint64_t told = places_.back().begin + headSize(last, counts_) + last.length;
   if (std::max(range.begin, begin_) >= end || told >= end) return {};
   return {TKS_CORRUPT, "Corrupt stream: its index does not describe the packet at byte " +
                            std::to_string(told) + "."};
 }
 
+Status ScatteredPackets::check(const Pieces& pieces, std::span<const PagedPacket> pages) const {
+  for (const PagedPacket& packet : pages)
+    if (Status status = checkHead(pieces, {packet.begin, packet.head}); !status.ok()) return status;
+  return {};
+}
+
+void ScatteredPackets::take(const Pieces& pieces, std::span<const PagedPacket> pages,
+                            Demultiplexed& out) {
+  std::vector<Place> packets;
+  for (const PagedPacket& packet : pages) packets.push_back({packet.begin, packet.head});
+  know(std::move(packets));
+  auto& frontiers = frontiers_[static_cast<size_t>(Component::kGeometry)];
+  for (const PagedPacket& packet : pages) {
+    const auto frontier = frontiers.find(packet.head.track);
+    if (frontier != frontiers.end() && frontier->second.packet == packet.begin)
+      advance(pieces, frontier->second, out);
+  }
+}
+
 void ScatteredPackets::take(const Pieces& pieces, ByteRange range, Demultiplexed& out) {
   const uint64_t end = std::min(range.end, end_);
-  for (uint32_t i = packetAt(range.begin); i < places_.size() && places_[i].begin < end; ++i) {
-    auto& frontiers = frontiers_[static_cast<size_t>(head(i).component)];
-    const auto frontier = frontiers.find(head(i).track);
-    if (frontier != frontiers.end() && frontier->second.packet == i)
+  for (size_t i = packetAt(range.begin); i < places_.size() && places_[i].begin < end; ++i) {
+    const Place& place = places_[i];
+    auto& frontiers = frontiers_[static_cast<size_t>(place.head.component)];
+    const auto frontier = frontiers.find(place.head.track);
+    if (frontier != frontiers.end() && frontier->second.packet == place.begin)
       advance(pieces, frontier->second, out);
+  }
+}
+
+void ScatteredPackets::takeFront(const Pieces& pieces, const PageIndex& pages, Demultiplexed& out) {
+  for (; front_number_ < out.heads.size(); ++front_number_) {
+    const PacketHead& head = out.heads[front_number_];
+    const uint64_t payload = front_ + headSize(head, counts_);
+    const std::span<const uint8_t> there = pieces.from(std::min(payload, end_));
+    const uint64_t known =
+        std::min<uint64_t>({there.size(), end_ - std::min(payload, end_), head.length});
+    const bool complete = known == head.length;
+    if (!pages.knowsTrack(head.track) && (complete || !head.whole) && known > front_taken_) {
+      add(head, there.subspan(front_taken_, known - front_taken_), out);
+      front_taken_ = known;
+    }
+    if (!complete) return;
+    front_ = payload + head.length;
+    front_taken_ = 0;
   }
 }
 
 void ScatteredPackets::advance(const Pieces& pieces, Frontier& frontier, Demultiplexed& out) {
   while (frontier.packet != kNone) {
-    const PacketHead& packet = head(frontier.packet);
-    const Place& place = places_[frontier.packet];
+    const Place& place = places_[packetAt(frontier.packet)];
+    const PacketHead& packet = place.head;
     const uint64_t payload = place.begin + headSize(packet, counts_);
     const uint64_t from = std::min(payload + frontier.taken, end_);
     std::span<const uint8_t> bytes = pieces.from(from);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ScatteredPackets takes the bytes of a stream as they arrive, in any order, and returns the
-// beginning of each track. IndexedPackets tells it from the front index where each packet lies.
+// beginning of each track. IndexedPackets tells it from the front index where each packet lies, or
+// a PageIndex (page_index.hpp).
 #pragma once
 
 #include <array>
@@ -11,6 +12,7 @@
 
 #include "bitstream/stream/header.hpp"
 #include "bitstream/stream/packet.hpp"
+#include "bitstream/stream/page_index.hpp"
 #include "bitstream/stream/pieces.hpp"
 #include "tetrakis/result.hpp"
 
@@ -67,45 +69,58 @@ class IndexedPackets {
   uint64_t begin_ = 0, end_ = 0;  ///< of the payload
 };
 
-// ScatteredPackets takes apart the packets of a stream with a front index whose bytes come in any
-// order, in time that follows the new bytes. It takes each track up to its first gap, because a
-// codeword is decoded from its beginning.
+// ScatteredPackets takes apart the packets of a stream whose bytes come in any order, in time that
+// follows the new bytes. It takes each track up to its first gap, because a codeword is decoded
+// from its beginning. A front index tells it at once where the packets lie, index pages page by
+// page.
 
-/// What a component's tracks need before any of their coefficients can be told: the first track
+// What a component's tracks need before any of their coefficients can be told: the first track
 /// begins with it.
 uint64_t openingBytes(const StreamHeader& header, Component component);
 
 class ScatteredPackets {
  public:
-  /// taken: what was taken of the stream up to its first gap. The header outlives this.
+  /// taken: what was taken of the stream up to its first gap. Knows the packets of a front index.
+  /// The header outlives this.
   ScatteredPackets(const ParsedHeader& parsed, const Demultiplexed& taken);
 
-  /// The bytes that this takes at most for so many packets of an index.
+  /// The bytes that this takes at most for so many packets that it knows.
   static uint64_t bytesOf(uint64_t packets) {
     constexpr uint64_t kNodes = 128;  // of two maps, of a track that has but one packet
-    return packets * (sizeof(Place) + kNodes);
+    return packets * (2 * sizeof(Place) + kNodes);
   }
 
-  /// TKS_CORRUPT where the index tells another head than that of a packet in the range, as far as
+  /// TKS_CORRUPT where an index tells another head than that of a packet in the range, as far as
   /// that is there, or a track that there is not.
   Status check(const Pieces& pieces, ByteRange range) const;
+  /// The same of packets of pages that are not known yet.
+  Status check(const Pieces& pieces, std::span<const PagedPacket> pages) const;
+
+  /// Knows the packets of pages as well, which come in the order of the stream, and adds to the
+  /// tracks what is there of them. check() has found nothing.
+  void take(const Pieces& pieces, std::span<const PagedPacket> pages, Demultiplexed& out);
 
   /// Adds to the tracks what the range has brought. check() has found nothing.
   void take(const Pieces& pieces, ByteRange range, Demultiplexed& out);
+
+  /// The same of what lies before the first gap, of tracks whose pages are not known. out: has the
+  /// heads of all that.
+  void takeFront(const Pieces& pieces, const PageIndex& pages, Demultiplexed& out);
 
   /// Where a gap is left, the tracks behind the first of a component wait until its opening is
   /// complete: they mean nothing without it. Returns the components of which some were withdrawn.
   std::array<bool, kComponents> settle(bool has_gap, Demultiplexed& out);
 
  private:
+  static constexpr uint64_t kNone = UINT64_MAX;
   struct Place {
-    uint64_t begin;  ///< of the packet in the stream
-    uint32_t next;   ///< the next packet of its track, kNone: it is the last one
+    uint64_t begin;         ///< of the packet in the stream
+    PacketHead head;        ///< pages do not state its quality
+    uint64_t next = kNone;  ///< where the next packet of its track begins
   };
-  static constexpr uint32_t kNone = UINT32_MAX;
   /// The packet that a track goes on with, and how many bytes of it were taken.
   struct Frontier {
-    uint32_t packet;
+    uint64_t packet;  ///< where it begins
     uint64_t taken;
   };
   struct Waiting {
@@ -114,9 +129,11 @@ class ScatteredPackets {
     uint64_t bytes = 0;
   };
 
-  const PacketHead& head(uint32_t packet) const { return header_->index[packet].packet; }
-  uint32_t packetAt(uint64_t place) const;
-  Status checkHead(const Pieces& pieces, uint32_t packet) const;
+  /// Adds packets behind the others, in the order of the stream. All of a track come at once.
+  void know(std::vector<Place>&& packets);
+  /// The number of the packet that a byte behind the header belongs to.
+  size_t packetAt(uint64_t place) const;
+  Status checkHead(const Pieces& pieces, const Place& packet) const;
   void advance(const Pieces& pieces, Frontier& frontier, Demultiplexed& out);
   void add(const PacketHead& head, std::span<const uint8_t> bytes, Demultiplexed& out);
   void exchangeWaiting(size_t component, Demultiplexed& out);
@@ -124,7 +141,11 @@ class ScatteredPackets {
   const StreamHeader* header_;  ///< so that decoders may be moved while they have none of these
   TrackCounts counts_;
   uint64_t begin_, end_;  ///< of the payload
-  std::vector<Place> places_;
+  /// Packets before this one were taken whole before their pages were known, and of this one so
+  /// many bytes.
+  uint64_t front_, front_taken_;
+  size_t front_number_;        ///< of it, among the packets from the beginning
+  std::vector<Place> places_;  ///< of the packets that are known, as they lie in the stream
   std::array<std::map<uint32_t, Frontier>, kRoles> frontiers_;
   std::array<Waiting, kRoles> waiting_;
 };

@@ -51,29 +51,22 @@ std::span<const uint8_t> ShownStream::of(std::span<const uint8_t> bytes) const {
 }
 
 ShownStream shownIn(std::span<const uint8_t> bytes) {
-  ShownStream shown;
-  while (true) {
-    const std::span<const uint8_t> here = shown.of(bytes);
-    const Result<uint64_t> header = headerBytes(here);
-    if (!header.ok() || *header <= here.size()) return shown;
-    const std::optional<ShownStream> sketch = beginningOf(here).sketch;
-    if (!sketch || sketch->begin > here.size()) return shown;
-    shown = {shown.begin + sketch->begin, shown.begin + sketch->end};
-  }
+  const Result<uint64_t> header = headerBytes(bytes);
+  if (!header.ok() || *header <= bytes.size()) return {};
+  const std::optional<ShownStream> sketch = beginningOf(bytes).sketch;
+  return sketch && sketch->begin <= bytes.size() ? *sketch : ShownStream{};
 }
 
 Result<uint64_t> leastBytes(std::span<const uint8_t> bytes) {
-  uint64_t begin = 0;
-  while (true) {
-    const Result<uint64_t> header = headerBytes(bytes);
-    if (!header.ok()) return header.status();
-    const auto [sketch, is_known] = beginningOf(bytes);
-    if (!is_known || (sketch && sketch->begin >= bytes.size()))
-      return begin + std::min<uint64_t>(*header, bytes.size() + 1);
-    if (!sketch) return begin + *header;
-    bytes = sketch->of(bytes);
-    begin += sketch->begin;
-  }
+  const Result<uint64_t> header = headerBytes(bytes);
+  if (!header.ok()) return header.status();
+  const auto [sketch, is_known] = beginningOf(bytes);
+  const uint64_t unknown = std::min<uint64_t>(*header, bytes.size() + 1);
+  if (!is_known || (sketch && sketch->begin >= bytes.size())) return unknown;
+  if (!sketch) return *header;
+  const Result<uint64_t> of_sketch = headerBytes(sketch->of(bytes));
+  if (!of_sketch.ok()) return of_sketch.status();
+  return sketch->begin + *of_sketch;
 }
 
 Result<uint64_t> streamBytes(std::span<const uint8_t> bytes) {

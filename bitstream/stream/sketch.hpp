@@ -21,12 +21,12 @@ struct ShownStream {
 };
 
 /// What is decoded of a stream that begins with these bytes: all, or, as long as its header is not
-/// there, its sketch, likewise the sketch of that one.
+/// there, its sketch.
 ShownStream shownIn(std::span<const uint8_t> bytes);
 
-/// The fewest bytes of the stream that can be decoded: its header, or that of its last sketch, of
-/// those that these bytes tell of. If they end before that is known: a smaller number, but greater
-/// than bytes.size(). TKS_CORRUPT, TKS_UNSUPPORTED.
+/// The fewest bytes of the stream that can be decoded: its header, or up to the end of that of its
+/// sketch. If these bytes end before that is known: a smaller number, but greater than
+/// bytes.size(). TKS_CORRUPT, TKS_UNSUPPORTED.
 Result<uint64_t> leastBytes(std::span<const uint8_t> bytes);
 
 /// What header and payload of the stream take, as its first bytes tell. TKS_TRUNCATED, TKS_CORRUPT,

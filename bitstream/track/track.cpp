@@ -66,61 +66,82 @@ bool takesRegionMasks(Extent plane, int side_log2) {
   return levels > 0 && std::min(plane.width, plane.height) > uint64_t{2} << levels;
 }
 
-std::vector<Region> regionsOf(uint32_t width, uint32_t height, int side_log2) {
-  const std::vector<RegionGroup> groups = regionGroups({width, height}, side_log2);
-  auto level = static_cast<int>(groups.size()) * kRegionLevels;
-  std::vector<Region> regions;
-  regions.reserve(regionCount(width, height, side_log2));
-  regions.push_back({level + 1, Region::kAll, 0, 0, width, height});
-  for (auto group = groups.rbegin(); group != groups.rend(); ++group) {
-    for (uint32_t y = 0; y < group->rows; ++y) {
-      for (uint32_t x = 0; x < group->columns; ++x) {
-        const Window r = group->samplesOf(x, y);
-        regions.push_back(
-            {level - kRegionLevels + 1, level, r.x, r.y, r.x + r.width, r.y + r.height});
+namespace {
+
+/// Of each of the patches of a plane.
+std::vector<RegionGroup> groupsOfPatch(uint32_t width, uint32_t height, int side_log2,
+                                       uint32_t patches) {
+  assert(height % patches == 0);
+  return regionGroups({width, height / patches}, side_log2);
+}
+
+/// Calls visit(samples) for the regions of a group, patch by patch.
+template <class Visit>
+void forEachRegion(const RegionGroup& group, uint32_t patches, const Visit& visit) {
+  for (uint32_t patch = 0; patch < patches; ++patch) {
+    for (uint32_t y = 0; y < group.rows; ++y) {
+      for (uint32_t x = 0; x < group.columns; ++x) {
+        Window samples = group.samplesOf(x, y);
+        samples.y += patch * group.plane.height;
+        visit(samples);
       }
     }
+  }
+}
+
+}  // namespace
+
+std::vector<Region> regionsOf(uint32_t width, uint32_t height, int side_log2, uint32_t patches) {
+  const std::vector<RegionGroup> groups = groupsOfPatch(width, height, side_log2, patches);
+  auto level = static_cast<int>(groups.size()) * kRegionLevels;
+  std::vector<Region> regions;
+  regions.reserve(regionCount(width, height, side_log2, patches));
+  regions.push_back({level + 1, Region::kAll, 0, 0, width, height});
+  for (auto group = groups.rbegin(); group != groups.rend(); ++group) {
+    forEachRegion(*group, patches, [&](const Window& r) {
+      regions.push_back(
+          {level - kRegionLevels + 1, level, r.x, r.y, r.x + r.width, r.y + r.height});
+    });
     level -= kRegionLevels;
   }
-  assert(regions.size() == regionCount(width, height, side_log2));
+  assert(regions.size() == regionCount(width, height, side_log2, patches));
   return regions;
 }
 
-std::vector<Window> finestRegions(uint32_t width, uint32_t height, int side_log2) {
+std::vector<Window> finestRegions(uint32_t width, uint32_t height, int side_log2,
+                                  uint32_t patches) {
   std::vector<Window> regions;
-  const std::vector<RegionGroup> groups = regionGroups({width, height}, side_log2);
+  const std::vector<RegionGroup> groups = groupsOfPatch(width, height, side_log2, patches);
   if (groups.empty()) return regions;
-  const RegionGroup& group = groups.front();
-  regions.reserve(size_t{group.columns} * group.rows);
-  for (uint32_t y = 0; y < group.rows; ++y) {
-    for (uint32_t x = 0; x < group.columns; ++x) regions.push_back(group.samplesOf(x, y));
-  }
+  regions.reserve(finestRegionCount(width, height, side_log2, patches));
+  forEachRegion(groups.front(), patches, [&](const Window& r) { regions.push_back(r); });
   return regions;
 }
 
-std::vector<Region> largestRegions(uint32_t width, uint32_t height, int side_log2) {
+std::vector<Region> largestRegions(uint32_t width, uint32_t height, int side_log2,
+                                   uint32_t patches) {
   std::vector<Region> regions;
   int level = 0;
-  for (const RegionGroup& group : regionGroups({width, height}, side_log2)) {
+  for (const RegionGroup& group : groupsOfPatch(width, height, side_log2, patches)) {
     regions.push_back({level + 1, level + kRegionLevels, 0, 0,
                        longestSide(width, group.columns, group.side_log2),
-                       longestSide(height, group.rows, group.side_log2)});
+                       longestSide(height / patches, group.rows, group.side_log2)});
     level += kRegionLevels;
   }
   regions.push_back({level + 1, Region::kAll, 0, 0, width, height});
   return regions;
 }
 
-uint64_t regionCount(uint32_t width, uint32_t height, int side_log2) {
+uint64_t regionCount(uint32_t width, uint32_t height, int side_log2, uint32_t patches) {
   uint64_t count = 1;
-  for (const RegionGroup& group : regionGroups({width, height}, side_log2))
-    count += uint64_t{group.columns} * group.rows;
+  for (const RegionGroup& group : groupsOfPatch(width, height, side_log2, patches))
+    count += uint64_t{group.columns} * group.rows * patches;
   return count;
 }
 
-uint64_t finestRegionCount(uint32_t width, uint32_t height, int side_log2) {
-  const std::vector<RegionGroup> groups = regionGroups({width, height}, side_log2);
-  return groups.empty() ? 0 : uint64_t{groups.front().columns} * groups.front().rows;
+uint64_t finestRegionCount(uint32_t width, uint32_t height, int side_log2, uint32_t patches) {
+  const std::vector<RegionGroup> groups = groupsOfPatch(width, height, side_log2, patches);
+  return groups.empty() ? 0 : uint64_t{groups.front().columns} * groups.front().rows * patches;
 }
 
 uint32_t BandPlan::members(size_t tier) const {

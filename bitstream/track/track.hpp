@@ -23,7 +23,8 @@ namespace tetrakis::inline track {
 // Every coefficient belongs to a sample of the plane. The finest kRegionLevels levels are split
 // into regions of side 2^s, the next kRegionLevels into regions of side 2^(s + kRegionLevels), and
 // so on, each of about as many coefficients as a region of the finest levels. Where one region
-// would be left it is the base, which holds all the coarser levels as well.
+// would be left it is the base, which holds all the coarser levels as well. Each patch of a forest
+// is divided as a plane of its own, and all patches have one base.
 
 inline constexpr int kRegionLevels = 3;
 inline constexpr int kLeastRegionLog2 = 4;  ///< smallest side 2^s; above kRegionLevels
@@ -65,22 +66,27 @@ std::vector<RegionGroup> regionGroups(Extent plane, int side_log2);
 /// both sides.
 bool takesRegionMasks(Extent plane, int side_log2);
 
-/// The tracks of a plane in the order of their numbers: the base, then the regions from the
-/// coarsest levels to the finest, row by row. side_log2 0: the base alone, with everything.
-std::vector<Region> regionsOf(uint32_t width, uint32_t height, int side_log2);
+// Below, `patches` of a forest lie one below the other in the plane; a grid is one patch.
 
-/// The regions of the finest levels, row by row, each as a rectangle of the plane; none if the base
-/// holds everything.
-std::vector<Window> finestRegions(uint32_t width, uint32_t height, int side_log2);
+/// The tracks of a plane in the order of their numbers: the base, then the regions from the
+/// coarsest levels to the finest, patch by patch and row by row. side_log2 0: the base alone, with
+/// everything.
+std::vector<Region> regionsOf(uint32_t width, uint32_t height, int side_log2, uint32_t patches = 1);
+
+/// The regions of the finest levels in that order, each as a rectangle of the plane; none if the
+/// base holds everything.
+std::vector<Window> finestRegions(uint32_t width, uint32_t height, int side_log2,
+                                  uint32_t patches = 1);
 
 /// For each group of levels a region that no other of the group is larger than, in rows or columns.
-std::vector<Region> largestRegions(uint32_t width, uint32_t height, int side_log2);
+std::vector<Region> largestRegions(uint32_t width, uint32_t height, int side_log2,
+                                   uint32_t patches = 1);
 
 /// How many regionsOf() are.
-uint64_t regionCount(uint32_t width, uint32_t height, int side_log2);
+uint64_t regionCount(uint32_t width, uint32_t height, int side_log2, uint32_t patches = 1);
 
 /// How many finestRegions() are.
-uint64_t finestRegionCount(uint32_t width, uint32_t height, int side_log2);
+uint64_t finestRegionCount(uint32_t width, uint32_t height, int side_log2, uint32_t patches = 1);
 
 // A track is one codeword that holds bands of one component (heights, or texture): all of its
 // bands, or the parts of them in one region.

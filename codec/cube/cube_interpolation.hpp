@@ -59,7 +59,9 @@ class CubeInterpolation {
 
   CubeCell cellAt(const CubePlace& place) const;
   CubeTaps taps(const CubeCell& cell) const;
-  float at(std::span<const float> samples, const CubeCell& cell) const {
+  /// samples[i]: sample i of the raster, of those that taps() names.
+  template <class Samples>
+  float at(const Samples& samples, const CubeCell& cell) const {
     float sum = 0;
     taps(cell).forEach([&](uint32_t sample, float weight) { sum += weight * samples[sample]; });
     return sum;

@@ -105,7 +105,7 @@ DecodedGeometry decodeCoefficients(const GeometryHeader& header, const Codewords
   const PlaneLayout layout = layoutOf(
       header, known.lifted ? SampleMarks(*known.lifted) : known.valid, flat, context.memory);
   const std::vector<Region> regions =
-      regionsOf(header.width, header.height, header.regions.side_log2);
+      regionsOf(header.width, header.height, header.regions.side_log2, header.wavelet.patches());
   assert(codewords.size() == regions.size());
   ViewSynthesis synthesis(specOf(header.wavelet), layout.pyramid(), view);
   synthesis.allocate();

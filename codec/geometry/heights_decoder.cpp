@@ -182,10 +182,11 @@ DecodedHeights decodeTaken(const TakenLayers& taken, DecodedView& view,
 }
 
 /// What of the coded lines is decoded for a view of them.
-View decodedLines(const GeometryHeader& header, const View& view) {
+View decodedLines(const GeometryHeader& header, const GeometryLayers& layers, const View& view) {
   // The lattice of a drawing is that of the raster, whose levels are not those of patches.
   if (header.drawn && header.wavelet.forest != nullptr) return {};
-  return wholeIfForest(header, view);
+  const bool corrected = view.level == 0 && layers.corrections != CorrectionKind::kNone;
+  return viewOnForest(header, view, !header.stored() && layers.validity_bytes == 0 && !corrected);
 }
 
 /// Samples that several patches share become what they are in the patch that owns them.
@@ -206,9 +207,9 @@ DecodedHeights decodeLines(const TakenLayers& taken, const View& view,
                            const DecodeContext<HeightsMemory>& context) {
   assert(view.level == 0 || taken.header.wavelet.forest == nullptr ||
          view.patch_rows == taken.header.wavelet.forest->side());
-  DecodedView all{decodedLines(taken.header, view)};
+  DecodedView all{decodedLines(taken.header, taken.stated, view)};
   DecodedHeights decoded = decodeTaken(taken, all, context);
-  share(taken.header, decoded);
+  if (!all.view.window) share(taken.header, decoded);
   const Extent plane = taken.header.extent();
   if (all.view.extentIn(plane) == view.extentIn(plane)) return decoded;
   View shown = view;
@@ -245,7 +246,7 @@ std::vector<uint8_t> decodeValidityLayer(const GeometryHeader& header, const Geo
 
 View decodedView(const GeometryHeader& header, const GeometryLayers& layers, const View& view) {
   if (header.direct()) return {};
-  return correctedView(header, layers, wholeIfForest(header, view));
+  return correctedView(header, layers, decodedLines(header, layers, view));
 }
 
 DecodedHeights decodeHeights(const GeometryHeader& header, const GeometryLayers& layers,

@@ -64,7 +64,8 @@ std::vector<EncodedTrack> encodeCoefficients(const PlaneView<const int32_t>& hei
       priorities);
   Transformed of{layout, transformed(heights, wavelet, layout, options.threads),
                  options.share * portable::exp2(-2 * wavelet.fraction_bits), worthOf(priorities)};
-  const std::vector<Region> regions = regionsOf(heights.width, heights.height, options.region_log2);
+  const std::vector<Region> regions =
+      regionsOf(heights.width, heights.height, options.region_log2, wavelet.patches());
   assert(!regions.empty());
   const auto source_of = [&](size_t region) { return of.sourceOf(regions[region]); };
   const TrackOptions tracks{options.limit, options.threads, options.enough};

@@ -142,8 +142,7 @@ View correctedView(const GeometryHeader& header, const GeometryLayers& layers, c
   const bool corrects = view.level == 0 && layers.corrections != CorrectionKind::kNone;
   if (!view.window || !corrects) return view;
   if (correctionTracks(header, layers) > 0)
-    return {0,
-            partsAround(correctionParts(header.extent(), header.regions.side_log2), *view.window)};
+    return {0, partsAround(correctionParts(header), *view.window)};
   // Hints of steps know the row below.
   const uint32_t hints = layers.corrections == CorrectionKind::kSteps ? 1 : 0;
   const uint32_t rows = std::min(view.window->y + view.window->height + hints, header.height);
@@ -161,8 +160,7 @@ DecodedHeights corrected(DecodedHeights decoded, const TakenLayers& taken, const
     return correctedPart(std::move(decoded), header, stated, taken.corrections.front());
   }
   const std::vector<ShownPart> parts =
-      shownParts(correctionParts(header.extent(), header.regions.side_log2), taken.corrections,
-                 view, decoded.geometry.extent());
+      shownParts(correctionParts(header), taken.corrections, view, decoded.geometry.extent());
   if (parts.empty()) return decoded;
   decoded.geometry.quiet_levels = 0;
   if (stated.restoresSamples()) decoded.corrections.resize(decoded.geometry.heights.size());

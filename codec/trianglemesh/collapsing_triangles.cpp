@@ -140,6 +140,17 @@ void CollapsingTriangles::collapse(const Star& star, size_t target) {
   corner_of_[star.centre] = kNone;
 }
 
+LeftTriangles CollapsingTriangles::left() const {
+  LeftTriangles out;
+  for (uint32_t triangle = 0; triangle < mesh_.vertices.size() / 3; ++triangle) {
+    if (isGone(triangle)) continue;
+    out.triangles.push_back(triangle);
+    for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner)
+      out.vertices.push_back(mesh_.vertices[corner]);
+  }
+  return out;
+}
+
 CodedTriangles CollapsingTriangles::rest() const {
   CodedTriangles out;
   std::vector<uint32_t> numbers(corner_of_.size(), kNone);

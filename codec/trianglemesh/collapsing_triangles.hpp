@@ -42,6 +42,12 @@ struct WedgeHeirs {
   }
 };
 
+/// What is left of a mesh, by the numbers that it had.
+struct LeftTriangles {
+  std::vector<uint32_t> triangles;  ///< in the order that they had
+  std::vector<uint32_t> vertices;   ///< three of each
+};
+
 class CollapsingTriangles {
  public:
   static constexpr uint32_t kNone = UINT32_MAX;  ///< instead of a corner, or a vertex
@@ -73,6 +79,8 @@ class CollapsingTriangles {
 
   /// What is left, with numbers in the order of first use, without cut sides.
   CodedTriangles rest() const;
+  /// The same by the numbers that it had.
+  LeftTriangles left() const;
 
  private:
   uint32_t firstOf(uint32_t begin) const;

@@ -38,7 +38,8 @@ class Thinning {
     }
   }
 
-  CodedTriangles run(uint64_t most) {
+  /// Until at most so many triangles are left.
+  const CollapsingTriangles& run(uint64_t most) {
     const size_t vertices = triangles_.mesh().places.size();
     while (left_ > most) {
       const uint32_t cheapest = heap_.cheapest();
@@ -49,7 +50,7 @@ class Thinning {
       else
         keepLargest(most);
     }
-    return triangles_.rest();
+    return triangles_;
   }
 
  private:
@@ -207,7 +208,11 @@ class Thinning {
 
 CodedTriangles fewerTriangles(CodedTriangles mesh, uint64_t most) {
   if (mesh.vertices.size() / 3 <= most) return mesh;
-  return Thinning(std::move(mesh)).run(most);
+  return Thinning(std::move(mesh)).run(most).rest();
+}
+
+LeftTriangles leftTriangles(CodedTriangles mesh, uint64_t most) {
+  return Thinning(std::move(mesh)).run(most).left();
 }
 
 }  // namespace tetrakis::inline trianglemesh

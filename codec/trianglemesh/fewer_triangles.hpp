@@ -13,6 +13,7 @@
 #include <cstdint>
 
 #include "codec/trianglemesh/coded_triangles.hpp"
+#include "codec/trianglemesh/collapsing_triangles.hpp"
 
 namespace tetrakis::inline trianglemesh {
 
@@ -21,5 +22,8 @@ namespace tetrakis::inline trianglemesh {
 /// ball four triangles, a ring some ten). Takes a time of n log n, and up to 300 bytes a triangle,
 /// the mesh among them.
 CodedTriangles fewerTriangles(CodedTriangles mesh, uint64_t most);
+
+/// The same triangles by the numbers that they and their vertices have in the mesh.
+LeftTriangles leftTriangles(CodedTriangles mesh, uint64_t most);
 
 }  // namespace tetrakis::inline trianglemesh

@@ -105,21 +105,40 @@ PlaneLayout::PlaneLayout(const WaveletSpec& spec, Pyramid pyramid, const Priorit
   if (!priorities.empty()) priorities_.emplace(priorities);
 }
 
+namespace {
+
+/// The subbands of the patch that a region lies in; the base lies in all patches.
+std::pair<size_t, size_t> subbandsAt(std::span<const Subband> subbands, const Region& region) {
+  if (region.isBase()) return {0, subbands.size()};
+  const auto before = [](uint32_t row, const Subband& subband) { return row < subband.patch_row; };
+  const auto end = std::upper_bound(subbands.begin(), subbands.end(), region.y0, before);
+  const auto is_above = [&](const Subband& subband) { return subband.patch < end[-1].patch; };
+  const auto begin = std::partition_point(subbands.begin(), end, is_above);
+  return {static_cast<size_t>(begin - subbands.begin()),
+          static_cast<size_t>(end - subbands.begin())};
+}
+
+}  // namespace
+
 std::vector<BandPart> partsOf(std::span<const Subband> subbands, const Region& region) {
   std::vector<BandPart> parts;
-  for (size_t i = 0; i < subbands.size(); ++i) {
+  const auto [first, behind] = subbandsAt(subbands, region);
+  // A region lies in one patch, and the base in all rows of all.
+  const uint32_t above = region.isBase() ? 0 : subbands[first].patch_row;
+  for (size_t i = first; i < behind; ++i) {
     const Subband& subband = subbands[i];
     if (!(subband.orientation == Orientation::kLL ? region.isBase() : region.holds(subband.level)))
       continue;
     // Sides of regions are multiples of 2^splits, so that low and high bands are cut alike.
     const auto range = [](uint32_t begin, uint32_t end, int splits, uint32_t size) {
-      const uint32_t first = std::min(begin >> splits, size);
+      const uint32_t start = std::min(begin >> splits, size);
       const uint64_t round_up = (uint64_t{1} << splits) - 1;
       const auto last = static_cast<uint32_t>(std::min<uint64_t>((end + round_up) >> splits, size));
-      return std::pair(first, last - first);
+      return std::pair(start, last - start);
     };
     const auto [column, columns] = range(region.x0, region.x1, subband.splits_x, subband.width);
-    const auto [row, rows] = range(region.y0, region.y1, subband.splits_y, subband.height);
+    const auto [row, rows] =
+        range(region.y0 - above, region.y1 - above, subband.splits_y, subband.height);
     parts.push_back({i, column, row, columns, rows});
   }
   return parts;

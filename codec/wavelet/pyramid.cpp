@@ -34,7 +34,7 @@ Pyramid::Pyramid(SampleMarks valid, Extent plane, HeldSamples held, int most_lev
 }
 
 Pyramid::Pyramid(const Forest& forest, HeldSamples held)
-    : valid_(shared(ownedSamples(forest))),
+    : owned_(std::make_shared<const OwnedSides>(forest)),
       held_(held),
       lows_{{{forest.side(), forest.side()}, forest.side(), 0, 0}} {
   splitAll(kMaxLevels);
@@ -53,7 +53,7 @@ Pyramid::Pyramid(const Forest& forest, HeldSamples held)
 
 uint64_t Pyramid::bytesOf(const Forest& forest) {
   const size_t of_patch = Pyramid({forest.side(), forest.side()}).subbands().size();
-  return BitPlane::bytesOf(forest.raster()) + forest.patches() * of_patch * sizeof(Subband);
+  return forest.patches() * (sizeof(uint16_t) + of_patch * sizeof(Subband));
 }
 
 void Pyramid::splitAll(int most_levels) {

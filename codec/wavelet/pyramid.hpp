@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -95,13 +96,14 @@ class Pyramid {
   static uint64_t bytesOf(const Forest& forest);
 
   Extent plane() const { return lows_.front().extent; }
-  bool allExist() const { return valid_.allExist(); }
-  /// Of a pyramid whose marks are those of the whole plane.
+  bool allExist() const { return owned_ == nullptr && valid_.allExist(); }
+  /// Of a pyramid whose marks are those of the whole plane, and of no forest.
   bool exists(uint32_t x, uint32_t y) const { return allExist() || valid_.whole()->at(x, y); }
   /// Which samples exist of 32 coefficients of a row of a band, the first of which belongs to the
   /// sample (x, y).
   uint32_t existing(const Subband& band, uint32_t x, uint32_t y) const {
     if (allExist()) return ~uint32_t{0};
+    if (owned_ != nullptr) return owned_->every(band.splits_x, band.patch, x, y - band.patch_row);
     const int split = band.orientation == Orientation::kLL ? band.level : band.level - 1;
     return valid_.every(split, band.splits_x, x, y);
   }
@@ -144,6 +146,7 @@ class Pyramid {
   void addSubbands(int level);
 
   SampleMarks valid_;
+  std::shared_ptr<const OwnedSides> owned_;  ///< of a forest; else null
   HeldSamples held_;
   std::vector<LowBand> lows_;
   std::vector<Subband> subbands_;

@@ -33,13 +33,21 @@ uint64_t TrackNeeds::ofBands(const std::vector<BandPart>& parts) const {
   return sum;
 }
 
-/// Each patch has bands of its own, many of them small, and all are in one track.
+/// Each patch has bands of its own, many of them small, and all patches are in the base.
 uint64_t TrackNeeds::ofForest() const {
   const Pyramid patch({forest->side(), forest->side()});
-  const Region whole = largestRegions(plane.width, plane.width, 0).front();
-  const uint64_t bands = ofBands(partsOf(patch.subbands(), whole));
+  std::vector<Region> regions =
+      largestRegions(plane.width, plane.height, side_log2, forest->patches());
+  const uint64_t bands = ofBands(partsOf(patch.subbands(), regions.back()));
   const uint64_t each = bands + kBand * (planes + 1) * patch.subbands().size();
-  return kOnce + forest->patches() * each;
+  const uint64_t base = kOnce + forest->patches() * each;
+  regions.pop_back();
+  uint64_t most = 0;
+  for (const Region& region : regions)
+    most = std::max(most, kOnce + ofBands(partsOf(patch.subbands(), region)));
+  const uint64_t others = regionCount(plane.width, plane.height, side_log2, forest->patches()) - 1;
+  const uint64_t at_a_time = std::clamp<uint64_t>(threads, 1, others + 1);
+  return kept ? base + others * most : std::max(base, most) + (at_a_time - 1) * most;
 }
 
 uint64_t TrackNeeds::bytes() const {

@@ -72,10 +72,10 @@ inline Pyramid pyramidOf(const WaveletSpec& spec, SampleMarks lifted, Extent pla
   return {std::move(lifted), plane, held};
 }
 
-/// What is decoded for a view: a forest has no windows of its own, since lines go on in other
-/// patches.
-inline View wholeIfForest(const auto& header, const View& view) {
-  return header.wavelet.forest != nullptr && view.window ? View{} : view;
+/// What is decoded for a view: windows of a forest only if its samples are made of coefficients
+/// alone, which find the owners of shared samples in other patches.
+inline View viewOnForest(const auto& header, const View& view, bool of_coefficients) {
+  return header.wavelet.forest != nullptr && view.window && !of_coefficients ? View{} : view;
 }
 
 // specOf(), unroundedBits() and fractionBitsOf() turn the fields of a stream header about the

@@ -166,6 +166,10 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"region_masks_bounded_200x150",
      "corrections of steps, fraction bits, heights by wavelet, levels of several filters, masks of "
      "regions, nodata, regions of heights, voids"},
+    {"index_pages_200x150",
+     "corrections of steps, fraction bits, heights by wavelet, index pages, levels of several "
+     "filters, masks of regions, nodata, regions of heights, voids"},
+    {"index_pages_stray_9x9", "heights by wavelet, index pages, levels of several filters"},
     {"noise_region_masks_200x150",
      "exact corrections, heights by wavelet, levels of several filters, masks of regions, nodata, "
      "regions of heights, voids"},
@@ -205,6 +209,17 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"forest_joint_9x54_17x102",
      "doubled low bands, forest of heights, forest of texels, heights by wavelet, levels of "
      "several filters, shears of coefficients, texture by wavelet"},
+    {"forest_regions_cube_33x198",
+     "doubled low bands, forest of heights, heights by wavelet, regions of heights"},
+    {"forest_regions_bounded_65x130",
+     "corrections of steps, forest of heights, fraction bits, heights by wavelet, regions of "
+     "heights"},
+    {"forest_regions_groups_257x257",
+     "forest of heights, fraction bits, heights by wavelet, levels of several filters, regions of "
+     "heights"},
+    {"forest_regions_joint_33x66_65x130",
+     "forest of heights, forest of texels, fraction bits, heights by wavelet, index, regions of "
+     "heights, regions of texels, texture by wavelet"},
     {"object_torus_9x144", "base mesh, forest of heights, fraction bits, heights by wavelet"},
     {"object_open_17x68",
      "base mesh, corrections of steps, forest of heights, fraction bits, heights by wavelet"},
@@ -426,6 +441,10 @@ constexpr std::pair<std::string_view, std::string_view> kStated[] = {
     {"components_cut_40x30",
      "details, doubled low bands, further components, georeference, heights by wavelet, levels of "
      "several filters, shears of coefficients, texture by wavelet"},
+    {"material_9x54_17x102",
+     "base mesh, details, doubled low bands, forest of heights, forest of texels, "
+     "further components, heights by wavelet, levels of several filters, shears of coefficients, "
+     "texture by wavelet"},
     {"components_index_70x60",
      "details, doubled low bands, further components, heights by wavelet, index, regions of "
      "heights"},

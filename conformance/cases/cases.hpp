@@ -37,6 +37,7 @@ std::vector<VectorCase> storedCases();
 std::vector<VectorCase> regionCases();
 std::vector<VectorCase> cylinderCases();
 std::vector<VectorCase> forestCases();
+std::vector<VectorCase> dividedForestCases();
 std::vector<VectorCase> toldCases();
 std::vector<VectorCase> placedCases();
 std::vector<VectorCase> damagedCases();

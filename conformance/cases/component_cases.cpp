@@ -176,10 +176,32 @@ std::vector<VectorCase> craftedDetails() {
                    second(40, {1}))};
 }
 
+/// An object with a texture, and on the same patches a map of its material, whose factors the
+/// header says.
+VectorCase mappedCase() {
+  VectorCase object;
+  for (VectorCase& one : objectCases())
+    if (one.texture && !one.corners.empty()) object = std::move(one);
+  VectorCase shade = textureCase(
+      "", "", {Pattern::kChecker, object.texture->width, object.texture->height, 1, TKS_U8, 5},
+      budget(700));
+  shade.sides = object.sides;
+  const Bytes stream = combined({{nullptr, object}, {"occlusion", shade}}, 0);
+  const Result<ParsedHeader> parsed = readHeader(stream);
+  if (!parsed.ok()) return crafted("material_9x54_17x102", "", {});
+  StreamHeader header = parsed->header;
+  header.material = R"({"occlusionTexture":{"strength":0.5}})";
+  Bytes made = writeHeader(header);
+  made.insert(made.end(), stream.begin() + static_cast<ptrdiff_t>(parsed->bytes), stream.end());
+  return crafted("material_9x54_17x102", "a map on the patches of an object, and its factors",
+                 made);
+}
+
 }  // namespace
 
 std::vector<VectorCase> componentCases() {
   std::vector<VectorCase> all = combinedCases();
+  all.push_back(mappedCase());
   for (VectorCase& next : craftedDetails()) all.push_back(std::move(next));
   return all;
 }

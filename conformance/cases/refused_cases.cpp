@@ -350,11 +350,6 @@ const Refusal kRefusals[] = {
     {"texels", "a texture of signed samples",
      [](StreamHeader& h) { h = textureHeader(9, 9, 1, TKS_I8, 8); }},
     {"forest_patches", "a forest of 4097 patches", [](StreamHeader& h) { plant(h, 4097); }},
-    {"forest_regions", "a forest in regions",
-     [](StreamHeader& h) {
-       plant(h, 20);
-       h.geometry->regions.side_log2 = 4;
-     }},
     {"forest_flat", "a forest with flat areas beside a filter of four steps",
      [](StreamHeader& h) {
        plant(h, 2);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bitstream/stream/page_index.hpp"
 #include "conformance/cases/case_builders.hpp"
 #include "conformance/cases/cases.hpp"
 #include "conformance/cases/crafted_streams.hpp"
@@ -50,7 +51,7 @@ class SmallMosaic {
     const tks_mosaic_files files{sizeof files, readFile, fileSize, writeFile, this};
     for (const tks_tile& tile : tiles)
       tks_mosaic_code(plan.data, plan.size, tile, &source, &files, 1, nullptr, 0);
-    tks_mosaic_merge(plan.data, plan.size, &files, TKS_INDEX_NONE, writeAt, this, nullptr, 0);
+    tks_mosaic_merge(plan.data, plan.size, &files, nullptr, writeAt, this, nullptr, 0);
     tks_free_buffer(&plan);
     return stream_;
   }
@@ -138,14 +139,42 @@ VectorCase noisyMasks() {
                  streamOf(header, tracks));
 }
 
+/// The stream with an index in pages behind it.
+Bytes inPages(const Bytes& stream) {
+  Result<ParsedHeader> parsed = readHeader(stream);
+  StreamHeader& header = parsed->header;
+  const std::span<const uint8_t> payload = std::span(stream).subspan(parsed->bytes);
+  const auto packets = demultiplex(payload, parsed->bytes, trackCounts(header));
+  std::vector<IndexEntry> index;
+  for (const PacketHead& head : packets->heads)
+    index.push_back({head, static_cast<uint8_t>(255 - index.size() % 200)});
+  const WrittenPages pages = writePages(header, index);
+  header.pages = pages.root;
+  Bytes paged = writeHeader(header);
+  append(paged, Bytes(payload.begin(), payload.end()));
+  append(paged, pages.records);
+  return paged;
+}
+
+/// Index pages of a stream that cannot have them.
+VectorCase strayPages() {
+  StreamHeader header = heightsHeader(9, 9, TKS_I16, 8);
+  header.pages = "no root";
+  return crafted("index_pages_stray_9x9", "index pages that decoders ignore",
+                 streamOf(header, noise(60, 216)));
+}
+
 }  // namespace
 
 std::vector<VectorCase> regionMaskCases() {
   SmallMosaic lossless(coast()), bounded(coast());
-  return {crafted("region_masks_200x150", "masks of regions, two groups", lossless.encode(0)),
+  const Bytes masks = lossless.encode(0), corrected = bounded.encode(1);
+  return {crafted("region_masks_200x150", "masks of regions, two groups", masks),
           crafted("region_masks_bounded_200x150", "masks of regions, corrections behind a cut",
-                  bounded.encode(1)),
-          noisyMasks()};
+                  corrected),
+          crafted("index_pages_200x150", "an index in pages, of corrections as well",
+                  inPages(corrected)),
+          strayPages(), noisyMasks()};
 }
 
 }  // namespace tetrakis::conformance

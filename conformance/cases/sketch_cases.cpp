@@ -56,7 +56,7 @@ std::vector<VectorCase> sketchCases() {
   unsound[unsound.size() - 21] = 0xFE;  // the head of its packet: a component that is not there
   return {
       crafted("sketch_33x33", "a sketch of other samples", sketched(33, heights(9, 90, 266), 267)),
-      crafted("sketch_twice_33x33", "a sketch that begins with a sketch",
+      crafted("sketch_twice_33x33", "a sketch that begins with a sketch, which nobody shows",
               sketched(33, sketched(17, heights(5, 30, 268), 269), 270)),
       crafted("sketch_unsound_20x20", "a sketch whose packet is corrupt",
               sketched(20, unsound, 271)),

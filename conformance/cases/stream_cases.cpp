@@ -96,6 +96,30 @@ std::vector<VectorCase> cylinderCases() {
           round(joint)};
 }
 
+/// Patches that have regions of their own.
+std::vector<VectorCase> dividedForestCases() {
+  const std::vector<uint32_t> cube(tks_cube_sides(), tks_cube_sides() + 24),
+      octahedron = {5, 4, 7, 6, 1, 0, 3, 2}, torus = {2, 3, 0, 1};
+  const auto on = [](const std::vector<uint32_t>& sides, VectorCase vector_case) {
+    vector_case.sides = sides;
+    return vector_case;
+  };
+  VectorCase joint =
+      heightsCase("forest_regions_joint_33x66_65x130", "regions of heights and texture, index",
+                  {Pattern::kRidges, 33, 66, 1, TKS_I16}, indexed(inRegions(budget(9000), 16)));
+  joint.texture = Recipe{Pattern::kRidges, 65, 130, 3, TKS_U8, 7};
+  return {on(cube, heightsCase("forest_regions_cube_33x198", "regions of the patches of a cube",
+                               {Pattern::kRidges, 33, 198, 1, TKS_I16}, inRegions(lossless(), 16))),
+          on(octahedron,
+             heightsCase("forest_regions_bounded_65x130",
+                         "corrections of steps, of the regions of patches",
+                         {Pattern::kRidges, 65, 130, 1, TKS_I16}, inRegions(maxError(900), 32))),
+          on(torus,
+             heightsCase("forest_regions_groups_257x257", "two groups of regions of a patch",
+                         {Pattern::kRidges, 257, 257, 1, TKS_U8, 40}, inRegions(budget(2500), 16))),
+          on(octahedron, joint)};
+}
+
 /// Patches whose sides are glued: with turned sides, corners of one to five patches, borders.
 std::vector<VectorCase> forestCases() {
   constexpr uint32_t kNone = TKS_BORDER;

@@ -91,6 +91,7 @@ Tools toolsOf(std::span<const uint8_t> stream) {
   if (header.triangle_mesh.texcoord_bits > 0) tools.insert("texcoords");
   if (!header.sketch.empty()) tools.insert("sketch");
   if (!header.index.empty()) tools.insert("index");
+  if (!header.pages.empty()) tools.insert("index pages");
   if (header.georeference.heights.has_transform || header.georeference.texture.has_transform)
     tools.insert("georeference");
   if (!header.height_positions.empty() || !header.texture_positions.empty())
@@ -130,6 +131,7 @@ Tools allTools() {
           "heights by wavelet",
           "hidden colours",
           "index",
+          "index pages",
           "late mask",
           "levels of several filters",
           "masks of regions",

@@ -21,6 +21,7 @@ std::vector<VectorCase> vectorCases() {
   for (VectorCase& next : frameCases()) all.push_back(std::move(next));
   for (VectorCase& next : cylinderCases()) all.push_back(std::move(next));
   for (VectorCase& next : forestCases()) all.push_back(std::move(next));
+  for (VectorCase& next : dividedForestCases()) all.push_back(std::move(next));
   for (VectorCase& next : objectCases()) all.push_back(std::move(next));
   for (VectorCase& next : triangleCases()) all.push_back(std::move(next));
   for (VectorCase& next : sparseCases()) all.push_back(std::move(next));

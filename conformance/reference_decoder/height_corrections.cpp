@@ -113,7 +113,8 @@ template <class Correct>
 void correctParts(const GeometryHeader& header,
                   const std::vector<std::span<const uint8_t>>& codewords, Correctable& whole,
                   const Correct& correct) {
-  const auto regions = finestRegionsOf(header.width, header.height, header.regions.log2);
+  const auto regions = finestRegionsOf(header.width, header.height, header.regions.log2,
+                                       header.wavelet.domain.forest.patches());
   if (regions.empty()) correct(codewords.at(0), whole);
   for (size_t i = 0; i < regions.size(); ++i) {
     Correctable part = partOf(whole, regions[i]);

@@ -106,7 +106,8 @@ std::vector<uint8_t> decodeHeights(const GeometryHeader& header, const Layers& l
   level = std::min(level, subbandsOf(header.width, header.height).front().level);
   if (header.frames.count > 0) return decodeHeightFrames(header, layers, codewords, level);
   const FirstTrack track = takeApart(layers, codewords.at(0));
-  const auto regions = regionsOf(header.width, header.height, header.regions.log2);
+  const auto regions = regionsOf(header.width, header.height, header.regions.log2,
+                                 header.wavelet.domain.forest.patches());
   const auto behind = codewords.begin() + regions.size();
   std::vector<std::span<const uint8_t>> coefficients(codewords.begin(), behind);
   coefficients[0] = track.coefficients;

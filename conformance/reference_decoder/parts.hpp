@@ -107,7 +107,7 @@ bool hasTooManyTiles(const Header& c) {
 /// FORMAT 2: whether heights and textures may both have this on a forest.
 template <class Header>
 bool suitsForest(const Header& c) {
-  return c.wavelet.domain.forest.isGrid() || (c.regions.log2 == 0 && c.lines.columns.empty());
+  return c.wavelet.domain.forest.isGrid() || c.lines.columns.empty();
 }
 
 /// FORMAT 8.3: the size becomes that of the coded lines.

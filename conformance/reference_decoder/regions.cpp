@@ -14,16 +14,19 @@ int64_t countOf(int side, int s) {
   return std::max<int64_t>(1, (side + (int64_t{1} << (s - 1))) >> s);
 }
 
-/// The regions of group g, row by row.
-std::vector<Region> groupOf(int width, int height, int log2, int g) {
+/// The regions of group g, of each patch row by row.
+std::vector<Region> groupOf(int width, int height, int log2, int g, int patches) {
   const int s = log2 + kGroupLevels * g;
-  const int64_t columns = countOf(width, s), rows = countOf(height, s);
+  const int64_t patchRows = height / patches;
+  const int64_t columns = countOf(width, s), rows = countOf(height / patches, s);
   std::vector<Region> regions;
-  for (int64_t y = 0; y < rows; ++y) {
-    for (int64_t x = 0; x < columns; ++x) {
-      regions.push_back({false, kGroupLevels * g + 1, kGroupLevels * (g + 1), x << s, y << s,
-                         x == columns - 1 ? width : (x + 1) << s,
-                         y == rows - 1 ? height : (y + 1) << s});
+  for (int64_t top = 0; top < height; top += patchRows) {
+    for (int64_t y = 0; y < rows; ++y) {
+      for (int64_t x = 0; x < columns; ++x) {
+        regions.push_back({false, kGroupLevels * g + 1, kGroupLevels * (g + 1), x << s,
+                           top + (y << s), x == columns - 1 ? width : (x + 1) << s,
+                           top + (y == rows - 1 ? patchRows : (y + 1) << s)});
+      }
     }
   }
   return regions;
@@ -38,11 +41,11 @@ int groupsOf(int width, int height, int log2) {
   return groups;
 }
 
-std::vector<Region> regionsOf(int width, int height, int log2) {
+std::vector<Region> regionsOf(int width, int height, int log2, int patches) {
   std::vector<std::vector<Region>> groups;
   for (int g = 0; log2 > 0; ++g) {
-    std::vector<Region> group = groupOf(width, height, log2, g);
-    if (group.size() == 1) break;
+    std::vector<Region> group = groupOf(width, height, log2, g, patches);
+    if (group.size() == static_cast<size_t>(patches)) break;
     groups.push_back(std::move(group));
   }
   const int first = kGroupLevels * static_cast<int>(groups.size()) + 1;
@@ -53,15 +56,16 @@ std::vector<Region> regionsOf(int width, int height, int log2) {
   return regions;
 }
 
-std::vector<Region> finestRegionsOf(int width, int height, int log2) {
-  std::vector<Region> regions = regionsOf(width, height, log2);
+std::vector<Region> finestRegionsOf(int width, int height, int log2, int patches) {
+  std::vector<Region> regions = regionsOf(width, height, log2, patches);
   std::erase_if(regions, [](const Region& region) { return region.base || region.firstLevel > 1; });
   return regions;
 }
 
 namespace {
 
-std::vector<Part> partsIn(const std::vector<Subband>& subbands, const Region& region) {
+/// Of a patch whose first row is `top`.
+std::vector<Part> partsIn(const std::vector<Subband>& subbands, const Region& region, int top) {
   std::vector<Part> parts;
   for (const Subband& subband : subbands) {
     const bool later = region.base || subband.level <= region.lastLevel;
@@ -70,8 +74,9 @@ std::vector<Part> partsIn(const std::vector<Subband>& subbands, const Region& re
     if (!held) continue;
     Part part;
     part.subband = subband;
+    part.top = top;
     const auto left = [&](int a) { return subband.x(a) < region.x0; };
-    const auto above = [&](int r) { return subband.y(r) < region.y0; };
+    const auto above = [&](int r) { return top + subband.y(r) < region.y0; };
     while (part.firstColumn < subband.columns && left(part.firstColumn)) ++part.firstColumn;
     while (part.firstRow < subband.rows && above(part.firstRow)) ++part.firstRow;
     while (part.firstColumn + part.columns < subband.columns && part.x(part.columns) < region.x1)
@@ -89,13 +94,12 @@ std::vector<std::vector<Part>> partsOf(const Forest& forest, int width, int heig
   const int rows = height / forest.patches();
   const std::vector<Subband> subbands = subbandsOf(width, rows);
   std::vector<std::vector<Part>> tracks;
-  for (const Region& region : regionsOf(width, height, header.log2)) {
+  for (const Region& region : regionsOf(width, height, header.log2, forest.patches())) {
     std::vector<Part>& track = tracks.emplace_back();
     for (int top = 0; top < height; top += rows) {
-      for (Part& part : partsIn(subbands, region)) {
-        part.top = top;
-        track.push_back(part);
-      }
+      const bool there = region.base || (region.y0 >= top && region.y0 < top + rows);
+      const std::vector<Part> parts = there ? partsIn(subbands, region, top) : std::vector<Part>();
+      track.insert(track.end(), parts.begin(), parts.end());
     }
   }
   return tracks;

@@ -32,10 +32,11 @@ struct Region {
 /// How many groups there are, each of three levels.
 int groupsOf(int width, int height, int log2);
 
-std::vector<Region> regionsOf(int width, int height, int log2);
+/// Each of the patches that lie one below the other has its own; a grid is one patch.
+std::vector<Region> regionsOf(int width, int height, int log2, int patches = 1);
 
 /// FORMAT 8.1: the regions of group 0, whose corrections are tracks of their own.
-std::vector<Region> finestRegionsOf(int width, int height, int log2);
+std::vector<Region> finestRegionsOf(int width, int height, int log2, int patches = 1);
 
 /// The rows and columns of a subband whose samples lie in a region.
 struct Part {

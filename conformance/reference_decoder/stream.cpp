@@ -204,11 +204,14 @@ std::optional<std::span<const uint8_t>> sketchIn(std::span<const uint8_t> prefix
 /// One codeword for each track of either component.
 void makeCodewords(Stream& stream) {
   const auto count = [](const auto& c) {
-    return c ? regionsOf(c->width, c->height, c->regions.log2).size() : 0;
+    return c ? regionsOf(c->width, c->height, c->regions.log2, c->wavelet.domain.forest.patches())
+                   .size()
+             : 0;
   };
   const auto corrections = [&](const GeometryHeader& g) {
-    return stream.layers.corrections > 0 ? finestRegionsOf(g.width, g.height, g.regions.log2).size()
-                                         : 0;
+    if (stream.layers.corrections == 0) return size_t{0};
+    return finestRegionsOf(g.width, g.height, g.regions.log2, g.wavelet.domain.forest.patches())
+        .size();
   };
   stream.codewords[0].resize(count(stream.geometry));
   if (stream.geometry)
@@ -244,12 +247,12 @@ Stream readStream(std::span<const uint8_t> prefix, uint64_t maxSamples, const Ch
   Stream stream;
   stream.choice = choice;
   auto payload = readHeader(prefix, stream);
-  while (stream.outcome == Outcome::kTruncated) {
+  if (stream.outcome == Outcome::kTruncated) {
     const auto sketch = sketchIn(prefix);
     if (!sketch) return stream;
     stream = {};
     stream.choice = choice;
-    payload = readHeader(prefix = *sketch, stream);
+    payload = readHeader(*sketch, stream);
   }
   if (stream.outcome != Outcome::kDone) return stream;
   const bool tooLarge = samplesOf(stream) > maxSamples;

@@ -49,6 +49,7 @@ class JoinedHeader {
   void takeFirst(const CombinedPart& part) {
     header_ = part.parsed.header;
     header_.index.clear();
+    header_.pages.clear();
     for (ListedComponent& one : header_.components)
       if (one.details.name.empty()) one.details.name = part.name;
     if (promises_ && part.is_whole) return;

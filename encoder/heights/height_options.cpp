@@ -15,8 +15,7 @@ CoefficientOptions heightOptions(const EncodeInputs& inputs) {
   const tks_encode_options& options = inputs.options;
   const Extent extent = extentOf(*inputs.heights);
   const bool large = extent.samples() > kOneRegionHeights;
-  const bool whole = inputs.heights->domain == TKS_DOMAIN_FOREST;
-  const RegionChoice regions = whole ? RegionChoice() : chooseRegions(options, extent, large);
+  const RegionChoice regions = chooseRegions(options, extent, large, patchesOf(*inputs.heights));
   const Priorities* const priorities = inputs.priorities;
   const bool some_first = priorities != nullptr && !priorities->heights.empty();
   return {.limit = limitOf(inputs),

@@ -100,7 +100,10 @@ QuantisedHeights withoutTable(const EncodeInputs& inputs, HeightSteps steps, Bri
     if (!target.needed) target.bytes -= validity.size();
   }
   const SharedForest forest = forestOf(samples);
-  if (forest != nullptr) steps.patch_rows = forest->side();
+  if (forest != nullptr) {
+    steps.patch_rows = forest->side();
+    steps.owned = ownedSamples(*forest).bytes();
+  }
   steps = withBridgesFor(target, std::move(steps), extentOf(samples));
   GeometryLayers layers = layersOf(samples, validity.size());
   layers.bridge = steps.bridge;

@@ -27,9 +27,10 @@ int wantedLog2(const tks_encode_options& options, bool large) {
 
 }  // namespace
 
-RegionChoice chooseRegions(const tks_encode_options& options, Extent plane, bool large) {
+RegionChoice chooseRegions(const tks_encode_options& options, Extent plane, bool large,
+                           uint32_t patches) {
   const int log2 = wantedLog2(options, large);
-  if (regionCount(plane.width, plane.height, log2) <= 1) return {};
+  if (regionCount(plane.width, plane.height, log2, patches) <= 1) return {};
   return {log2, options.index == TKS_INDEX_WINDOWS};
 }
 

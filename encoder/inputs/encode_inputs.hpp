@@ -125,6 +125,12 @@ SharedForest forestOf(const Raster& raster) {
       std::vector<uint32_t>(given.sides, given.sides + size_t{Forest::kSides} * given.patches));
 }
 
+/// How many patches a raster has; a grid is one.
+template <class Raster>
+uint32_t patchesOf(const Raster& raster) {
+  return raster.domain == TKS_DOMAIN_FOREST ? raster.forest.patches : 1;
+}
+
 /// The base mesh of heights that have one, which lie on a forest.
 inline BaseMesh baseMeshOf(const tks_heights& heights) {
   const tks_base_mesh& given = heights.base_mesh;
@@ -162,7 +168,9 @@ struct RegionChoice {
 
 /// large: planes of the size of this one are coded in regions unless the caller says otherwise; for
 /// windows all planes are.
-RegionChoice chooseRegions(const tks_encode_options& options, Extent plane, bool large);
+/// Each of the patches has regions of its own.
+RegionChoice chooseRegions(const tks_encode_options& options, Extent plane, bool large,
+                           uint32_t patches);
 
 // findRepeatedLines() finds the columns and rows of heights, or of an image, that repeat the one
 // before them. They are left out before anything else looks at the samples, so that every target

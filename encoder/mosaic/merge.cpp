@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bitstream/stream/page_index.hpp"
 #include "encoder/mosaic/part.hpp"
 #include "encoder/selection/write_stream.hpp"
 #include "ratecontrol/needs/needs.hpp"
@@ -15,6 +16,10 @@
 namespace tetrakis::inline mosaic {
 
 namespace {
+
+/// A longer front index becomes pages: whoever reads a window of a stream with pages does not read
+/// what is worth knowing of the rest, and pays with requests.
+constexpr size_t kMostFrontIndex = 64 << 10;
 
 /// Where the codeword of a track lies.
 struct TrackPlace {
@@ -71,33 +76,17 @@ Result<Parts> readParts(const MosaicPlan& plan, const MosaicGrid& grid, const Mo
   return parts;
 }
 
-/// The packets of all tracks in their order, each with the error that it leaves.
-std::vector<Packet> orderedPackets(const MosaicPlan& plan, const Parts& parts, TrackOrder by) {
-  const CodedTracks coded{Component::kGeometry, parts.tracks, parts.places.front().stated.opening,
-                          0, correctionTracksOf(plan)};
-  OrderedTracks order = orderTracks(coded, by);
-  const double samples = std::max(1.0, static_cast<double>(parts.valid_samples));
-  const bool whole = plan.geometry().regions.side_log2 > 0;
-  for (size_t i = 0; i < order.packets.size(); ++i) {
-    Packet& packet = order.packets[i];
-    const RatePoint &before = order.points[i], &after = order.points[i + 1];
-    packet.quality = qualityOf(std::sqrt(std::max(0.0, after.distortion) / samples));
-    packet.slope = (before.distortion - after.distortion) / static_cast<double>(packet.length());
-    if (!whole) packet.track.reset();
-  }
-  const double enough = plan.target.mean_square * samples;
-  if (enough > 0) {
-    const auto reached = std::find_if(order.points.begin(), order.points.end(),
-                                      [&](const RatePoint& p) { return p.distortion <= enough; });
-    order.packets.resize(std::min<size_t>(order.packets.size(),
-                                          static_cast<size_t>(reached - order.points.begin())));
-  }
-  return order.packets;
-}
+/// A stream whose codewords still lie in the parts.
+struct Draft {
+  std::vector<Packet> packets;
+  StreamHeader header;
+  std::vector<uint8_t> records;  ///< of index pages
 
-/// The header of a stream whose payload has these packets.
-StreamHeader headerFor(const MosaicPlan& plan, const Parts& parts,
-                       const std::vector<Packet>& packets, const MergeOptions& options) {
+  size_t headerBytes() const { return writeHeader(header).size(); }
+};
+
+/// The header of a stream of these parts, without what depends on its packets.
+StreamHeader headerFor(const MosaicPlan& plan, const Parts& parts) {
   StreamHeader header = plan.header;
   header.layers.validity_bytes = parts.places.front().stated.opening;
   WaveletHeader& wavelet = header.geometry->wavelet;
@@ -109,9 +98,53 @@ StreamHeader headerFor(const MosaicPlan& plan, const Parts& parts,
   const PartTable::Track& base = parts.places.front().stated;
   if (plan.corrects()) header.layers.coefficient_bytes = base.bytes - base.opening;
   if (header.lossless != 0 || plan.target.bounded) header.payload_crc = 0;  // until it is known
-  header.payload_bytes = bytesOfPackets(packets);
-  if (options.index) header.index = indexOf(packets, trackCounts(header));
   return header;
+}
+
+/// Gives a draft its index: a front index, while that is short, else pages.
+void addIndex(LaidPackets& laid, Draft& draft) {
+  const TrackCounts counts = trackCounts(draft.header);
+  draft.header.index = indexOf(laid.packets, counts);
+  if (draft.headerBytes() <= kMostFrontIndex || !takesPages(draft.header)) return;
+  draft.packets = laid.joined();
+  draft.header.index.clear();
+  draft.header.payload_bytes = bytesOfPackets(draft.packets);
+  WrittenPages pages = writePages(draft.header, indexOf(draft.packets, counts));
+  draft.header.pages = std::move(pages.root);
+  draft.records = std::move(pages.records);
+}
+
+/// left_out: of the packets that are worth least.
+Draft draftOf(const MosaicPlan& plan, const Parts& parts, const LayoutOptions& options,
+              size_t left_out) {
+  const CodedTracks coded{Component::kGeometry, parts.tracks, parts.places.front().stated.opening,
+                          0, correctionTracksOf(plan)};
+  const double samples = std::max(1.0, static_cast<double>(parts.valid_samples));
+  LaidPackets laid = layOut(plan, coded, samples, options, left_out);
+  Draft draft{laid.packets, headerFor(plan, parts), {}};
+  draft.header.payload_bytes = bytesOfPackets(draft.packets);
+  if (options.layout != Layout::kProgressive) addIndex(laid, draft);
+  return draft;
+}
+
+bool fits(const MosaicPlan& plan, const Draft& draft) {
+  const uint64_t beside = draft.headerBytes() + draft.records.size();
+  return plan.target.bytes >= beside && plan.target.bytes - beside >= draft.header.payload_bytes;
+}
+
+/// The draft with as many packets as fit the budget. A progressive stream is cut in a packet.
+Draft draftWithin(const MosaicPlan& plan, const Parts& parts, const LayoutOptions& options) {
+  Draft draft = draftOf(plan, parts, options, 0);
+  if (options.layout == Layout::kProgressive || fits(plan, draft)) return draft;
+  size_t least = 0, most = draftOf(plan, parts, {}, 0).packets.size();
+  while (least < most) {
+    const size_t middle = least + (most - least) / 2;
+    if (fits(plan, draftOf(plan, parts, options, middle)))
+      most = middle;
+    else
+      least = middle + 1;
+  }
+  return draftOf(plan, parts, options, most);
 }
 
 /// Writes a payload packet by packet, and keeps its checksum.
@@ -170,29 +203,31 @@ Status checkCodewords(const Parts& parts, const MosaicFiles& files) {
 
 }  // namespace
 
-Status mergeParts(const MosaicPlan& plan, const MosaicFiles& files, const MergeOptions& options,
+Status mergeParts(const MosaicPlan& plan, const MosaicFiles& files, const LayoutOptions& options,
                   const WriteAt& write) {
   const MosaicGrid grid = plan.grid();
   const Result<Parts> parts = readParts(plan, grid, files);
   if (!parts.ok()) return parts.status();
   if (Status status = checkCodewords(*parts, files); !status.ok()) return status;
-  const std::vector<Packet> packets = orderedPackets(plan, *parts, options.order);
-  StreamHeader header = headerFor(plan, *parts, packets, options);
-  size_t header_bytes = writeHeader(header).size();
-  if (header_bytes > kMaxHeaderBytes)
-    return {TKS_USAGE, "The index is too long for a header: take larger regions, or no index."};
+  Draft draft = draftWithin(plan, *parts, options);
+  StreamHeader& header = draft.header;
+  size_t header_bytes = draft.headerBytes();
   if (plan.target.bytes < header_bytes) {
     return {TKS_USAGE, "A budget of " + std::to_string(plan.target.bytes) +
                            " bytes is too small: the header of this stream takes " +
                            std::to_string(header_bytes) + "."};
   }
   header.payload_bytes = std::min(header.payload_bytes, plan.target.bytes - header_bytes);
-  header_bytes = writeHeader(header).size();  // never more: a varint of a smaller number
+  header_bytes = draft.headerBytes();  // never more: a varint of a smaller number
   PayloadWriter payload(files, write, header_bytes, header.payload_bytes);
   const TrackCounts counts = trackCounts(header);
-  for (const Packet& packet : packets)
+  for (const Packet& packet : draft.packets)
     if (Status status = payload.add(*parts, packet, counts); !status.ok()) return status;
   if (Status status = payload.flush(); !status.ok()) return status;
+  if (!draft.records.empty()) {
+    const Status records = write(header_bytes + header.payload_bytes, draft.records);
+    if (!records.ok()) return records;
+  }
   if (header.payload_crc) header.payload_crc = payload.crc();
   return write(0, writeHeader(header));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// mergeParts() joins the parts of all tiles into a stream. It holds the accounts of the tracks and
-// the mask, never a codeword: one price of a byte for the whole plane orders all packets (thesis
+// mergeParts() joins the parts of all tiles into a stream. It holds the accounts of the tracks,
+// never a codeword: one price of a byte for the whole plane orders all packets (thesis
 // 6.3), and their bytes are copied from the parts one after the other.
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <span>
 
 #include "encoder/mosaic/mosaic_plan.hpp"
-#include "ratecontrol/curves/component_curve.hpp"
+#include "encoder/mosaic/packet_layout.hpp"
 #include "tetrakis/result.hpp"
 
 namespace tetrakis::inline mosaic {
@@ -17,14 +17,9 @@ namespace tetrakis::inline mosaic {
 /// Takes bytes of the stream at an offset. The header comes last.
 using WriteAt = std::function<Status(uint64_t offset, std::span<const uint8_t> bytes)>;
 
-struct MergeOptions {
-  TrackOrder order = TrackOrder::kSlopes;
-  bool index = false;  ///< the places of all packets stand in the header
-};
-
 /// TKS_IO: a part is missing or damaged; its name is in the message. TKS_USAGE: the budget is
-/// smaller than the header, or the index is too long for it.
-Status mergeParts(const MosaicPlan& plan, const MosaicFiles& files, const MergeOptions& options,
+/// smaller than the header.
+Status mergeParts(const MosaicPlan& plan, const MosaicFiles& files, const LayoutOptions& options,
                   const WriteAt& write);
 
 }  // namespace tetrakis::inline mosaic

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <cstdint>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/parallel.hpp"
 #include "bitstream/track/track_decoder.hpp"
@@ -37,6 +40,24 @@ class LiftedBlock {
       clearAbsent(source.plan[i], source.bands[i].values);
     }
     return source;
+  }
+
+  /// The value of all samples of the low band; nothing if they differ, or anything else is not 0.
+  std::optional<int32_t> constantLow() const {
+    const Pyramid& pyramid = layout_.local().pyramid();
+    const Subband& ll = pyramid.subbands().front();
+    const int32_t low = values_[pyramid.indexOf(ll, 0)];
+    std::vector<int32_t> others = values_;
+    for (uint32_t y = 0; y < ll.height; ++y) {
+      for (uint32_t x = 0; x < ll.width; ++x) {
+        int32_t& value = others[pyramid.indexOf(ll, y) + x];
+        if (value != low) return std::nullopt;
+        value = 0;
+      }
+    }
+    if (std::any_of(others.begin(), others.end(), [](int32_t value) { return value != 0; }))
+      return std::nullopt;
+    return low;
   }
 
   /// The low band of the tile, without the halo. low: MosaicGrid::low().
@@ -95,6 +116,12 @@ std::vector<RatePoint> thinned(const std::vector<RatePoint>& points) {
   return ends;
 }
 
+/// A track without a coefficient that is not 0, which takes no byte: decoders take coefficients
+/// that no byte tells for 0.
+EncodedTrack emptyTrack(int planes) {
+  return {{}, {{}}, planes};
+}
+
 /// Codes the tracks of a tile. TKS_MISMATCH: one does not decode to what was coded.
 Result<std::vector<EncodedTrack>> codeTracks(const TaskInputs& inputs, const LiftedBlock& lifted) {
   const MosaicPlan& plan = inputs.plan;
@@ -107,6 +134,10 @@ Result<std::vector<EncodedTrack>> codeTracks(const TaskInputs& inputs, const Lif
     EncodedTrack& track = tracks[i];
     if (planesOf(source) > planes) {
       sound = false;
+      return;
+    }
+    if (planesOf(source) == 0 && !inputs.grid.isBase(inputs.tile)) {
+      track = emptyTrack(planes);
       return;
     }
     track = encodeTrack(source, planes, plan.cut_slope);
@@ -150,11 +181,45 @@ CodedTile voidTile(const TaskInputs& inputs) {
   const MosaicGrid& grid = inputs.grid;
   CodedTile coded;
   const size_t tracks = grid.tracks(inputs.tile).size();
-  coded.part.tracks.assign(tracks, {{}, {{}}, inputs.plan.geometry().planes});
+  coded.part.tracks.assign(tracks, emptyTrack(inputs.plan.geometry().planes));
   coded.part.openings.resize(tracks);
   if (!grid.leavesLow(inputs.tile)) return coded;
   const Extent low = grid.low(inputs.tile).extent();
   coded.low = {low, std::vector<int32_t>(low.samples()), PartMask(low.samples())};
+  return coded;
+}
+
+/// The value of all samples of a block, as on a calm sea; nothing if they differ, or some are void.
+std::optional<int32_t> constantOf(const Block& block) {
+  const auto is_valid = [](uint8_t mark) { return mark != 0; };
+  const auto is_first = [&](int32_t value) { return value == block.values.front(); };
+  if (!std::all_of(block.valid.begin(), block.valid.end(), is_valid)) return std::nullopt;
+  if (!std::all_of(block.values.begin(), block.values.end(), is_first)) return std::nullopt;
+  return block.values.front();
+}
+
+/// What lifting makes of a plane of one value: that value or a multiple of it, as a small plane
+/// tells, whatever lies around it.
+std::optional<int32_t> constantLow(const TaskInputs& inputs, int32_t value) {
+  const uint32_t side = uint32_t{8} << inputs.grid.levels(inputs.tile);
+  const Window window{0, 0, side, side};
+  Block plane{window, std::vector<int32_t>(window.extent().samples(), value), {}};
+  return LiftedBlock(inputs, plane).constantLow();
+}
+
+/// The tile of a block whose samples have one value: what coding it would make, without doing so.
+CodedTile constantTile(const TaskInputs& inputs, const Block& block, int32_t low_value) {
+  CodedTile coded = voidTile(inputs);
+  if (inputs.tile.group == 0)
+    coded.part.valid_samples = validIn(block, inputs.grid.samples(inputs.tile));
+  std::fill(coded.low.values.begin(), coded.low.values.end(), low_value);
+  if (inputs.plan.hasVoids()) {
+    std::fill(coded.low.marks.begin(), coded.low.marks.end(), 1);
+    openTracks(inputs, block, coded.part);
+  } else {
+    coded.low.marks.clear();
+    coded.part.openings.clear();
+  }
   return coded;
 }
 
@@ -164,6 +229,9 @@ Result<CodedTile> codeCoefficients(const TaskInputs& inputs) {
   Result<Block> block = readBlock(inputs, grid.block(inputs.tile));
   if (!block.ok()) return block.status();
   if (!grid.isBase(inputs.tile) && isVoid(*block)) return voidTile(inputs);
+  if (const auto value = constantOf(*block); value && !grid.isBase(inputs.tile)) {
+    if (const auto low = constantLow(inputs, *value)) return constantTile(inputs, *block, *low);
+  }
   CodedTile coded;
   if (inputs.tile.group == 0) coded.part.valid_samples = validIn(*block, grid.samples(inputs.tile));
   const LiftedBlock lifted(inputs, *block);

@@ -62,7 +62,7 @@ RegionCorrections correctSamples(const RestoredTile& tile, std::span<const int32
 std::vector<Window> regionsIn(const TaskInputs& inputs, const Window& window) {
   std::vector<Window> regions;
   const GeometryHeader& header = inputs.plan.geometry();
-  for (Window region : correctionParts(header.extent(), header.regions.side_log2)) {
+  for (Window region : correctionParts(header)) {
     if (!region.meets(window)) continue;
     region.x -= window.x;
     region.y -= window.y;

@@ -26,9 +26,8 @@ constexpr uint64_t kOneRegionTexels = 2048 * 2048;
 TextureOptions textureOptions(const EncodeInputs& inputs, const Texels& texels) {
   const tks_encode_options& options = inputs.options;
   const Extent extent = texels.extent();
-  const bool whole = inputs.image->domain == TKS_DOMAIN_FOREST;
   const RegionChoice regions =
-      whole ? RegionChoice() : chooseRegions(options, extent, extent.samples() > kOneRegionTexels);
+      chooseRegions(options, extent, extent.samples() > kOneRegionTexels, patchesOf(*inputs.image));
   const Priorities* const priorities = inputs.priorities;
   const bool some_first = priorities != nullptr && !priorities->texture.empty();
   const bool to_psnr = options.psnr > 0;

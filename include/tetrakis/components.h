@@ -49,7 +49,8 @@ tks_status tks_get_component(const tks_decoder* decoder, uint32_t number, tks_co
 /* From now on the decoder takes component `number` for its heights, or for its texture, whichever
  * it is: all calls and tks_info are about it, as if it stood alone beside the other kind. Levels
  * and the frame go back to 0; strings and arrays that the decoder gave are gone. On an error the
- * decoder is as before.
+ * decoder is as before. What is chosen of a sketch (tks_info.shows_sketch) is chosen of the stream
+ * as well, if that has such a component of this number.
  *
  * TKS_USAGE: there is no such component; or the decoder was given bytes by tks_append or tks_put
  * before. TKS_UNSUPPORTED: this library does not know the component's kind or the surface that it

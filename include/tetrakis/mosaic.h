@@ -131,14 +131,30 @@ tks_status tks_mosaic_is_done(const uint8_t* plan, size_t plan_size, tks_tile ti
  * cannot be written (TKS_IO). */
 typedef int (*tks_write_at)(void* user, uint64_t offset, const void* data, size_t size);
 
+/* In which order the bytes of a mosaic lie. */
+typedef enum tks_layout {
+  TKS_LAYOUT_PROGRESSIVE = 0, /* by what they are worth: the best prefixes. There is no index */
+  TKS_LAYOUT_WINDOWS = 1,     /* each region in one piece, page by page, behind those of coarser
+                                 levels: windows take the fewest requests. A prefix has some
+                                 regions, and lacks others */
+  TKS_LAYOUT_MIXED = 2        /* first a preview by layers of what bytes are worth, which may be cut
+                                 anywhere as of PROGRESSIVE; the rest as of WINDOWS */
+} tks_layout;
+
+typedef struct tks_merge_options {
+  size_t size; /* sizeof(tks_merge_options) */
+  tks_layout layout;
+  uint64_t preview; /* of TKS_LAYOUT_MIXED: bytes of the preview; 0: a tenth of the stream */
+} tks_merge_options;
+
 /* Joins the parts of all tiles into the stream of the plan's target. It holds a kilobyte for each
- * region and a bit for each sample of heights with voids, never codewords. index:
- * TKS_INDEX_NONE orders all packets by what their bytes are worth; TKS_INDEX_WINDOWS lays the
- * stream out region by region for windows, with an index in front; only where every packet is
- * there. TKS_IO: a part is missing or damaged; the message names it. */
+ * region, never codewords. options: NULL is TKS_LAYOUT_PROGRESSIVE. The other layouts have an
+ * index: in front (TKS_INDEX_PACKETS, TKS_INDEX_WINDOWS) while it takes at most 64 kB, else in
+ * pages (TKS_INDEX_PAGES). Within a budget they leave out the packets that are worth least. TKS_IO:
+ * a part is missing or damaged; the message names it. */
 tks_status tks_mosaic_merge(const uint8_t* plan, size_t plan_size, const tks_mosaic_files* files,
-                            tks_index index, tks_write_at write, void* user, char* message,
-                            size_t message_size);
+                            const tks_merge_options* options, tks_write_at write, void* user,
+                            char* message, size_t message_size);
 
 #ifdef __GNUC__
 #pragma GCC visibility pop

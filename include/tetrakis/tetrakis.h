@@ -269,14 +269,17 @@ typedef struct tks_camera {
 typedef int (*tks_picture_error)(void* user, const void* heights, const void* texels,
                                  double* squares, double* values);
 
-/* The front index of a stream, by which windows of regions are fetched without the rest. */
+/* The index of a stream, by which windows of regions are fetched without the rest. It stands in
+ * front, in the header, or in pages. */
 typedef enum tks_index TKS_INT {
   TKS_INDEX_NONE = 0,
   TKS_INDEX_PACKETS = 1, /* an index; packets lie by half octaves of what a byte is worth, and
                             region by region within one */
-  TKS_INDEX_WINDOWS = 2  /* an index; each region lies in one piece, so that windows take few
+  TKS_INDEX_WINDOWS = 2, /* an index; each region lies in one piece, so that windows take few
                             requests, but a prefix has some regions and lacks others. Only of
                             lossless streams, and of heights alone within max_error */
+  TKS_INDEX_PAGES = 3    /* an index in pages, which lie behind the packets: a window takes those of
+                            its regions. Mosaics have it (mosaic.h), no others */
 } tks_index;
 
 /* What a component is coded as, before a residual corrects it. */
@@ -355,7 +358,7 @@ typedef struct tks_encode_options {
   uint32_t regions;    /* side of the regions by which windows can be decoded, in samples of either
                         component: a power of two from 16 to 2^20; 1: none, which tks_info calls 0;
                         0: chosen, none up to 1025 x 1025 heights, 2048² texels, or for windows
-                        256 wherever that makes several. What lies on a forest has none */
+                        256 wherever that makes several. Of a forest each patch has its own */
   int index;           /* a tks_index: whether to write the byte ranges of every packet in front */
   tks_weights weights; /* of the texture; targets and stated errors remain squares */
   tks_progress progress;
@@ -449,6 +452,17 @@ typedef enum tks_object_kind {
 /* In the place of the bytes of a sketch. */
 #define TKS_NO_SKETCH UINT64_MAX
 
+/* An image that lies on a mesh as its texture does: a map of its material, or any other one. */
+typedef struct tks_object_map {
+  size_t size;            /* sizeof(tks_object_map) */
+  const char* name;       /* UTF-8, up to 255 bytes, of its component. Maps of a material are
+                             normal, metallic_roughness, occlusion and emissive (FORMAT.md,
+                             section 2) */
+  const tks_image* image; /* 8 or 16 bits, of any size */
+  double weight;          /* what its errors, in units of its range of values, count beside those of
+                             others; 0: what those of such a map change in a picture */
+} tks_object_map;
+
 /* A mesh of triangles to encode as an object: a scan, a sculpture, a designed part. Triangles need
  * not fit together: points at equal places are joined, degenerate and double triangles dropped, and
  * edges of more than two triangles cut. */
@@ -467,10 +481,12 @@ typedef struct tks_triangle_mesh {
   uint64_t sketch_bytes; /* of the sketch that the stream begins with, about; 0: a 32nd part of the
                             stream if nothing would be seen of it for long; TKS_NO_SKETCH: none */
   const char* material; /* UTF-8, what the surface is made of: a glTF material as JSON (FORMAT.md,
-                           section 2), which triangles alone keep; NULL: none */
+                           section 2); NULL: none */
   uint32_t texels;      /* the longest side of the images that tks_combine lays on the triangles
                            later: texcoords are kept as finely as that of these, or of the image,
                            asks for. 0: there are none */
+  const tks_object_map* maps; /* beside an image; they have names of their own */
+  uint32_t map_count;
 } tks_triangle_mesh;
 
 /* A stream of one of the kinds of object, for the target that was asked for. */
@@ -524,6 +540,11 @@ typedef struct tks_object_report {
  * halves of a texel. `bytes` is the only target beside an image; the mesh and its image share them
  * by what they take off the errors of pictures, which cameras see or, without any, cameras all
  * around the mesh. Of the image's place nothing counts.
+ *
+ * Maps become components (components.h) in the one order of packets. With TKS_OBJECT_RESAMPLED they
+ * are resampled as the texture is, on a forest of the same depth, which suits the one of all images
+ * that the mesh shows most texels of; a map of the name normal is left out, since its normals count
+ * from the texture coordinates.
  *
  * TKS_USAGE, with a sentence in message: a mesh, or options, that break the rules; no triangle is
  * left after cleaning; the base mesh would take more than 4096 patches, since there are too many
@@ -592,10 +613,11 @@ tks_status tks_header_bytes(const uint8_t* data, size_t size, uint64_t* bytes);
  * decoder is lost, and every later call on it says so; close it. */
 tks_status tks_append(tks_decoder* decoder, const uint8_t* data, size_t size);
 
-/* Gives the decoder bytes from anywhere in a stream that has a front index
- * (tks_encode_options.index): `size` bytes from `offset` on. Bytes that are there already are left
+/* Gives the decoder bytes from anywhere in a stream that has an index (tks_info.index): `size`
+ * bytes from `offset` on. Bytes that are there already are left
  * as they are. Each track is decoded up to its first gap. So of a stream in regions any regions may
- * come first: the index tells the byte ranges of their packets. The other tracks of a component are
+ * come first: the index tells the byte ranges of their packets, of an index in pages once it has
+ * the pages of these regions. The other tracks of a component are
  * decoded once the first one has its masks, and corrections of a region once all coefficients are
  * there that reach into it. info.available_bytes and info.packets count up to the
  * first gap. The first call that leaves a gap reads the index; else this takes time in proportion
@@ -702,6 +724,8 @@ typedef struct tks_info {
                                        its header or, with a sketch, of the header of that */
   const char* material;             /* of an object, as tks_triangle_mesh takes it, but not checked;
                                        "": none. Owned by the decoder */
+  uint64_t index_bytes;             /* of index pages (TKS_INDEX_PAGES), which lie behind the
+                                       stream_bytes of the stream; 0: there are none */
 } tks_info;
 
 tks_status tks_get_info(const tks_decoder* decoder, tks_info* info);
@@ -751,7 +775,8 @@ typedef struct tks_window {
  * its seam: it begins inside, and is no wider than the raster. Of a stream in regions they decode
  * only those that reach the window; with corrections (of a largest error, or of samples that no
  * step restores) those that reach the regions that it meets. Windows of levels above 0 are cut out
- * of the level where there are drawings, forests, frames or repeated lines, and take as long. */
+ * of the level where there are drawings, frames or repeated lines, and take as long; so do windows
+ * of a forest with corrections, voids or a cut-out. */
 tks_status tks_decode_heights_window(tks_decoder* decoder, const tks_window* window, void* out,
                                      size_t bytes);
 tks_status tks_decode_surface_window(tks_decoder* decoder, const tks_window* window, float* out,
@@ -804,6 +829,18 @@ tks_status tks_grid_from_cube(const float* cube, uint32_t depth, const tks_geogr
                               const tks_window* window, uint32_t threads, float* out, char* message,
                               size_t message_size);
 
+/* Sets windows, one for each face of a cube of that depth, to those parts of its raster that
+ * tks_grid_from_cube reads for a window of a grid; width 0: it reads nothing of the face. */
+tks_status tks_cube_windows(uint32_t depth, const tks_geographic_grid* grid,
+                            const tks_window* window, tks_window* windows, char* message,
+                            size_t message_size);
+
+/* Writes what tks_grid_from_cube makes of the level of the heights that is set, which lie on a
+ * cube. It decodes their tks_cube_windows alone, whose ranges tks_needed_ranges tells one by one.
+ * count: the samples of the window. */
+tks_status tks_decode_grid(tks_decoder* decoder, const tks_geographic_grid* grid,
+                           const tks_window* window, float* out, size_t count);
+
 /* What a call decodes. */
 typedef enum tks_part TKS_INT {
   TKS_PART_HEIGHTS = 0,    /* tks_decode_heights, tks_decode_surface, and their windows */
@@ -850,12 +887,15 @@ typedef struct tks_ranges {
 } tks_ranges;
 void tks_free_ranges(tks_ranges* ranges);
 
-/* Lists which bytes of a stream with a front index a call needs, behind the header, to give what it
+/* Lists which bytes of a stream with an index a call needs, behind the header, to give what it
  * would give of the complete stream: the packets of the tracks that it decodes, in their order.
+ * Where the index is in pages, and some of those that tell of these tracks are missing, it lists
+ * the pages instead, which lie behind tks_info.stream_bytes: ask again once they are there.
  * Once tks_put_ranges has them the call decodes as if nothing were missing. A window needs some
  * regions; a level from 3 on needs none of the finest levels. For rougher terrain take only what
  * lies before some byte, or, of streams for windows, a first part of each range, which is a region.
- * TKS_USAGE: there is no index, part or window. TKS_LIMIT: as the call. */
+ * TKS_USAGE: there is no index, part or window. TKS_LIMIT: as the call. TKS_CORRUPT: a page that is
+ * there is damaged. */
 tks_status tks_needed_ranges(tks_decoder* decoder, tks_part part, const tks_window* window,
                              tks_ranges* out);
 
@@ -941,7 +981,9 @@ void tks_free_globe_mesh(tks_globe_mesh* mesh);
  * Of heights over a base mesh (tks_base_mesh) it is sample pixel[2 i], pixel[2 i + 1] of the raster
  * of the forest, counted as in tks_pixel, moved by TKS_MESH_BUDGET to where the triangles come
  * nearest to all samples. Without a texture a sample is one vertex; beside one vertices on sides
- * come once for each patch, with the same position to the last bit. Of triangles that are coded as
+ * come once for each patch, with the same position to the last bit. Of fewer triangles than two for
+ * each patch a vertex beside a texture has the pixel whose texel it shows, which may be another one
+ * than it lies at. Of triangles that are coded as
  * they are vertices come once for each texcoord that they have, and TKS_MESH_BUDGET leaves some of
  * them, where they are. Taken for one where they are equal, vertices leave no edge open but at
  * borders of the object. */
@@ -958,9 +1000,10 @@ typedef struct tks_object_mesh {
 } tks_object_mesh;
 
 /* The surface of an object as a mesh. TKS_MESH_BUDGET: the best mesh of at most max_triangles
- * triangles, by the squared distance between surfaces; 0: of every sample; no fewer than two for
- * each patch. TKS_MESH_CODED: the vertices whose heights the stream tells. Positions have the same
- * bits on every machine.
+ * triangles, by the squared distance between surfaces; 0: of every sample. Of fewer than two for
+ * each patch vertices collapse, as those of kept triangles do, and each triangle that is left shows
+ * what it showed of the texture. TKS_MESH_CODED: the vertices whose heights the stream tells.
+ * Positions have the same bits on every machine.
  *
  * Of triangles that are coded as they are, TKS_MESH_CODED and 0 give all, and TKS_MESH_BUDGET never
  * gives more than max_triangles: their vertices collapse into neighbours, those first whose
@@ -969,8 +1012,9 @@ typedef struct tks_object_mesh {
  * many pieces, seams or handles, triangles turn and get texcoords of their neighbours, small pieces
  * vanish, and of the last one the largest triangles are left.
  *
- * TKS_USAGE: the stream is no object. TKS_LIMIT: as tks_decode_mesh, with 100 bytes more a sample;
- * or 300 bytes a triangle that is coded as it is. TKS_CORRUPT: these triangles break a rule. */
+ * TKS_USAGE: the stream is no object. TKS_LIMIT: as tks_decode_mesh, with 100 bytes more a sample
+ * and 1600 a patch; or 300 bytes a triangle that is coded as it is. TKS_CORRUPT: these triangles
+ * break a rule. */
 tks_status tks_decode_object(tks_decoder* decoder, tks_mesh_kind kind, uint32_t max_triangles,
                              tks_object_mesh* out);
 void tks_free_object_mesh(tks_object_mesh* mesh);

@@ -347,6 +347,16 @@ class Decoder {
   Result<std::vector<float>> surface(const tks_window& window) {
     return part<float>(TKS_PART_HEIGHTS, window, 1, tks_decode_surface_window);
   }
+  /// In a window of a grid that heights on a cube were made of: tks_decode_grid.
+  Result<std::vector<float>> grid(const tks_geographic_grid& grid, const tks_window& window) {
+    if (window.width > grid.width || window.height > grid.height)
+      return Status(TKS_USAGE, "The window does not lie in the grid.");
+    std::vector<float> out(size_t{window.width} * window.height);
+    const tks_status status =
+        tks_decode_grid(decoder_.get(), &grid, &window, out.data(), out.size());
+    if (status != TKS_OK) return failure(status);
+    return out;
+  }
   Result<std::vector<uint8_t>> validity(const tks_window& window) {
     return part<uint8_t>(TKS_PART_VALIDITY, window, 1, tks_decode_validity_window);
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bitstream/stream/scattered_packets.hpp"
 #include "bitstream/track/track.hpp"
 #include "ratecontrol/receiver/placed_packets.hpp"
 
@@ -60,7 +61,8 @@ std::vector<Piece> piecesOf(std::span<const PlacedPacket> packets, const Missing
                             uint64_t end) {
   std::vector<Piece> pieces;
   for (const PlacedPacket& packet : packets) {
-    for (const ByteRange& gap : missing(packet.begin, std::min(packet.end, end))) {
+    const uint64_t last = packet.begin < end ? std::min(packet.end, end) : packet.end;
+    for (const ByteRange& gap : missing(packet.begin, last)) {
       if (gap.begin == gap.end) continue;
       if (!pieces.empty() && pieces.back().end < gap.begin)
         pieces.push_back({pieces.back().end, gap.begin, {}, false});
@@ -72,14 +74,15 @@ std::vector<Piece> piecesOf(std::span<const PlacedPacket> packets, const Missing
 
 }  // namespace
 
-Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed,
+Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed, const PageIndex* pages,
                                           std::span<const WeightedSighting> sightings,
                                           const Missing& missing, const FetchLimits& limits) {
   const StreamHeader& header = parsed.header;
   const uint64_t end = parsed.bytes + header.payload_bytes;
   std::vector<PlacedPacket> packets = {{0, parsed.bytes, end, {1, 1, 1}}};
-  if (!header.index.empty()) {
-    auto placed = placedPackets(header, parsed.bytes, sightings);
+  if (pages != nullptr && missing(parsed.bytes, end).empty()) return std::vector<FetchRange>();
+  if (!header.index.empty() || pages != nullptr) {
+    auto placed = placedPackets(header, parsed.bytes, pages, sightings);
     if (!placed.ok()) return placed.status();
     packets = std::move(*placed);
   }
@@ -92,7 +95,7 @@ Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed,
 
 Result<std::vector<size_t>> orderFor(const StreamHeader& header,
                                      std::span<const WeightedSighting> sightings) {
-  auto packets = placedPackets(header, 0, sightings);
+  auto packets = placedPackets(header, 0, nullptr, sightings);
   if (!packets.ok()) return packets.status();
   std::stable_sort(packets->begin(), packets->end(),
                    [](const auto& a, const auto& b) { return helpsMore(a.worth, b.worth); });
@@ -105,13 +108,14 @@ Result<std::vector<size_t>> orderFor(const StreamHeader& header,
   return order;
 }
 
-uint64_t planBytes(const StreamHeader& header) {
+uint64_t planBytes(const StreamHeader& header, uint64_t packets) {
   const uint64_t tracks = trackCounts(header).all();
   constexpr uint64_t kTrack = sizeof(Region) + 2 * sizeof(double) + 96;  // in a map
   constexpr uint64_t kPiece = sizeof(Piece) + 2 * sizeof(uint64_t) + 2 * sizeof(uint32_t) +
                               2 * sizeof(RankedRange) + sizeof(FetchRange);
-  constexpr uint64_t kPacket = sizeof(PlacedPacket) + 4 * kPiece;  // what is there lies between
-  return tracks * kTrack + header.index.size() * kPacket;
+  constexpr uint64_t kPacket =
+      sizeof(PlacedPacket) + sizeof(IndexedPacket) + 4 * kPiece;  // what is there lies between
+  return tracks * kTrack + packets * kPacket;
 }
 
 }  // namespace tetrakis::inline receiver

@@ -87,8 +87,9 @@ using Missing = std::function<std::vector<ByteRange>(uint64_t begin, uint64_t en
 /// cost something, ranges are few: the plan has the greatest worth beside the costs of its bytes
 /// and of its requests, with bytes in ranges that help little or are there, and a packet may come
 /// before an earlier one of its track. TKS_CORRUPT where the index names a track that there is not.
-/// Where there is no index, the plan is the bytes in their order.
-Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed,
+/// Where there is no index, the plan is the bytes in their order. pages: of a stream whose index is
+/// in pages, else null; records of pages are planned like packets.
+Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed, const PageIndex* pages,
                                           std::span<const WeightedSighting> sightings,
                                           const Missing& missing, const FetchLimits& limits);
 
@@ -97,7 +98,7 @@ Result<std::vector<FetchRange>> planFetch(const ParsedHeader& parsed,
 Result<std::vector<size_t>> orderFor(const StreamHeader& header,
                                      std::span<const WeightedSighting> sightings);
 
-/// Bytes that a plan takes at most, whatever it is for.
-uint64_t planBytes(const StreamHeader& header);
+/// Bytes that a plan takes at most, whatever it is for. packets: that are known, and records.
+uint64_t planBytes(const StreamHeader& header, uint64_t packets);
 
 }  // namespace tetrakis::inline receiver

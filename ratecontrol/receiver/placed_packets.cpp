@@ -70,40 +70,99 @@ bool helpsMore(const PacketWorth& a, const PacketWorth& b) {
   return a.all != b.all ? a.all > b.all : a.slope > b.slope;
 }
 
-Result<std::vector<PlacedPacket>> placedPackets(const StreamHeader& header, uint64_t begin,
-                                                std::span<const WeightedSighting> sightings) {
-  std::vector<TrackCosts> costs;
-  costs.reserve(sightings.size());
-  for (const WeightedSighting& s : sightings) costs.emplace_back(header, s.sighting);
-  const TrackCounts counts = trackCounts(header);
-  WorthInOrder in_order(header);
-  CorrectionsLast last;
-  std::vector<PlacedPacket> packets;
-  packets.reserve(header.index.size());
-  for (const IndexedPacket& packet : IndexedPackets(header, begin)) {
+namespace {
+
+/// Takes packets in the stream's order and says what they are worth.
+class PacketsInOrder {
+ public:
+  PacketsInOrder(const StreamHeader& header, std::span<const WeightedSighting> sightings)
+      : header_(header), sightings_(sightings), counts_(trackCounts(header)), in_order_(header) {
+    costs_.reserve(sightings.size());
+    for (const WeightedSighting& s : sightings) costs_.emplace_back(header, s.sighting);
+  }
+
+  Status take(const IndexedPacket& packet) {
     const PacketHead& head = packet.entry.packet;
-    if (head.component == Component::kOther && counts.of(head).tracks > 0) {
-      packets.push_back(
+    if (head.component == Component::kOther && counts_.of(head).tracks > 0) {
+      packets_.push_back(
           {packet.number, packet.begin, packet.end, {}, false});  // worth nothing here
-      continue;
+      return {};
     }
-    const bool is_correction = isCorrection(header, head);
-    const double slope = is_correction ? 1 : slopeOf(packet.entry.slope);
+    const bool is_correction = isCorrection(header_, head);
+    for (const TrackCosts& costs : costs_)
+      if (!costs.holds(head))
+        return {TKS_CORRUPT, "Corrupt stream: its index names a track that there is not."};
+    const PacketWorth worth = worthOf(head, is_correction ? 1 : slopeOf(packet.entry.slope));
+    packets_.push_back(
+        {packet.number, packet.begin, packet.end, in_order_.take(head, worth), is_correction});
+    last_.take(packets_.back().worth, is_correction);
+    return {};
+  }
+
+  /// Records come behind all packets.
+  void takeRecords(const PageIndex& pages) {
+    std::vector<PacketWorth> best(pages.grid().pages());
+    PacketHead head{.component = Component::kGeometry};
+    for (uint64_t track = 0; track < pages.grid().tracks(); ++track) {
+      const uint32_t page = pages.grid().pageOf(track);
+      if (pages.isKnown(page)) continue;
+      head.track = static_cast<uint32_t>(track);
+      const PacketWorth worth = worthOf(head, slopeOf(pages.slope(page)));
+      if (worth.all > best[page].all) best[page] = worth;
+    }
+    for (uint32_t page = 0; page < best.size(); ++page) {
+      const auto [begin, end] = pages.record(page);
+      if (pages.isKnown(page) || begin == end) continue;
+      const PacketWorth first{kOpening, kOpening, kOpening};  // everything waits for the base
+      packets_.push_back({packets_.size(), begin, end, page == 0 ? first : best[page], false});
+    }
+  }
+
+  std::vector<PlacedPacket> result() && {
+    for (PlacedPacket& packet : packets_)
+      if (packet.is_correction) packet.worth = last_.of(packet.worth);
+    return std::move(packets_);
+  }
+
+ private:
+  PacketWorth worthOf(const PacketHead& head, double slope) const {
     PacketWorth worth{0, 0, slope};
-    for (size_t i = 0; i < costs.size(); ++i) {
-      if (!costs[i].holds(head))
-        return Status(TKS_CORRUPT, "Corrupt stream: its index names a track that there is not.");
-      const double here = slope * sightings[i].weight * costs[i].at(head);
+    for (size_t i = 0; i < costs_.size(); ++i) {
+      const double here = slope * sightings_[i].weight * costs_[i].at(head);
       if (i == 0) worth.now = here;
       worth.all += here;
     }
-    packets.push_back(
-        {packet.number, packet.begin, packet.end, in_order.take(head, worth), is_correction});
-    last.take(packets.back().worth, is_correction);
+    return worth;
   }
-  for (PlacedPacket& packet : packets)
-    if (packet.is_correction) packet.worth = last.of(packet.worth);
-  return packets;
+
+  const StreamHeader& header_;
+  std::span<const WeightedSighting> sightings_;
+  TrackCounts counts_;
+  std::vector<TrackCosts> costs_;
+  WorthInOrder in_order_;
+  CorrectionsLast last_;
+  std::vector<PlacedPacket> packets_;
+};
+
+}  // namespace
+
+Result<std::vector<PlacedPacket>> placedPackets(const StreamHeader& header, uint64_t begin,
+                                                const PageIndex* pages,
+                                                std::span<const WeightedSighting> sightings) {
+  PacketsInOrder packets(header, sightings);
+  if (pages == nullptr) {
+    for (const IndexedPacket& packet : IndexedPackets(header, begin))
+      if (Status status = packets.take(packet); !status.ok()) return status;
+    return std::move(packets).result();
+  }
+  size_t number = 0;
+  for (const PagedPacket& packet : pages->inOrder(pages->known())) {
+    const IndexedPacket listed{
+        number++, {packet.head, packet.slope}, packet.begin, packet.payload, packet.end()};
+    if (Status status = packets.take(listed); !status.ok()) return status;
+  }
+  packets.takeRecords(*pages);
+  return std::move(packets).result();
 }
 
 std::vector<PlacedPacket> withFiniteOpenings(std::vector<PlacedPacket> packets,

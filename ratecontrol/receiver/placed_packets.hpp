@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// placedPackets() takes the front index of a stream and what viewers see, and returns all packets,
-// each with its place in the stream and the worth of its bytes to the viewers, from the TrackCosts
-// of their sightings.
+// placedPackets() takes the index of a stream and what viewers see, and returns all packets that
+// are known, each with its place in the stream and the worth of its bytes to the viewers, from the
+// TrackCosts of their sightings.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bitstream/stream/header.hpp"
+#include "bitstream/stream/page_index.hpp"
 #include "ratecontrol/receiver/ground_sight.hpp"
 #include "tetrakis/result.hpp"
 
@@ -38,8 +39,10 @@ class TrackCosts {
   std::array<std::vector<double>, kRoles> costs_;
 };
 
-// placedPackets() lists the packets of a front index, each with its place in the stream and with
-// the worth of one of its bytes to the viewers.
+// placedPackets() lists the packets of a front index, or of the pages of an index that are known,
+// each with its place in the stream and with the worth of one of its bytes to the viewers. Records
+// of pages that are not known count as packets: each is worth what the best packet of its page
+// would be, for which it has to be there.
 
 constexpr double kOpening = std::numeric_limits<double>::infinity();
 
@@ -54,7 +57,7 @@ struct PacketWorth {
   }
 };
 
-/// A packet of the index.
+/// A packet of the index, or a record of it.
 struct PlacedPacket {
   size_t number = 0;
   uint64_t begin = 0, end = 0;  ///< bytes of the stream
@@ -65,9 +68,11 @@ struct PlacedPacket {
 /// What helps more comes first; of what helps alike the greater slope.
 bool helpsMore(const PacketWorth& a, const PacketWorth& b);
 
-/// All packets in the stream's order; the first begins at byte `begin`. TKS_CORRUPT where the index
-/// names a track that there is not.
+/// All packets in the stream's order; the first of a front index begins at byte `begin`. pages: the
+/// index, where it is in pages, else null. TKS_CORRUPT where the index names a track that there is
+/// not.
 Result<std::vector<PlacedPacket>> placedPackets(const StreamHeader& header, uint64_t begin,
+                                                const PageIndex* pages,
                                                 std::span<const WeightedSighting> sightings);
 
 /// Packets whose openings are worth more than any request costs, and yet finitely much, so that

@@ -94,7 +94,8 @@ double finite(double cost) {
 }
 
 std::vector<Region> regionsIn(const auto& component) {
-  return regionsOf(component.width, component.height, component.regions.side_log2);
+  return regionsOf(component.width, component.height, component.regions.side_log2,
+                   component.wavelet.patches());
 }
 
 /// A stream as one sighting shows it.
@@ -111,7 +112,7 @@ class SightedStream {
 
   double costOfHeights(const Region& region) const {
     if (sighting_.ground.points.empty()) return shownShare(region, 1, unseen_);
-    return meanOver(region, header_.geometry->extent(), sighting_.ground,
+    return meanOver(region, *header_.geometry, sighting_.ground,
                     [&](const GroundPoint& point) {
                       return heightsCost(header_, point) *
                              shownShare(region, point.pixels, unseen_);
@@ -122,12 +123,12 @@ class SightedStream {
   double costOfTexture(const Region& region) const {
     if (sighting_.ground.points.empty()) return 1;
     const bool is_own = !sighting_.texture.points.empty();
-    return meanOver(
-               region, header_.texture->extent(), is_own ? sighting_.texture : sighting_.ground,
-               [&](const GroundPoint& point) {
-                 const double pixels = is_own ? point.pixels : texelsPixels(header_, point.pixels);
-                 return pixels * shownShare(region, pixels, 0);
-               }) /
+    return meanOver(region, *header_.texture, is_own ? sighting_.texture : sighting_.ground,
+                    [&](const GroundPoint& point) {
+                      const double pixels =
+                          is_own ? point.pixels : texelsPixels(header_, point.pixels);
+                      return pixels * shownShare(region, pixels, 0);
+                    }) /
            usual_texel_;
   }
 
@@ -135,7 +136,11 @@ class SightedStream {
   /// The mean cost of the points that a region of a plane reaches, as its waves end beyond it;
   /// hidden points count as 0.
   template <class Cost>
-  static double meanOver(const Region& region, Extent plane, const SeenRaster& seen, Cost&& cost) {
+  static double meanOver(const Region& region, const auto& component, const SeenRaster& seen,
+                         Cost&& cost) {
+    const Extent plane = component.extent();
+    const SharedForest& forest = component.wavelet.forest;
+    if (forest != nullptr && !region.isBase()) return meanOnForest(region, *forest, seen, cost);
     const auto first = [](uint32_t begin, uint32_t side, uint32_t points) {
       return static_cast<uint32_t>(uint64_t{begin} * points / side);
     };
@@ -153,6 +158,28 @@ class SightedStream {
     for (uint32_t y = y0; y < y1; ++y) {
       for (uint32_t x = x0; x < x1; ++x, ++count) {
         const GroundPoint& point = points[size_t{y} * columns + x];
+        if (point.pixels > 0) sum += cost(point);
+      }
+    }
+    return count > 0 ? sum / static_cast<double>(count) : 0;
+  }
+
+  /// The same on a forest, where a region's waves end beyond the sides of its patch.
+  template <class Cost>
+  static double meanOnForest(const Region& region, const Forest& forest, const SeenRaster& seen,
+                             Cost&& cost) {
+    const int64_t most = forest.side() - 1, n = seen.columns - 1;
+    const uint32_t patch = region.y0 / forest.side(), above = patch * forest.side();
+    const int64_t reach = int64_t{1} << std::min(region.last_level, 24);
+    const auto first = [&](int64_t begin) { return std::max((begin - reach) * n / most - 1, -n); };
+    const auto last = [&](int64_t end) { return std::min((end + reach) * n / most + 1, 2 * n); };
+    double sum = 0;
+    size_t count = 0;
+    for (int64_t y = first(region.y0 - above); y <= last(region.y1 - above); ++y) {
+      for (int64_t x = first(region.x0); x <= last(region.x1); ++x, ++count) {
+        const Forest::Place at = forest.locate(n, {patch, x, y});
+        const auto row = static_cast<size_t>(at.patch * (n + 1) + at.y);
+        const GroundPoint& point = seen.points[row * seen.columns + static_cast<size_t>(at.x)];
         if (point.pixels > 0) sum += cost(point);
       }
     }

@@ -229,6 +229,55 @@ TEST(Components, MayBeChosenInTurns) {
   EXPECT_STREQ(decoder->info().unit, "m");
 }
 
+void appendVarint(uint64_t value, Bytes& out) {
+  for (; value >= 0x80; value >>= 7) out.push_back(static_cast<uint8_t>(value | 0x80));
+  out.push_back(static_cast<uint8_t>(value));
+}
+
+uint64_t varintAt(const Bytes& bytes, size_t& at) {
+  uint64_t value = 0;
+  for (int shift = 0;; shift += 7) {
+    value |= uint64_t{bytes[at] & 0x7fu} << shift;
+    if (bytes[at++] < 0x80) return value;
+  }
+}
+
+/// The stream with a sketch (docs/FORMAT.md, section 2, part 75).
+Bytes sketchedBy(const Bytes& sketch, const Bytes& stream) {
+  size_t begin = 7;
+  const uint64_t body_bytes = varintAt(stream, begin);
+  size_t parts = begin;
+  varintAt(stream, parts);  // payload_bytes
+  Bytes part;
+  appendVarint(75, part);
+  appendVarint(sketch.size(), part);
+  part.insert(part.end(), sketch.begin(), sketch.end());
+  Bytes made(stream.begin(), stream.begin() + 7);
+  appendVarint(body_bytes + part.size(), made);
+  const auto from = [&](size_t at) { return stream.begin() + static_cast<ptrdiff_t>(at); };
+  made.insert(made.end(), from(begin), from(parts));
+  made.insert(made.end(), part.begin(), part.end());
+  made.insert(made.end(), from(parts), stream.end());
+  sealHeader(made);
+  return made;
+}
+
+TEST(Components, OfSketchesStayChosenWhereTheStreamHasThem) {
+  const Bytes sketch = *combined({{normals(), "a"}, {classes(), "classes"}});
+  const auto texture_behind = [&](const Bytes& stream) {
+    const Bytes bytes = sketchedBy(sketch, stream);
+    Decoder decoder = chosen(Prefix(bytes).first(sketch.size() + 12), "classes");
+    EXPECT_EQ(decoder.info().shows_sketch, 1);
+    EXPECT_TRUE(decoder.append(Prefix(bytes).subspan(sketch.size() + 12)).ok());
+    EXPECT_EQ(decoder.info().shows_sketch, 0);
+    return *decoder.texture();
+  };
+  const auto whole = [](const Bytes& stream) { return *Decoder::open(stream)->texture(); };
+  EXPECT_TRUE(texture_behind(*combined({{classes()}, {normals(), "b"}})) == whole(normals()));
+  EXPECT_TRUE(texture_behind(classes()) == whole(classes())) << "there is one alone";
+  EXPECT_TRUE(texture_behind(*combined({{classes()}, {later(), "later"}})) == whole(classes()));
+}
+
 TEST(Components, ThatAreNotThereAreRefused) {
   auto decoder = Decoder::open(everything());
   EXPECT_EQ(decoder->choose(5).code(), TKS_USAGE);

@@ -67,6 +67,54 @@ TEST_F(Globe, DepthsSuitColumns) {
   EXPECT_EQ(tks_cube_depth(UINT32_MAX), uint32_t{TKS_MOST_CUBE_DEPTH});
 }
 
+/// The windows of the faces hold what a window of the grid is made of, and a stream gives the grid
+/// by them, of all levels.
+TEST_F(Globe, WindowsOfTheGridTakePartsOfTheCube) {
+  ASSERT_EQ(toCube(), TKS_OK) << message_;
+  tks_heights heights = {};
+  heights.size = sizeof heights;
+  heights.width = 17;
+  heights.height = 6 * 17;
+  heights.sample = TKS_F32;
+  heights.data = cube_.data();
+  heights.scale = 1;
+  heights.domain = TKS_DOMAIN_FOREST;
+  heights.forest = {kDepth, 6, tks_cube_sides()};
+  Stream stream(encodeHeights(heights, lossless()));
+  for (uint32_t level = 0; level < 3; ++level) {
+    ASSERT_EQ(tks_set_levels(stream.get(), level, 0), TKS_OK);
+    const uint32_t side = (16u >> level) + 1;
+    std::vector<float> cube(size_t{6} * side * side);
+    ASSERT_EQ(tks_decode_surface(stream.get(), cube.data(), cube.size()), TKS_OK);
+    for (const tks_window& window :
+         {tks_window{0, 0, kWidth, kHeight}, {62, 3, 5, 9}, {30, 0, 2, 1}, {12, 15, 3, 3}}) {
+      std::vector<float> whole(size_t{window.width} * window.height), parts = whole;
+      ASSERT_EQ(tks_grid_from_cube(cube.data(), kDepth - level, &grid_, &window, 1, whole.data(),
+                                   nullptr, 0),
+                TKS_OK);
+      ASSERT_EQ(tks_decode_grid(stream.get(), &grid_, &window, parts.data(), parts.size()), TKS_OK)
+          << tks_message(stream.get());
+      EXPECT_EQ(whole, parts);
+      std::vector<tks_window> faces(6);
+      ASSERT_EQ(tks_cube_windows(kDepth - level, &grid_, &window, faces.data(), nullptr, 0),
+                TKS_OK);
+      const auto isUsed = [](const tks_window& face) { return face.width > 0; };
+      const auto used = std::count_if(faces.begin(), faces.end(), isUsed);
+      EXPECT_EQ(used == 6, window.width == kWidth);
+      EXPECT_GT(used, 0);
+    }
+  }
+  float out = 0;
+  const tks_window outside = {kWidth, 0, 1, 1}, one = {0, 0, 1, 1};
+  EXPECT_EQ(tks_decode_grid(stream.get(), &grid_, &outside, &out, 1), TKS_USAGE);
+  EXPECT_EQ(tks_decode_grid(stream.get(), &grid_, &one, &out, 2), TKS_USAGE);
+  EXPECT_EQ(tks_decode_grid(stream.get(), nullptr, &one, &out, 1), TKS_USAGE);
+  EXPECT_EQ(tks_decode_grid(stream.get(), &grid_, &one, nullptr, 1), TKS_USAGE);
+  const samples::Raster flat = samples::make({samples::Pattern::kRidges, 9, 9, 1, TKS_I16});
+  Stream plane(encodeHeights(flat.heights(), lossless()));
+  EXPECT_EQ(tks_decode_grid(plane.get(), &grid_, &one, &out, 1), TKS_USAGE);
+}
+
 TEST_F(Globe, StatesTheErrorsOfItsGrid) {
   ASSERT_EQ(toCube(), TKS_OK) << message_;
   ASSERT_EQ(toGrid(), TKS_OK) << message_;

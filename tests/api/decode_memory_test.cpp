@@ -391,8 +391,10 @@ TEST(DecodeMemory, ForestsStayBelowTheBound) {
   };
   for (const auto& [shape, depth] : {std::pair(cubeShape(), 6), {planeShape(45, 45), 1}}) {
     const ForestRaster surface = rasterOf(shape, depth, {Pattern::kRidges, 0, 0, 1, TKS_I16, 3});
-    for (const tks_encode_options& options : {lossless(), budget(8000), within(40)})
+    for (const tks_encode_options& options : {lossless(), budget(8000), within(40)}) {
       expectWithinBounds(surface.encoded(options), shape.name);
+      expectWithinBounds(surface.encoded(inRegions(options)), shape.name + " in regions");
+    }
     ForestRaster coast = surface;
     std::vector<int16_t> heights = coast.samples<int16_t>();
     std::vector<int16_t> sorted = heights;
@@ -402,7 +404,7 @@ TEST(DecodeMemory, ForestsStayBelowTheBound) {
     for (const tks_encode_options& options : {lossless(), within(40)})
       expectWithinBounds(coast.encoded(options), shape.name + " beside a sea");
     const ForestRaster picture = rasterOf(shape, depth, {Pattern::kRidges, 0, 0, 3, TKS_U8, 3});
-    for (const tks_encode_options& options : {lossless(), budget(8000)})
+    for (const tks_encode_options& options : {lossless(), budget(8000), inRegions(lossless())})
       expectWithinBounds(picture.encodedTexels(options), shape.name + " texture");
   }
 }
@@ -633,6 +635,31 @@ TEST(DecodeMemory, WindowsKeepTheirShare) {
   };
   const uint64_t one = peakOfWindows(50);
   EXPECT_LE(peakOfWindows(600), one + share);
+}
+
+/// Windows of forests take no more than they say, and hardly more of larger forests.
+TEST(DecodeMemory, WindowsOfForestsFollowTheirSize) {
+  uint64_t before = 0;
+  for (const int depth : {7, 8, 9}) {
+    const ForestRaster cube(Forest(depth, cubeShape().sides), {Pattern::kRidges, 0, 0, 1, TKS_U16});
+    const Bytes bytes = cube.encoded(inRegions(budget(30000), 32));
+    tks_limits limits = {};
+    limits.size = sizeof limits;
+    limits.max_memory = 8 << 20;  // which leaves little to keep of windows
+    Stream stream(bytes, &limits);
+    const tks_window window = {40, cube.forest.side() + 50, 40, 40};
+    std::vector<std::byte> out(2 * 40 * 40);
+    uint64_t bound = 0;
+    ASSERT_EQ(tks_check_memory(stream.get(), TKS_PART_HEIGHTS, &window, 0, 0, &bound), TKS_OK);
+    const uint64_t peak = peakBytes([&] {
+      EXPECT_EQ(tks_decode_heights_window(stream.get(), &window, out.data(), out.size()), TKS_OK);
+    });
+    EXPECT_LE(peak, bound);
+    if (before > 0) {
+      EXPECT_LE(peak, before + (before >> 1)) << "depth " << depth;
+    }
+    before = peak;
+  }
 }
 
 /// Opening takes memory in proportion to the bytes that are there.

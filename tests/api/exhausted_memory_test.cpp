@@ -247,10 +247,26 @@ std::vector<Called> cubeCalls() {
              return tks_cube_from_grid(&grid, heights.data(), 2, 2, cube, nullptr, nullptr,
                                        d.message, sizeof d.message);
            }},
-          {"tks_grid_from_cube", [](Desk& d) {
+          {"tks_grid_from_cube",
+           [](Desk& d) {
              auto* const out = reinterpret_cast<float*>(d.out.data());
              return tks_grid_from_cube(heights.data(), 2, &grid, &kWindow, 2, out, d.message,
                                        sizeof d.message);
+           }},
+          {"tks_cube_windows", [](Desk& d) {
+             std::array<tks_window, 6> windows{};
+             return tks_cube_windows(2, &grid, &kWindow, windows.data(), d.message,
+                                     sizeof d.message);
+           }}};
+}
+
+/// Of heights on a cube.
+std::vector<Called> gridCalls() {
+  static const tks_geographic_grid grid = {
+      sizeof(tks_geographic_grid), 24, 12, {-180, 15, 0, 90, 0, -15}};
+  return {{"tks_decode_grid", [](Desk& d) {
+             auto* const out = reinterpret_cast<float*>(d.out.data());
+             return tks_decode_grid(d.decoder, &grid, &kWindow, out, 20);
            }}};
 }
 
@@ -663,6 +679,7 @@ TEST(ExhaustedMemory, OfCallsWithoutADecoder) {
 
 TEST(ExhaustedMemory, OfGlobes) {
   exhaustAll(cubeCalls(), {});
+  exhaustAll(gridCalls(), vectorOf("forest_cube_17x102"));
 }
 
 TEST(ExhaustedMemory, OfCallsAboutAStream) {
@@ -756,11 +773,13 @@ TEST(ExhaustedMemory, IsTriedOfEveryFunction) {
       "tks_free_globe_mesh", "tks_free_object_mesh", "tks_encode_object",
       "tks_sequence_close",  "tks_sequence_message", "tks_sequence_encoder_close",
       "tks_receiver_close",  "tks_receiver_message", "tks_transmitter_close"};
-  for (const auto& calls :
-       {firstCalls(), decoderCalls(), indexCalls(), givingCalls(), meshCalls(), globeCalls(),
-        objectCalls(), fittingCalls(), positionCalls(), cubeCalls(), encodingCalls(), heightCalls(),
-        textureCalls(), sequenceEncoderCalls(), sequenceCalls(), frameCalls(), receiverCalls(),
-        transmitterCalls(), combiningCalls()})
+  for (const auto& calls : {firstCalls(),       decoderCalls(),  indexCalls(),
+                            givingCalls(),      meshCalls(),     globeCalls(),
+                            objectCalls(),      fittingCalls(),  positionCalls(),
+                            cubeCalls(),        gridCalls(),     encodingCalls(),
+                            heightCalls(),      textureCalls(),  sequenceEncoderCalls(),
+                            sequenceCalls(),    frameCalls(),    receiverCalls(),
+                            transmitterCalls(), combiningCalls()})
     for (const Called& called : calls) tried.insert(called.name);
   const std::regex declared("\\n[a-z][A-Za-z0-9_ *]*[ *](tks_[a-z_]+)\\(");
   std::set<std::string> functions;

@@ -325,8 +325,6 @@ TEST(ForestStream, RefusesWhatIsNoForest) {
   torn[3] = static_cast<int16_t>(torn[3] + 1);
   EXPECT_TRUE(refused([&](tks_heights& h) { h.data = torn.data(); }));
   EXPECT_TRUE(refused([&](tks_heights& h) { h.has_nodata = 1, h.nodata = torn[40]; }));
-  const tks_heights heights = surface.heights();
-  EXPECT_EQ(statusOf(&heights, nullptr, inRegions(lossless(), 16), message), TKS_USAGE);
 }
 
 /// How often each pair of vertices is an edge, and whether it runs both ways equally often.

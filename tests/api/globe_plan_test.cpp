@@ -133,7 +133,7 @@ TEST(GlobePlan, CoversEveryByteOfGridsAndCubes) {
   const tks_heights on_cube = cube.heights(), on_grid = placed(earth.raster, kFine);
   const tks_image texels = image.image();
   for (const Bytes& bytes :
-       {encodeGiven(&on_grid, &texels, indexed()), encodeGiven(&on_cube, nullptr, lossless()),
+       {encodeGiven(&on_grid, &texels, indexed()), encodeGiven(&on_cube, nullptr, indexed()),
         encodeGiven(&on_cube, &texels, indexed())}) {
     const tks_screen_camera view = cameraAbove(earth.globe, 20, 30, 2);
     Stream stream(Prefix(bytes).first(static_cast<size_t>(Stream(bytes).info().header_bytes)));
@@ -145,6 +145,32 @@ TEST(GlobePlan, CoversEveryByteOfGridsAndCubes) {
     Stream whole(bytes);
     EXPECT_EQ(stream.heights(), whole.heights());
     EXPECT_EQ(stream.texture(), whole.texture());
+  }
+}
+
+/// The faces of a cube in regions that look at the camera come first.
+TEST(GlobePlan, FacesOfACubeThatAreSeenComeFirst) {
+  const ForestRaster cube(Forest(6, cubeShape().sides), {Pattern::kRidges, 0, 0, 1, TKS_I16, 3});
+  const Bytes bytes = cube.encoded(indexed());
+  const auto header = static_cast<size_t>(Stream(bytes).info().header_bytes);
+  const tks_globe globe = moon();
+  const uint32_t side = cube.forest.side();
+  const std::array<std::array<double, 3>, 6> middles = {
+      {{0, 0, 2}, {90, 0, 3}, {180, 0, 0}, {-90, 0, 1}, {0, 89, 5}, {0, -89, 4}}};
+  for (uint32_t patch = 0; patch < middles.size(); ++patch) {
+    const auto& [longitude, latitude, opposite] = middles[patch];
+    const tks_screen_camera view = cameraAbove(globe, longitude, latitude, 3);
+    const size_t budget = bytes.size() / 4;
+    Stream stream(Prefix(bytes).first(header)), prefix(Prefix(bytes).first(header + budget));
+    const Ranges plan(stream, &view, budget);
+    ASSERT_EQ(plan.bytes(), budget);
+    for (const tks_range& range : plan.all()) ASSERT_NO_FATAL_FAILURE(put(stream, bytes, range));
+    const auto errorOf = [&](Stream& of, uint32_t face) {
+      return errorIn(cube.raster, of.heights(), {0, face * side, side, side});
+    };
+    EXPECT_LT(errorOf(stream, patch), 0.5 * errorOf(prefix, patch)) << patch;
+    const auto hidden = static_cast<uint32_t>(opposite);
+    EXPECT_GT(errorOf(stream, hidden), errorOf(prefix, hidden)) << patch;
   }
 }
 

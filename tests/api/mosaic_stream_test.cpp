@@ -238,7 +238,7 @@ TEST(MosaicStream, WindowsHoldWhatThePlaneHoldsThere) {
   Source source(hills(TKS_I16, 900, 800));
   tks_mosaic_options options = mosaicOptions();
   options.lossless = 1;
-  const Bytes bytes = mosaicOf(source, options, TKS_INDEX_WINDOWS);
+  const Bytes bytes = mosaicOf(source, options, TKS_LAYOUT_WINDOWS);
   Stream stream((Prefix(bytes)));
   const tks_window window = {100, 60, 77, 81};
   std::vector<int16_t> samples(size_t{window.width} * window.height), expected(samples.size());

@@ -70,7 +70,9 @@ TEST(ObjectStreams, KeepTheirTopologyAtEveryPrefixAndBudget) {
       const OpenedStream decoder = opened(made.stream, length);
       for (const uint32_t most : {1u, 300u, 1000u, 5000u}) {
         const DecodedMesh mesh = decodedMesh(decoder.get(), TKS_MESH_BUDGET, most);
-        EXPECT_LE(mesh.triangles.size() / 3, std::max(most, 2 * made.report.patches));
+        EXPECT_LE(mesh.triangles.size() / 3, most);
+        EXPECT_GT(mesh.triangles.size(), 0u);
+        if (most == 1) continue;  // no surface is closed then
         // By places on the raster: distinct samples may lie at equal points.
         const checks::WeldedMesh welded = checks::weldedMesh(mesh.pixels, mesh.triangles);
         EXPECT_EQ(welded.euler(), shape.euler) << length << " bytes, " << most;

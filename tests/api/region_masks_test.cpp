@@ -21,14 +21,15 @@ constexpr VoidShape kShapes[] = {VoidShape::kCoast, VoidShape::kSpeckle, VoidSha
                                  VoidShape::kHalf,  VoidShape::kAll,     VoidShape::kOneVoid};
 
 /// Two groups of regions.
-Bytes mosaicWith(VoidShape shape, double max_error = 0, tks_index index = TKS_INDEX_NONE) {
+Bytes mosaicWith(VoidShape shape, double max_error = 0,
+                 tks_layout layout = TKS_LAYOUT_PROGRESSIVE) {
   Source source(hills(TKS_I16, 280, 215));
   dig(source, shape);
   tks_mosaic_options options = mosaicOptions();
   options.regions = 16;
   options.max_error = max_error;
   options.lossless = max_error == 0;
-  const Bytes bytes = mosaicOf(source, options, index);
+  const Bytes bytes = mosaicOf(source, options, layout);
   EXPECT_TRUE(readHeader(bytes)->header.layers.region_masks);
   return bytes;
 }
@@ -142,7 +143,7 @@ TEST(RegionMasks, GrowingStreamsDecodeAsOthersDo) {
 TEST(RegionMasks, RangesOfAWindowGiveTheWindow) {
   std::mt19937 random(7);
   for (const VoidShape shape : kShapes) {
-    const Bytes bytes = mosaicWith(shape, 0, TKS_INDEX_WINDOWS);
+    const Bytes bytes = mosaicWith(shape, 0, TKS_LAYOUT_WINDOWS);
     Stream all((Prefix(bytes)));
     const std::vector<int16_t> whole = plane(all);
     const size_t header = readHeader(bytes)->bytes;

@@ -75,7 +75,6 @@ uint32_t awkwardDepth(Dice& dice, uint32_t patches, uint32_t most_samples) {
 void leaveOut(Dice& dice, AwkwardCase& c) {
   c.nodata.reset();
   if (c.heights.sample != TKS_F32 && dice.once(4)) c.nodata = -9999.5;  // that no sample has
-  c.options.regions = std::min(c.options.regions, 1u);
   c.options.triangles = 0;
 }
 

@@ -77,11 +77,28 @@ TEST_F(CliCube, LevelsAreCoarserGridsOfTheSameGround) {
   EXPECT_EQ(cli("decode s.tks -f --height d.tif --level 9").code, 1);
 }
 
+/// What is decoded for a window makes the samples that the whole has there: at the poles, across
+/// 180 degrees, on the sides of faces.
+TEST_F(CliCube, WindowsOfRegionsAreThoseOfTheWhole) {
+  for (const char* regions : {" --regions 16", " --regions off"}) {
+    ASSERT_EQ(encodeCube(std::string(" --psnr 70 --depth 6 --index") + regions).code, 0);
+    const tools::HeightFile whole = decoded();
+    for (const char* window : {"0,0,72,3", "60,10,30,9", "8,4,3,28", "35,33,1,3"}) {
+      const tools::HeightFile part = decoded(std::string(" --window ") + window);
+      uint32_t x = 0, y = 0;
+      ASSERT_EQ(std::sscanf(window, "%u,%u", &x, &y), 2);
+      for (uint32_t i = 0; i < part.width * part.height; ++i) {
+        const size_t at = (y + i / part.width) * size_t{72} + (x + i % part.width) % 72;
+        ASSERT_EQ(sampleOf(part, i), sampleOf(whole, at)) << window;
+      }
+    }
+  }
+}
+
 TEST_F(CliCube, RefusesWhatKnowsPlanesAlone) {
   for (const char* options :
        {"--bytes 2k --triangles 500", "--bytes 2k --view low", "--bytes 2k --cameras c.json",
-        "--bytes 2k --engine rendered", "--bytes 2k --regions 16", "--bytes 2k --report r",
-        "--lossless", "--max-error 5"}) {
+        "--bytes 2k --engine rendered", "--bytes 2k --report r", "--lossless", "--max-error 5"}) {
     const Outcome run = encodeCube(std::string(" ") + options);
     EXPECT_EQ(run.code, 1) << options;
     EXPECT_NE(run.err.find("does not go with --domain cube"), std::string::npos) << run.err;
@@ -290,7 +307,6 @@ TEST_F(CliCube, RefusesWhatDoesNotGoWithIt) {
   };
   refuses(" --lossless", "--lossless");
   refuses(" --max-error 3", "--max-error");
-  refuses(" --bytes 3000 --regions 64", "--regions");
   refuses(" --bytes 3000 --nodata 2000", "void");
   refuses(" --bytes 3000 --crs EPSG:3857", "angles");
   (*world_.geotransform)[1] = 4;

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/tools/files/pictures/png.hpp"
 #include "tests/cli/cli_fixture.hpp"
@@ -118,6 +119,18 @@ class MaterialTest : public CliTest {
     write(name, "glTF" + number(2) + number(28 + text.size() + parts.binary.size()) +
                     number(text.size()) + "JSON" + text + number(parts.binary.size()) +
                     std::string("BIN\0", 4) + parts.binary);
+  }
+  /// The numbers of an attribute of the mesh.
+  static std::vector<float> floatsOf(const GlbParts& parts, const char* attribute) {
+    const json& document = parts.document;
+    const size_t number = document["meshes"][0]["primitives"][0]["attributes"][attribute];
+    const json &accessor = document["accessors"][number],
+               &view = document["bufferViews"][accessor["bufferView"].get<size_t>()];
+    const size_t numbers = accessor["type"] == "VEC3" ? 3 : 2;
+    std::vector<float> floats(numbers * accessor["count"].get<size_t>());
+    const size_t offset = view.value("byteOffset", 0) + accessor.value("byteOffset", 0);
+    std::memcpy(floats.data(), parts.binary.data() + offset, floats.size() * sizeof(float));
+    return floats;
   }
   static json materialOf(const GlbParts& parts) { return parts.document["materials"][0]; }
 

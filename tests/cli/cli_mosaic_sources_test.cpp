@@ -46,7 +46,8 @@ TEST_F(CliMosaicSources, SourcesStay) {
   ASSERT_EQ(cli("mosaic code w").code, 0);
   EXPECT_EQ(cli("mosaic merge w -f -o a.tif").code, 1);
   EXPECT_EQ(content("a.tif"), before);
-  EXPECT_EQ(cli("mosaic join a.tif -o a.tks --psnr 50 --windows").code, 1);
+  EXPECT_EQ(cli("mosaic join a.tif -o a.tks --psnr 50 --layout windows --preview 9k").code, 1);
+  EXPECT_EQ(cli("mosaic join a.tif -o a.tks --psnr 50 --layout tiles").code, 1);
 }
 
 /// Doubles become floats: what that spends of a largest error is gone, and nothing is lossless.

@@ -14,7 +14,8 @@
 namespace tetrakis::test {
 namespace {
 
-/// P is a bound in a plan, and exact in encodeCoefficients(): it is set to what that found.
+/// Where all coefficients are 0 a task leaves no byte. P is a bound in a plan, and exact in
+/// encodeCoefficients(): it is set to what that found.
 void expectSameCodewords(const TileCase& given) {
   const WholePlane whole(given);
   const std::vector<EncodedTrack> expected = whole.tracks();
@@ -34,7 +35,9 @@ void expectSameCodewords(const TileCase& given) {
       if (!part.openings.empty())
         coefficients.erase(coefficients.begin(),
                            coefficients.begin() + static_cast<ptrdiff_t>(part.openings[i]));
-      ASSERT_EQ(coefficients, expected[tracks[i]].codeword)
+      const EncodedTrack& one = expected[tracks[i]];
+      const bool is_zero = !grid.isBase(tile) && one.points.front().distortion == 0;
+      ASSERT_EQ(coefficients, is_zero ? std::vector<uint8_t>() : one.codeword)
           << "filter " << +given.filter << ", track " << tracks[i] << " of " << given.plane.width
           << " x " << given.plane.height;
     }

@@ -142,12 +142,11 @@ void becomeForest(FuzzedDataProvider& bytes, AwkwardCase& c) {
     c.sides[side] = other;
     c.sides[other] = side;
   }
-  c.options.regions = c.options.triangles = 0;
-  c.options.index %= 2;
+  c.options.triangles = 0;
   c.nodata.reset();
   const auto patches = static_cast<uint32_t>(c.sides.size() / 4);
   const auto fit = [&](Raster& raster, uint32_t& depth) {
-    depth = bytes.ConsumeIntegralInRange<uint32_t>(1, 4);
+    depth = bytes.ConsumeIntegralInRange<uint32_t>(1, 5);
     raster.width = (1u << depth) + 1;
     raster.height = patches * raster.width;
   };

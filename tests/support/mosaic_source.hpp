@@ -131,21 +131,22 @@ inline int writeAt(void* user, uint64_t offset, const void* data, size_t size) {
 }
 
 inline tks_status merge(const Bytes& plan, Files& files, Bytes& stream,
-                        tks_index index = TKS_INDEX_NONE) {
+                        tks_layout layout = TKS_LAYOUT_PROGRESSIVE, uint64_t preview = 0) {
   char message[256] = "";
   const tks_mosaic_files storage = files.files();
-  return tks_mosaic_merge(plan.data(), plan.size(), &storage, index, writeAt, &stream, message,
+  const tks_merge_options options{sizeof options, layout, preview};
+  return tks_mosaic_merge(plan.data(), plan.size(), &storage, &options, writeAt, &stream, message,
                           sizeof message);
 }
 
 /// All tasks in their order, then the merge.
 inline Bytes mosaicOf(Source& source, const tks_mosaic_options& options,
-                      tks_index index = TKS_INDEX_NONE) {
+                      tks_layout layout = TKS_LAYOUT_PROGRESSIVE, uint64_t preview = 0) {
   const Bytes plan = planOf(source, options);
   Files files;
   for (const tks_tile& tile : tilesOf(plan)) EXPECT_EQ(code(plan, tile, source, files), TKS_OK);
   Bytes stream;
-  EXPECT_EQ(merge(plan, files, stream, index), TKS_OK);
+  EXPECT_EQ(merge(plan, files, stream, layout, preview), TKS_OK);
   return stream;
 }
 

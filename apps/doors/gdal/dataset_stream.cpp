@@ -19,6 +19,7 @@ bool isOwn(const char* domain) {
 
 const char* wordOf(tks_index index) {
   if (index == TKS_INDEX_WINDOWS) return "WINDOWS";
+  if (index == TKS_INDEX_PAGES) return "PAGES";
   return index == TKS_INDEX_PACKETS ? "YES" : "NO";
 }
 

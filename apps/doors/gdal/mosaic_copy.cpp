@@ -48,12 +48,9 @@ uint32_t tileSide(const CopySettings& settings) {
 /// Of options and heights; "": a mosaic does it all.
 std::string whyNoMosaic(const std::string& name, GDALDataset& source,
                         const CopySettings& settings) {
-  const bool lossy = settings.encode.bytes > 0 || settings.encode.psnr > 0;
   if (!settings.texture.empty() || isPicture(source) || settings.white_level > 0)
     return "Textures are not coded in tiles.";
   if (settings.encode.regions == 1) return "BLOCKSIZE=NONE needs all heights at once.";
-  if (settings.index == TKS_INDEX_PACKETS || (settings.index == TKS_INDEX_WINDOWS && lossy))
-    return "What is coded in tiles has no index, or one for windows that is not for BYTES or PSNR.";
   if (settings.domain.value_or(TKS_DOMAIN_PLANE) != TKS_DOMAIN_PLANE)
     return "What is coded in tiles is a plane.";
   if (!canBeRenamed(name)) return "What is coded in tiles needs a file that can be renamed.";
@@ -96,7 +93,7 @@ class Tiles {
   static int read(void* user, const tks_window* window, void* samples);
   bool readPlanned(const tks_window& window, void* samples);
   std::optional<tks_mosaic_options> options();
-  tks_index index() const;
+  tks_layout layout() const;
   bool report(double done);
   bool fail(tks_status status, const char* sentence);
 
@@ -111,14 +108,11 @@ class Tiles {
   std::optional<double> fill_;  ///< what stands for voids, though nothing declares it
 };
 
-tks_index Tiles::index() const {
-  // Shorter than a header may be, whatever their packets have.
-  constexpr uint64_t kMostRegions = 100000;
-  if (settings_.index) return *settings_.index;
-  const tks_heights& heights = *source_.heights;
-  const uint64_t side = settings_.encode.regions == 0 ? 256 : settings_.encode.regions;
-  const uint64_t regions = (heights.width / side + 1) * (heights.height / side + 1);
-  return settings_.encode.lossless && regions <= kMostRegions ? TKS_INDEX_WINDOWS : TKS_INDEX_NONE;
+tks_layout Tiles::layout() const {
+  const tks_index usual = settings_.encode.lossless ? TKS_INDEX_WINDOWS : TKS_INDEX_NONE;
+  const tks_index index = settings_.index.value_or(usual);
+  if (index == TKS_INDEX_NONE) return TKS_LAYOUT_PROGRESSIVE;
+  return index == TKS_INDEX_WINDOWS ? TKS_LAYOUT_WINDOWS : TKS_LAYOUT_MIXED;
 }
 
 std::optional<tks_mosaic_options> Tiles::options() {
@@ -131,7 +125,7 @@ std::optional<tks_mosaic_options> Tiles::options() {
   options.max_error = *bound;
   options.lossless = settings_.encode.lossless;
   options.regions = settings_.encode.regions;
-  if (options.regions == 0 && index() == TKS_INDEX_WINDOWS) options.regions = 256;
+  if (options.regions == 0 && layout() == TKS_LAYOUT_WINDOWS) options.regions = 256;
   options.tile = std::max(tileSide(settings_), options.regions);
   return options;
 }
@@ -199,7 +193,8 @@ bool Tiles::merge(MosaicParts& parts) {
   };
   const tks_mosaic_files files = parts.files();
   char message[512] = "";
-  const tks_status status = tks_mosaic_merge(plan_.data, plan_.size, &files, index(), write, &out,
+  const tks_merge_options options{sizeof options, layout(), 0};
+  const tks_status status = tks_mosaic_merge(plan_.data, plan_.size, &files, &options, write, &out,
                                              message, sizeof message);
   if (status != TKS_OK) return fail(status, message);
   return out.finish();

@@ -179,8 +179,6 @@ void checkCube(Options& options, const CopySettings& settings) {
     options.refuse(
         "DOMAIN=CUBE resamples heights, so that nothing is lossless or within MAX_Z_ERROR: give "
         "BYTES or PSNR.");
-  if (settings.encode.regions > kNoRegions && settings.texture.empty())
-    options.refuse("DOMAIN=CUBE resamples heights, so that BLOCKSIZE does not go with it.");
 }
 
 /// What is to be kept of the samples.

@@ -127,6 +127,9 @@ void Source::rest() {
 }
 
 bool Source::checkLength() {
+  has_index_ =
+      info_.index != TKS_INDEX_NONE &&
+      (info_.index_bytes == 0 || end_ - std::min(end_, info_.stream_bytes) >= info_.index_bytes);
   end_ = std::min(end_, info_.stream_bytes);
   if (!settings_.strict || complete()) return true;
   reportFailure(TKS_TRUNCATED, name_,
@@ -204,6 +207,18 @@ std::optional<std::vector<tks_range>> Source::neededRanges(uint32_t level,
   return ranges;
 }
 
+std::optional<std::vector<tks_range>> Source::rangesFor(uint32_t level, const tks_window* window) {
+  auto ranges = neededRanges(level, window);
+  const auto lists_pages = [&] {
+    return ranges && !ranges->empty() && ranges->back().offset >= info_.stream_bytes;
+  };
+  while (lists_pages()) {
+    if (!loadRanges(*ranges, true)) return std::nullopt;
+    ranges = neededRanges(level, window);
+  }
+  return ranges;
+}
+
 bool Source::loadRanges(const std::vector<tks_range>& ranges, bool whole) {
   // A decoder that has ranges borrows no bytes, and knows their tracks.
   const bool goes_on = whole && has_whole_;
@@ -261,16 +276,17 @@ bool Source::load(uint32_t level, const tks_window* window) {
   }
   if (chain_) return reopen(end_);
   // A prefix of a stream for windows lacks most regions: a level takes a first part of each.
+  const bool pages = info_.index == TKS_INDEX_PAGES;
   const bool apart = info_.index == TKS_INDEX_WINDOWS;
-  const bool cuts = level > 0 && !apart;
+  const bool cuts = level > 0 && !apart && !pages;
   const uint64_t enough = bytesOfOverviewAbove(level);
   const uint64_t first = cuts ? std::min(end_, info_.header_bytes + enough) : end_;
   if (!decoder_ && !reopen(std::min(first, info_.header_bytes))) return false;
   // Of a shorter file the first bytes are asked for, not what a window would need of all.
-  if (!complete() || info_.index == TKS_INDEX_NONE) return reopen(first);
+  if (!complete() || !has_index_) return reopen(first);
   const bool shares = level > 0 && apart && window == nullptr;
   if (opened_ == first && !shares) return true;
-  auto ranges = neededRanges(level, window);
+  auto ranges = rangesFor(level, window);
   if (!ranges) return false;
   if (shares && cutShares(*ranges, enough)) return loadRanges(*ranges, false);
   const bool most = window == nullptr && FileBytes::costOf(*ranges) >= first - first / 4;

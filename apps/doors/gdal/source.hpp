@@ -157,6 +157,9 @@ class Source {
   bool read(std::span<const tks_range> ranges);
   /// How many bytes of the stream show a level well enough for the overview made of it.
   uint64_t bytesOfOverviewAbove(uint32_t level) const;
+  /// What a level or a window takes, once the pages of the index that tell it were read. Nothing
+  /// after a reported error.
+  std::optional<std::vector<tks_range>> rangesFor(uint32_t level, const tks_window* window);
   /// Opens what a level takes, or a window of it (null: all).
   bool load(uint32_t level, const tks_window* window);
   /// What a level or a window takes, by the index. Nothing after a reported error.
@@ -180,6 +183,10 @@ class Source {
   };
   /// Null after an error was reported.
   const Cube* cube(uint32_t level);
+  /// The parts of a cube in regions that a window of its grid needs, and no others.
+  bool gridOfRegions(uint32_t level, const tks_window& window, std::span<float> heights);
+  /// The same of a whole level, which is kept.
+  bool gridOfLevel(uint32_t level, const tks_window& window, std::span<float> heights);
   /// The grid of a level, in degrees.
   tks_geographic_grid gridOf(const tks_info& info) const;
 
@@ -188,7 +195,8 @@ class Source {
   tks_part part_ = TKS_PART_HEIGHTS;
   std::optional<uint32_t> frame_;
   std::string checksum_;
-  uint64_t end_ = 0;  ///< of what may be used
+  uint64_t end_ = 0;        ///< of what may be used
+  bool has_index_ = false;  ///< and is there to be read, all of it
   FileBytes bytes_;
   std::shared_ptr<GroupChain> chain_;  ///< as of Extent; the decoder belongs to it
   ChainedGroup group_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Heights on a cube as samples of the grid that they were made of, or of a coarser one on the same
-// ground. A level of the cube is decoded as a whole and kept; windows of its grid are interpolated
-// on it.
+// ground. Of a cube in regions windows of its grid are interpolated on the parts that they need.
+// Else a level of the cube is decoded as a whole and kept.
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -64,20 +64,49 @@ const Source::Cube* Source::cube(uint32_t level) {
   return &kept;
 }
 
-bool Source::gridWindow(uint32_t level, const tks_window& window, std::vector<std::byte>& out) {
+bool Source::gridOfLevel(uint32_t level, const tks_window& window, std::span<float> heights) {
   const Cube* const cube = this->cube(level);
   if (cube == nullptr) return false;
-  const size_t samples = size_t{window.width} * window.height;
-  out.resize(samples * sizeof(float));
-  auto* const heights = reinterpret_cast<float*>(out.data());
   std::array<char, 512> sentence{};
   const tks_status status =
       tks_grid_from_cube(cube->surface.data(), cube->depth, &cube->grid, &window, settings_.threads,
-                         heights, sentence.data(), sentence.size());
+                         heights.data(), sentence.data(), sentence.size());
+  if (status != TKS_OK) reportFailure(status, name_, sentence.data());
+  return status == TKS_OK;
+}
+
+bool Source::gridOfRegions(uint32_t level, const tks_window& window, std::span<float> heights) {
+  if (!decoder_ && !reopen(std::min(end_, info_.header_bytes))) return false;
+  tks_info info{};
+  info.size = sizeof info;
+  tks_status status = tks_set_levels(decoder_.get(), level, 0);
+  if (status == TKS_OK) status = tks_get_info(decoder_.get(), &info);
+  if (status != TKS_OK) return failed(status);
+  const tks_geographic_grid grid = gridOf(info);
+  std::array<tks_window, 6> parts{};
+  std::array<char, 512> sentence{};
+  status = tks_cube_windows(info.forest.depth, &grid, &window, parts.data(), sentence.data(),
+                            sentence.size());
   if (status != TKS_OK) {
     reportFailure(status, name_, sentence.data());
     return false;
   }
+  for (const tks_window& part : parts)
+    if (part.width > 0 && !load(level, &part)) return false;
+  status = tks_set_levels(decoder_.get(), level, 0);
+  if (status == TKS_OK)
+    status = tks_decode_grid(decoder_.get(), &grid, &window, heights.data(), heights.size());
+  return status == TKS_OK || failed(status);
+}
+
+bool Source::gridWindow(uint32_t level, const tks_window& window, std::vector<std::byte>& out) {
+  const size_t samples = size_t{window.width} * window.height;
+  out.resize(samples * sizeof(float));
+  auto* const heights = reinterpret_cast<float*>(out.data());
+  const bool regions = info_.regions > 0;
+  if (!(regions ? gridOfRegions(level, window, {heights, samples})
+                : gridOfLevel(level, window, {heights, samples})))
+    return false;
   // The band has the scale and the offset of the stream.
   if (info_.scale != 1 || info_.offset != 0) {
     std::transform(heights, heights + samples, heights, [this](float height) {

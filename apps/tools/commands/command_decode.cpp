@@ -143,7 +143,7 @@ class Decoding {
     if (texture && formatOf(outputs_.mesh->name(), "") == "ply")
       tellNote("a .ply file has no place for the texture: --texture writes it beside", quiet_);
     file->texture = texture;
-    const Result<DecodedMaps> maps = mapsBeside(texture);
+    const Result<DecodedMaps> maps = mapsBeside();
     if (!maps.ok()) return maps.status();
     file->maps = maps->forMesh();
     tellNote(unwrittenNote(outputs_.mesh->name(), file->maps), quiet_);
@@ -153,8 +153,8 @@ class Decoding {
   }
 
   /// A mesh that shows a component which somebody has chosen shows that alone.
-  Result<DecodedMaps> mapsBeside(const ImageFile* texture) {
-    if (texture == nullptr || !arguments_.source.components.empty()) return DecodedMaps();
+  Result<DecodedMaps> mapsBeside() {
+    if (!arguments_.source.components.empty()) return DecodedMaps();
     return DecodedMaps::of(stream_, memory_.texture());
   }
 

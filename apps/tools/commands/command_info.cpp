@@ -154,7 +154,7 @@ Json textureJson(const tks_info& info) {
 }
 
 /// What tks_info.index stands for.
-constexpr std::array<const char*, 3> kIndexes = {"none", "packets", "windows"};
+constexpr std::array<const char*, 4> kIndexes = {"none", "packets", "windows", "pages"};
 
 /// What tks_component_kind stands for.
 constexpr std::array<const char*, 3> kComponents = {"heights", "texture", "unknown"};

@@ -7,6 +7,7 @@
 #include "apps/tools/commands/command.hpp"
 #include "apps/tools/commands/notes.hpp"
 #include "apps/tools/commands/options.hpp"
+#include "apps/tools/files/positive.hpp"
 #include "apps/tools/mosaic/mosaic_steps.hpp"
 #include "apps/tools/mosaic/task_list.hpp"
 
@@ -141,6 +142,16 @@ void addStatusVerb(CLI::App& mosaic, CommandLine& line) {
   });
 }
 
+void addLayout(CLI::App& verb, LayoutRequest& layout) {
+  verb.add_option("--layout", layout.layout,
+                  "How bytes lie: progressive (the best prefixes), windows (each region in one "
+                  "piece), or mixed: a preview of the first kind, the rest of the second")
+      ->check(silent(CLI::IsMember({"progressive", "windows", "mixed"})))
+      ->type_name("NAME");
+  addSize(verb, "--preview", layout.preview, "Of mixed: so many bytes; a tenth of the stream")
+      ->check(positive());
+}
+
 void addMergeVerb(CLI::App& mosaic, CommandLine& line) {
   const auto request = std::make_shared<MergeRequest>();
   CLI::App& verb = *mosaic.add_subcommand("merge", "Join all parts into a stream");
@@ -148,8 +159,7 @@ void addMergeVerb(CLI::App& mosaic, CommandLine& line) {
   verb.add_option("-o,--output", request->output, "Where to write; - is standard output")
       ->required()
       ->type_name("OUT.tks");
-  verb.add_flag("--windows", request->windows,
-                "An index, and each region in one piece, for windows over HTTP");
+  addLayout(verb, request->layout);
   addForce(verb, request->force);
   verb.callback([request, &line] { line.action = [request] { return mergeMosaic(*request); }; });
 }
@@ -166,8 +176,7 @@ void addJoinVerb(CLI::App& mosaic, CommandLine& line) {
   verb.add_option("--threads", request->threads, "Threads of a task")
       ->check(wholeNumber())
       ->type_name("N");
-  verb.add_flag("--windows", request->windows,
-                "An index, and each region in one piece, for windows over HTTP");
+  addLayout(verb, request->layout);
   addForce(verb, request->plan.force);
   verb.callback([request, &line] {
     line.action = [request, &line] { return joinAndTell(*request, line.quiet); };

@@ -18,9 +18,9 @@ Status DecodeMemory::check() {
 }
 
 Status DecodeMemory::checkHeights(uint64_t beside) {
-  const bool whole = isGridOnCube(info_);
-  return check(TKS_PART_HEIGHTS, whole ? std::nullopt : heightWindow(arguments_),
-               heights() + beside);
+  const std::optional<tks_window> window = heightWindow(arguments_);
+  if (window && isGridOnCube(info_)) return {};  // its parts of the cube are checked one by one
+  return check(TKS_PART_HEIGHTS, window, heights() + beside);
 }
 
 Status DecodeMemory::checkMesh(uint64_t beside) {

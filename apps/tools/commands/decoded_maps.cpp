@@ -7,20 +7,34 @@
 
 #include "apps/tools/files/file_bytes.hpp"
 #include "apps/tools/files/meshes/surface_file.hpp"
+#include "apps/tools/report/object_mesh.hpp"
 
 namespace tetrakis::tools {
+
+namespace {
+
+/// Whether a texture lies on the object as its texture does: on triangles, or on the same patches.
+/// Normals there would count from texture coordinates that nobody knows.
+bool liesOn(const tks_info& info, const tks_component& one) {
+  if (one.kind != TKS_COMPONENT_TEXTURE) return false;
+  if (info.object_triangles > 0) return one.domain == TKS_DOMAIN_PLANE;
+  return hasAtlas(info) && one.domain == TKS_DOMAIN_FOREST && one.width == info.texture_width &&
+         one.height == info.texture_height &&
+         one.name != std::string_view(kMapNames[static_cast<size_t>(MapKind::kNormal)]);
+}
+
+}  // namespace
 
 Result<DecodedMaps> DecodedMaps::of(const OpenStream& stream, uint64_t copies) {
   DecodedMaps maps;
   const tks_info& info = stream.decoder.info();
-  if (info.object_triangles == 0) return maps;
+  if (!isObject(info)) return maps;
   maps.material_ = materialOf(info.material);
   maps.is_lit_ = *info.material != '\0';
   for (uint32_t number = 0; number < info.components; ++number) {
     const tks_component one = *stream.decoder.component(number);
     const auto name = std::find(kMapNames.begin(), kMapNames.end(), std::string_view(one.name));
-    const bool is_map = one.kind == TKS_COMPONENT_TEXTURE && one.domain == TKS_DOMAIN_PLANE;
-    if (!is_map || one.is_taken || name == kMapNames.end()) continue;
+    if (one.is_taken || name == kMapNames.end() || !liesOn(info, one)) continue;
     const auto kind = static_cast<MapKind>(name - kMapNames.begin());
     if (Status status = maps.take(stream, number, kind, copies); !status.ok()) return status;
     if (!maps.images_[static_cast<size_t>(kind)]) dropFactorsOf(kind, maps.material_.factors);
@@ -40,6 +54,7 @@ Status DecodedMaps::take(const OpenStream& stream, uint32_t component, MapKind k
   for (const std::optional<ImageFile>& held : images_) copies += held ? held->data.size() : 0;
   Result<ImageFile> image = decodeImage(*decoder, {}, copies);
   if (!image.ok()) return image.status();
+  if (hasAtlas(info)) image = atlasOf(info).pictureOf(*image);
   images_[static_cast<size_t>(kind)] = withoutAlpha(*image);
   return {};
 }
@@ -55,7 +70,7 @@ MeshMaps DecodedMaps::forMesh() const {
 
 std::string unwrittenNote(const std::string& name, const MeshMaps& maps) {
   const std::string format = formatOf(name, "");
-  if (!maps.none() && format == "ply")
+  if (maps.hasImages() && format == "ply")
     return "a .ply file has no place for maps: --component takes each out";
   if (maps.at(MapKind::kOcclusion) != nullptr && format == "obj")
     return "an .obj file has no place for the map of occlusion: --component takes it out";

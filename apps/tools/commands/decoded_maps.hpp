@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// DecodedMaps holds the maps of a material that a stream of triangles has beside its texture, for
-// the mesh that `tetrakis decode` writes.
+// DecodedMaps holds the maps of a material that an object has beside its texture, for the mesh that
+// `tetrakis decode` writes: of a resampled one as atlases, laid out as that of its texture.
 #pragma once
 
 #include <array>

@@ -193,12 +193,10 @@ Status checkCube(const EncodeArguments& arguments) {
     if (arguments.depth == 0) return Status();
     return Status(TKS_USAGE, "--depth is about a cube: give --domain cube");
   }
-  const bool regions = arguments.regions != "auto" && arguments.regions != "off";
   const std::pair<const char*, bool> others[] = {
       {"--lossless", arguments.lossless},
       {"--max-error", !arguments.max_error.empty()},
       {"--report", !arguments.report.empty()},
-      {"--regions without a --texture", regions && arguments.texture.empty()},
       {"--triangles", arguments.triangles > 0},
       {"--cameras", !arguments.cameras.file.empty()},
       {"--view", !arguments.cameras.view.empty()},

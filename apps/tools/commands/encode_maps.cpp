@@ -2,42 +2,17 @@
 #include "apps/tools/commands/encode_maps.hpp"
 
 #include <algorithm>
-#include <array>
-#include <span>
 #include <sstream>
 #include <utility>
 
-#include "apps/tools/commands/encode_inputs.hpp"
 #include "apps/tools/commands/notes.hpp"
-#include "apps/tools/files/stream.hpp"
-#include "apps/tools/output/progress.hpp"
 
 namespace tetrakis::tools {
 namespace {
 
-/// What a unit of error of a map, whose white is 1, changes in the light of a picture, beside an
-/// error of the colour, by MapKind: a normal that is off turns all light that falls on it, and
-/// emissive light is added to it. Roughness moves highlights, and occlusion counts where no lamp
-/// shines.
-constexpr std::array<double, kMapKinds> kMapWeights = {1, 0.25, 0.25, 1};
-
 size_t kindOf(const std::string& name) {
   return static_cast<size_t>(std::find(kMapNames.begin(), kMapNames.end(), name) -
                              kMapNames.begin());
-}
-
-/// What lies between the least and the largest value of an image, in parts of white. tks_combine
-/// counts errors in units of that range.
-double rangeOf(const ImageFile& image) {
-  const auto [least, most] = std::minmax_element(image.data.begin(), image.data.end());
-  const int range = std::to_integer<int>(*most) - std::to_integer<int>(*least);
-  return std::max(range, 1) / 255.0;
-}
-
-/// Of an image of 16 bits white is what it shows as white.
-double weightOf(const ImageFile& image, double of_white) {
-  if (image.sample != TKS_U8) return of_white;
-  return of_white * rangeOf(image) * rangeOf(image);
 }
 
 std::string sizeOf(const ImageFile& image) {
@@ -71,24 +46,8 @@ Status addNamed(const NamedFile& file, SurfaceFile& surface, bool quiet,
   if (kind < kMapKinds && same == textures.end()) showMap(kind, surface.maps.material.factors);
   if (kind < kMapKinds) image = withoutAlpha(*image);
   if (same != textures.end()) textures.erase(same);
-  const double weight = weightOf(*image, kind < kMapKinds ? kMapWeights[kind] : 1);
-  textures.push_back({file.name, std::move(*image), weight});
+  textures.push_back({file.name, std::move(*image)});
   return {};
-}
-
-Result<Buffer> encoded(const EncodeArguments& arguments, const ImageFile& image, bool quiet) {
-  EncodeArguments one;
-  one.bytes = arguments.bytes;
-  one.threads = arguments.threads;
-  one.weights = arguments.weights;
-  one.index = arguments.index;
-  Result<tks_encode_options> options = encodeOptions(one, Reference());
-  if (!options.ok()) return options.status();
-  Progress progress("encoding", quiet);
-  options->progress = &Progress::report;
-  options->user = &progress;
-  const tks_image given = asImage(image);
-  return tetrakis::encode(nullptr, &given, *options);
 }
 
 }  // namespace
@@ -112,8 +71,7 @@ Result<std::vector<FurtherTexture>> furtherTextures(const EncodeArguments& argum
   std::vector<FurtherTexture> textures;
   for (SurfaceMap& map : surface.maps.taken) {
     const auto kind = static_cast<size_t>(map.kind);
-    const double weight = weightOf(map.image, kMapWeights[kind]);
-    textures.push_back({kMapNames[kind], std::move(map.image), weight});
+    textures.push_back({kMapNames[kind], std::move(map.image)});
   }
   surface.maps.taken.clear();
   const std::vector<NamedFile> also = namedFiles(arguments.also);
@@ -127,56 +85,39 @@ Result<std::vector<FurtherTexture>> furtherTextures(const EncodeArguments& argum
 }
 
 void leaveOutTextures(SurfaceFile& mesh, bool quiet) {
-  const bool has_maps = !mesh.maps.taken.empty() || mesh.maps.has_even;
+  const bool has_maps = !mesh.maps.taken.empty();
+  mesh.maps.has_even = false;
   if (!mesh.texture && !has_maps) return;
   tellNote(std::string(!has_maps      ? "the texture is left out: it goes"
                        : mesh.texture ? "the texture and other maps are left out: they go"
                                       : "the maps are left out: they go") +
                " with --bytes alone",
            quiet);
+  if (mesh.texture) std::fill_n(mesh.base_colour.begin(), 3, 1.0);
   mesh.texture.reset();
-  mesh.maps = {};
+  for (const SurfaceMap& map : mesh.maps.taken) dropFactorsOf(map.kind, mesh.maps.material.factors);
+  mesh.maps.taken.clear();
+  mesh.maps.material.occlusion_is_red = false;
 }
 
-uint32_t longestSide(const std::vector<FurtherTexture>& textures) {
-  uint32_t longest = 0;
-  for (const FurtherTexture& one : textures)
-    longest = std::max({longest, one.image.width, one.image.height});
-  return longest;
+GivenMaps::GivenMaps(const std::vector<FurtherTexture>& textures) {
+  for (const FurtherTexture& one : textures) images.push_back(asImage(one.image));
+  for (size_t i = 0; i < textures.size(); ++i)
+    maps.push_back(
+        {sizeof(tks_object_map), textures[i].name.c_str(), &images[i], textures[i].weight});
 }
 
-Result<Buffer> withFurther(const EncodeArguments& arguments, const Buffer& stream,
-                           const ImageFile& texture, const std::vector<FurtherTexture>& further,
-                           bool quiet) {
-  std::vector<NamedFile> files = {{"", arguments.height, weightOf(texture, 1)}};
-  for (const FurtherTexture& one : further) files.push_back({one.name, one.name, one.weight});
-  std::vector<Buffer> others;
-  std::vector<tks_combined> streams = {asCombined(files[0], stream.bytes())};
-  for (size_t i = 0; i < further.size(); ++i) {
-    Result<Buffer> other = encoded(arguments, further[i].image, quiet);
-    if (!other.ok()) return other.status();
-    others.push_back(*std::move(other));
-    streams.push_back(asCombined(files[i + 1], others.back().bytes()));
+std::string mapsNote(const std::vector<FurtherTexture>& given, std::vector<std::string> left_out,
+                     bool is_resampled) {
+  std::vector<std::string> names;
+  for (const FurtherTexture& one : given) {
+    if (is_resampled && kindOf(one.name) == static_cast<size_t>(MapKind::kNormal))
+      left_out.push_back(one.name +
+                         " (it counts from texture coordinates: --class triangles keeps "
+                         "it)");
+    else
+      names.push_back(one.name + " " + sizeOf(one.image));
   }
-  const tks_limits limits = limitsOfTools();
-  Result<Buffer> combined =
-      combine(streams, {sizeof(tks_combine_options), arguments.bytes, &limits});
-  if (!combined.ok()) return aboutFile(combined.status(), files);
-  return combined;
-}
-
-std::string resampledMapsNote(const std::vector<FurtherTexture>& left_out) {
-  std::vector<std::string> names;
-  for (const FurtherTexture& one : left_out) names.push_back(one.name);
-  if (names.empty()) return "";
-  return "maps left out: " + joined(names) + ", which lie on triangles as they are: --class " +
-         "triangles keeps them";
-}
-
-std::string mapsNote(const std::vector<FurtherTexture>& taken,
-                     const std::vector<std::string>& left_out) {
-  std::vector<std::string> names;
-  for (const FurtherTexture& one : taken) names.push_back(one.name + " " + sizeOf(one.image));
   std::string note;
   if (!names.empty()) note = "maps taken along: " + joined(names);
   if (!left_out.empty())

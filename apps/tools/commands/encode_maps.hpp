@@ -15,11 +15,11 @@
 namespace tetrakis::tools {
 
 /// An image that lies on a mesh as its texture does, with the name of its component and what its
-/// errors count beside those of the texture.
+/// errors count, as tks_object_map has it.
 struct FurtherTexture {
   std::string name;
   ImageFile image;
-  double weight = 1;
+  double weight = 0;
 };
 
 /// The names that --maps stands for: all, none, or some with commas between them. TKS_USAGE.
@@ -33,21 +33,19 @@ void leaveOutTextures(SurfaceFile& mesh, bool quiet);
 Result<std::vector<FurtherTexture>> furtherTextures(const EncodeArguments& arguments,
                                                     SurfaceFile& surface, bool quiet);
 
-/// The longest side of them; 0: there are none.
-uint32_t longestSide(const std::vector<FurtherTexture>& textures);
+/// The textures as the encoder takes them; these and the images outlive that.
+struct GivenMaps {
+  explicit GivenMaps(const std::vector<FurtherTexture>& textures);
+  GivenMaps(const GivenMaps&) = delete;
+  GivenMaps& operator=(const GivenMaps&) = delete;
 
-/// A stream of triangles with their texture, and beside it the others, within the bytes that the
-/// arguments say.
-Result<Buffer> withFurther(const EncodeArguments& arguments, const Buffer& stream,
-                           const ImageFile& texture, const std::vector<FurtherTexture>& further,
-                           bool quiet);
+  std::vector<tks_image> images;
+  std::vector<tks_object_map> maps;
+};
 
-/// Which maps were taken, and which were not; "": the file has none. taken: those of the stream.
-std::string mapsNote(const std::vector<FurtherTexture>& taken,
-                     const std::vector<std::string>& left_out);
-
-/// The same of a mesh that was resampled, whose patches have other texture coordinates than those
-/// that maps lie on, and that normals count from.
-std::string resampledMapsNote(const std::vector<FurtherTexture>& left_out);
+/// Which maps were taken, and which were not; "": the file has none. given: those for the encoder,
+/// which leaves normals of a mesh out that is resampled.
+std::string mapsNote(const std::vector<FurtherTexture>& given, std::vector<std::string> left_out,
+                     bool is_resampled);
 
 }  // namespace tetrakis::tools

@@ -39,6 +39,13 @@ Result<ImageFile> readTexture(const std::string& path, bool quiet) {
   return texture;
 }
 
+/// What glTF says of a colour that no texture shows.
+void keepColour(SurfaceFile& mesh) {
+  MaterialFactors& factors = mesh.maps.material.factors;
+  if (!mesh.texture) factors.colour = mesh.base_colour;
+  factors.colour[3] = factors.alpha_mode == AlphaMode::kOpaque ? 1 : mesh.base_colour[3];
+}
+
 /// What lies on triangles beside their texture, or in the place of one that is not there.
 Status readFurther(const EncodeArguments& arguments, bool quiet, SurfaceInputs& inputs) {
   SurfaceFile& mesh = inputs.mesh;
@@ -48,10 +55,19 @@ Status readFurther(const EncodeArguments& arguments, bool quiet, SurfaceInputs& 
   Result<std::vector<FurtherTexture>> further = furtherTextures(arguments, mesh, quiet);
   if (!further.ok()) return further.status();
   inputs.further = *std::move(further);
-  if (inputs.further.empty() && !mesh.maps.has_even) return {};
-  inputs.material = materialText(mesh.maps.material);
-  if (!mesh.texture) mesh.texture = plainTexture(mesh);
+  const bool has_maps = !inputs.further.empty() || mesh.maps.has_even;
+  if (has_maps && !mesh.texture) mesh.texture = plainTexture(mesh);
+  const bool has_factors = mesh.y_is_up && arguments.maps != "none";
+  if (has_factors) keepColour(mesh);
+  if (has_maps || has_factors) inputs.material = materialText(mesh.maps.material);
   return {};
+}
+
+/// Colours at corners are a cell of the texture for each triangle, whose places would be rounded.
+void leaveOutCornerColours(SurfaceFile& mesh, bool quiet) {
+  if (!mesh.texture || !mesh.has_corner_colours) return;
+  tellNote("colours at corners are left out: they go with --class resampled", quiet);
+  mesh.texture.reset();
 }
 
 /// The textures of a mesh itself go with a number of bytes alone.
@@ -62,6 +78,7 @@ Result<SurfaceInputs> readSurfaceInputs(const EncodeArguments& arguments, bool q
       readTexturedSurface(arguments.height, {arguments.texture, *maps}, quiet);
   if (!mesh.ok()) return mesh.status();
   if (arguments.bytes == 0) leaveOutTextures(*mesh, quiet);
+  if (arguments.kind == "triangles") leaveOutCornerColours(*mesh, quiet);
   if (mesh->texture && !arguments.texture.empty() && arguments.white_level > 0)
     mesh->texture->white_level = arguments.white_level;
   SurfaceInputs inputs{std::move(*mesh), {}, "", ""};
@@ -100,10 +117,10 @@ tks_triangle_mesh asTriangleMesh(const SurfaceInputs& inputs, const std::string&
   if (!file.name.empty()) mesh.description = file.name.c_str();
   if (file.texture) mesh.texcoords = file.texcoords.front().data();
   if (!inputs.material.empty()) mesh.material = inputs.material.c_str();
-  mesh.texels = longestSide(inputs.further);
-  mesh.kind = kind == "auto"        ? TKS_OBJECT_AUTO
-              : kind == "triangles" ? TKS_OBJECT_TRIANGLES
-                                    : TKS_OBJECT_RESAMPLED;
+  const bool has_cells = file.texture && file.has_corner_colours;
+  mesh.kind = kind == "auto" && !has_cells ? TKS_OBJECT_AUTO
+              : kind == "triangles"        ? TKS_OBJECT_TRIANGLES
+                                           : TKS_OBJECT_RESAMPLED;
   return mesh;
 }
 
@@ -165,6 +182,9 @@ Result<Buffer> encodeMesh(const EncodeArguments& arguments, const SurfaceInputs&
   if (!sketch.ok()) return sketch.status();
   tks_triangle_mesh mesh = asTriangleMesh(inputs, arguments.kind);
   mesh.sketch_bytes = *sketch;
+  const GivenMaps maps(inputs.further);
+  mesh.maps = maps.maps.data();
+  mesh.map_count = static_cast<uint32_t>(maps.maps.size());
   const std::optional<ImageFile>& texture = inputs.mesh.texture;
   const tks_image image = texture ? asImage(*texture) : tks_image{};
   return encodeObject(mesh, texture ? &image : nullptr, *options, &report);
@@ -202,8 +222,8 @@ Status checkSurfaceArguments(const EncodeArguments& arguments) {
     return {TKS_USAGE, "a mesh with --texture takes --bytes as its target"};
   if (!arguments.cameras.isDefault() && arguments.bytes == 0)
     return {TKS_USAGE, "cameras share bytes between a mesh and its texture: give --bytes"};
-  if (!arguments.also.empty() && (arguments.bytes == 0 || arguments.kind != "triangles"))
-    return {TKS_USAGE, "of a mesh --also goes with --class triangles and --bytes alone"};
+  if (!arguments.also.empty() && arguments.bytes == 0)
+    return {TKS_USAGE, "of a mesh --also goes with --bytes alone"};
   const std::pair<const char*, bool> options[] = {
       {"--triangles", arguments.triangles > 0},
       {"--engine", arguments.engine != "modelled"},
@@ -278,8 +298,7 @@ namespace {
 /// What became of the mesh, beside its stream.
 Status tellResult(const EncodeArguments& arguments, const SurfaceInputs& inputs,
                   const tks_object_report& report, std::span<const uint8_t> bytes) {
-  tellNote(report.kind == TKS_OBJECT_TRIANGLES ? mapsNote(inputs.further, inputs.mesh.maps.left_out)
-                                               : resampledMapsNote(inputs.further),
+  tellNote(mapsNote(inputs.further, inputs.mesh.maps.left_out, report.kind != TKS_OBJECT_TRIANGLES),
            false);
   tellNote(cleaningNote(report), false);
   tellNote(objectNote(report, inputs.unit), false);
@@ -303,9 +322,7 @@ Status encodeSurface(const EncodeArguments& arguments, bool quiet) {
   status = checkSurfaceMemory(*inputs);
   if (!status.ok()) return status;
   tks_object_report report{};
-  Result<Buffer> stream = encodeMesh(arguments, *inputs, quiet, report);
-  if (stream.ok() && !inputs->further.empty() && report.kind == TKS_OBJECT_TRIANGLES)
-    stream = withFurther(arguments, *stream, *inputs->mesh.texture, inputs->further, quiet);
+  const Result<Buffer> stream = encodeMesh(arguments, *inputs, quiet, report);
   if (!stream.ok()) return stream.status();
   const std::span<const uint8_t> bytes = stream->bytes();
   status = output->stage(std::as_bytes(bytes));

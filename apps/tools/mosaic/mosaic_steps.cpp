@@ -191,7 +191,16 @@ struct StreamFile {
   }
 };
 
-Status mergeInto(Output& output, const std::string& work, bool windows) {
+Result<tks_merge_options> mergeOptions(const LayoutRequest& request) {
+  tks_merge_options options{sizeof options, TKS_LAYOUT_MIXED, request.preview};
+  if (request.layout == "mixed") return options;
+  if (request.preview > 0)
+    return Status(TKS_USAGE, "--preview is for --layout mixed: no other layout has a preview");
+  options.layout = request.layout == "windows" ? TKS_LAYOUT_WINDOWS : TKS_LAYOUT_PROGRESSIVE;
+  return options;
+}
+
+Status mergeInto(Output& output, const std::string& work, const tks_merge_options& options) {
   const Result<WorkFolder> folder = WorkFolder::open(work);
   if (!folder.ok()) return folder.status();
   if (Status stays = checkInputsStay(folder->sources(), output.name()); !stays.ok()) return stays;
@@ -200,9 +209,8 @@ Status mergeInto(Output& output, const std::string& work, bool windows) {
     StreamFile stream{std::ofstream(path, std::ios::binary)};
     std::array<char, 512> message{};
     const tks_status status =
-        tks_mosaic_merge(folder->plan().data(), folder->plan().size(), &files,
-                         windows ? TKS_INDEX_WINDOWS : TKS_INDEX_NONE, StreamFile::write, &stream,
-                         message.data(), message.size());
+        tks_mosaic_merge(folder->plan().data(), folder->plan().size(), &files, &options,
+                         StreamFile::write, &stream, message.data(), message.size());
     if (status != TKS_OK) return {status, message.data()};
     stream.file.close();
     return stream.file ? Status() : Status(TKS_IO, "cannot write " + quoted(path));
@@ -213,15 +221,15 @@ Status mergeInto(Output& output, const std::string& work, bool windows) {
 }  // namespace
 
 Status mergeMosaic(const MergeRequest& request) {
+  const Result<tks_merge_options> options = mergeOptions(request.layout);
+  if (!options.ok()) return options.status();
   Result<Output> output = Output::plan(request.output, request.force, ".tks");
-  return output.ok() ? mergeInto(*output, request.work, request.windows) : output.status();
+  return output.ok() ? mergeInto(*output, request.work, *options) : output.status();
 }
 
 Status joinMosaic(const JoinRequest& request, Notes& notes, bool quiet) {
-  if (request.windows && !request.plan.lossless && request.plan.max_error.empty())
-    return {TKS_USAGE,
-            "--windows takes --lossless or --max-error: a shorter stream would lack "
-            "whole regions"};
+  const Result<tks_merge_options> options = mergeOptions(request.layout);
+  if (!options.ok()) return options.status();
   const Result<std::vector<std::string>> sources = sourceFiles(request.plan.sources);
   if (!sources.ok()) return sources.status();
   if (Status stays = checkInputsStay(*sources, request.plan.output); !stays.ok()) return stays;
@@ -233,7 +241,7 @@ Status joinMosaic(const JoinRequest& request, Notes& notes, bool quiet) {
   const std::string work = folder->path().string();
   Status status = planMosaic(request.plan, work, notes);
   if (status.ok()) status = codeMosaic({.work = work, .threads = request.threads}, quiet);
-  return status.ok() ? mergeInto(*output, work, request.windows) : status;
+  return status.ok() ? mergeInto(*output, work, *options) : status;
 }
 
 }  // namespace tetrakis::tools

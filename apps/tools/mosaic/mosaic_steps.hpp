@@ -43,9 +43,17 @@ Result<std::vector<MosaicTask>> chosenTasks(const WorkFolder& folder, const Code
 /// Runs those that are not done. quiet: without a progress bar.
 Status codeMosaic(const CodeRequest& request, bool quiet);
 
+/// How the stream is laid out: "progressive", "windows" or "mixed", the last one with a preview of
+/// so many bytes (0: of a tenth).
+struct LayoutRequest {
+  std::string layout = "mixed";
+  uint64_t preview = 0;
+};
+
 struct MergeRequest {
   std::string work, output;
-  bool windows = false, force = false;
+  LayoutRequest layout;
+  bool force = false;
 };
 
 Status mergeMosaic(const MergeRequest& request);
@@ -54,7 +62,7 @@ Status mergeMosaic(const MergeRequest& request);
 struct JoinRequest {
   PlanRequest plan;  ///< its output is the stream
   uint32_t threads = 1;
-  bool windows = false;
+  LayoutRequest layout;
 };
 Status joinMosaic(const JoinRequest& request, Notes& notes, bool quiet);
 

@@ -149,7 +149,7 @@ class TileWriter {
         !set.ok())
       return set;
     Result<std::vector<float>> heights = decoder_.surface();
-    if (heights.ok() && cube) heights = surfaceOfCube(info, *heights, {});
+    if (heights.ok() && cube) heights = gridOfCube(info, *heights);
     if (!heights.ok()) return heights.status();
     const Extent extent = shownHeights(info);
     surface_ = {std::move(*heights), extent.width, extent.height, mip};

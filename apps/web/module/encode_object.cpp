@@ -42,10 +42,11 @@ tks_triangle_mesh meshOf(Numbers& numbers, const char* const* texts, const void*
   mesh.texcoords = static_cast<const float*>(data[2]);
   mesh.unit = texts[0];
   mesh.description = texts[1];
+  mesh.material = texts[2];
   return mesh;
 }
 
-tks_image imageOf(Numbers& numbers, const void* data) {
+tks_image texelsOf(Numbers& numbers, const void* data) {
   tks_image image{};
   image.size = sizeof image;
   image.data = data;
@@ -53,10 +54,34 @@ tks_image imageOf(Numbers& numbers, const void* data) {
   numbers.take(image.height);
   numbers.take(image.channels);
   numbers.take(image.sample);
+  return image;
+}
+
+tks_image imageOf(Numbers& numbers, const void* data) {
+  tks_image image = texelsOf(numbers, data);
   numbers.take(image.opaque);
   numbers.take(image.white_level);
   return image;
 }
+
+/// Images in the order of web_encode_object_names(), of which some are there.
+struct Maps {
+  static constexpr std::initializer_list<const char*> kNames = {"normal", "metallic_roughness",
+                                                                "occlusion", "emissive"};
+
+  Maps(Numbers& numbers, const void* const* data) {
+    for (const char* name : kNames) {
+      images[count] = texelsOf(numbers, *data);
+      if (*data++ == nullptr) continue;
+      maps[count] = {sizeof(tks_object_map), name, &images[count], 0};
+      ++count;
+    }
+  }
+
+  tks_image images[5];
+  tks_object_map maps[4];
+  uint32_t count = 0;
+};
 
 }  // namespace
 
@@ -67,12 +92,17 @@ const char* web_encode_object_names() {
   return "vertexCount triangleCount kind sketchBytes "
          "textureWidth textureHeight textureChannels textureSample textureOpaque "
          "textureWhiteLevel "
+         "normalWidth normalHeight normalChannels normalSample "
+         "metallic_roughnessWidth metallic_roughnessHeight metallic_roughnessChannels "
+         "metallic_roughnessSample "
+         "occlusionWidth occlusionHeight occlusionChannels occlusionSample "
+         "emissiveWidth emissiveHeight emissiveChannels emissiveSample "
          "bytes psnr maxError index";
 }
 
 /// Likewise its texts.
 const char* web_encode_object_texts() {
-  return "unit description";
+  return "unit description material";
 }
 
 /// Likewise the numbers of web_encode_object_report().
@@ -86,14 +116,17 @@ const double* web_encode_object_report() {
   return told;
 }
 
-/// data: positions, triangles, texcoords and the texture, NULL where there is none. texts: NULL
-/// where unknown.
+/// data: positions, triangles, texcoords, the texture and four maps, NULL where there is none.
+/// texts: NULL where unknown.
 tks_status web_encode_object(const double* numbers, const char* const* texts,
                              const void* const* data, tks_buffer* out, char* message,
                              size_t message_size) {
   Numbers left(numbers);
-  const tks_triangle_mesh mesh = meshOf(left, texts, data);
+  tks_triangle_mesh mesh = meshOf(left, texts, data);
   const tks_image image = imageOf(left, data[3]);
+  const Maps maps(left, data + 4);
+  mesh.maps = maps.maps;
+  mesh.map_count = maps.count;
   tks_encode_options o{};
   o.size = sizeof o;
   left.take(o.bytes);

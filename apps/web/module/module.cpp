@@ -79,7 +79,7 @@ extern "C" {
   NUMBER(frame, frame)                                     \
   NUMBER(components, components)                           \
   NUMBER(showsSketch, shows_sketch)                        \
-  NUMBER(leastBytes, least_bytes)
+  NUMBER(leastBytes, least_bytes) NUMBER(indexBytes, index_bytes)
 
 /// The names, in the order in which web_numbers() writes the numbers.
 const char* web_names() {

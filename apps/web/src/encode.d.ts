@@ -94,6 +94,12 @@ export interface ObjectInput {
    * lower right one; it repeats beyond these. */
   texcoords?: ArrayLike<number>;
   texture?: Pick<TextureInput, 'data' | 'width' | 'height' | 'channels' | 'opaque' | 'whiteLevel'>;
+  /** Beside a texture: images of any size that lie on the mesh as it does, channel by channel as
+   * glTF has them. A resampled object leaves `normal` out, whose normals count from texcoords. */
+  maps?: Partial<Record<'normal' | 'metallic_roughness' | 'occlusion' | 'emissive',
+    Pick<TextureInput, 'data' | 'width' | 'height' | 'channels'>>>;
+  /** Factors of a glTF material, by its names, or their JSON. */
+  material?: object | string;
   unit?: string;
   description?: string;
   /** 'resampled': only the surface comes back, in as many triangles as one likes; for scans and

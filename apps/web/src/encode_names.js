@@ -10,8 +10,8 @@ const HEIGHTS = [...RASTER, 'nodata', 'unit', 'spacing', 'scale', 'offset', 'ste
 const TEXTURE = [...RASTER, 'channels', 'opaque', 'whiteLevel'];
 const INPUT = ['heights', 'texture', 'bytes', 'psnr', 'maxError', 'lossless', 'triangles',
   'regions', 'index', 'weights'];
-const OBJECT = ['positions', 'triangles', 'texcoords', 'texture', 'unit', 'description', 'kind',
-  'sketch', 'bytes', 'psnr', 'maxError', 'index'];
+const OBJECT = ['positions', 'triangles', 'texcoords', 'texture', 'maps', 'material', 'unit',
+  'description', 'kind', 'sketch', 'bytes', 'psnr', 'maxError', 'index'];
 const TEXELS = ['data', 'width', 'height', 'channels', 'opaque', 'whiteLevel'];
 const OPTIONS = ['signal', 'worker', 'wasm', 'progress'];
 
@@ -32,5 +32,6 @@ export function checkNames(input, options) {
 export function checkObjectNames(mesh, options) {
   check(mesh, OBJECT, 'A mesh');
   check(mesh.texture, TEXELS, 'The texture of a mesh');
+  for (const [name, map] of Object.entries(mesh.maps ?? {})) check(map, TEXELS.slice(0, 4), name);
   check(options, OPTIONS, 'The second argument of encodeObject()');
 }

@@ -37,23 +37,28 @@ function whiteLevelOf({whiteLevel = 0}) {
   throw new TksError('usage', 'whiteLevel is a whole number from 0 to 65535.');
 }
 
-/** Of a texture: as said, or as the length of its data tells. */
-function channelsOf({data, width, height, channels}) {
-  const count = channels ?? data.length / (width * height);
+/** Of an image: as said, or as the length of its data tells. */
+function channelsOf({data, width, height, channels}, name) {
+  const count = channels ?? data?.length / (width * height);
   if ([1, 2, 3, 4].includes(count)) return count;
-  throw new TksError('usage', `texture: ${width} x ${height} texels of 1, 2, 3 or 4 channels are ` +
-    `not the ${data.length} values of its data.`);
+  throw new TksError('usage', `${name}: ${width} x ${height} texels of 1, 2, 3 or 4 channels are ` +
+    `not the ${data?.length} values of its data.`);
+}
+
+/** Of an image, without its place; their names begin with that of the image. */
+export function imageFields(image, name) {
+  const {data, width, height} = image, channels = channelsOf(image, name);
+  checkSize(image, channels, name);
+  return {
+    [`${name}Width`]: width, [`${name}Height`]: height, [`${name}Channels`]: channels,
+    [`${name}Sample`]: sampleOf(data, `the ${name}`),
+  };
 }
 
 /** Of a texture, without its place. */
 export function texelFields(texture) {
-  const {data, width, height} = texture;
-  const sample = sampleOf(data, 'the texture');
-  const channels = channelsOf(texture);
-  checkSize(texture, channels, 'texture');
   return {
-    textureWidth: width, textureHeight: height, textureChannels: channels, textureSample: sample,
-    textureOpaque: Number(texture.opaque ?? false),
+    ...imageFields(texture, 'texture'), textureOpaque: Number(texture.opaque ?? false),
     textureWhiteLevel: whiteLevelOf(texture),
   };
 }

@@ -17,6 +17,7 @@ export class Fetcher {
   #decoder;
   #requestBytes;
   #held = new Held();
+  #pages = new Held();  // of an index in pages, behind the stream
   #flow = new Flow();
   #reading = Promise.resolve();
   #awaited = new Set();  // {bytes, resolve}: who waits for so many
@@ -48,6 +49,12 @@ export class Fetcher {
   /** Whether the file ends before the stream does. */
   get truncated() {
     return this.#source.size < this.info.streamBytes;
+  }
+  /** Whether bytes can be asked for by what they show. */
+  get #isIndexed() {
+    const {hasIndex, streamBytes, indexBytes} = this.info;
+    const there = !indexBytes || this.#source.size >= streamBytes + indexBytes;
+    return hasIndex && there && !this.#source.sequential;
   }
   /** Of the file, as far as it is known; Infinity: it is not. */
   get fileBytes() {
@@ -84,11 +91,12 @@ export class Fetcher {
     }
   }
   async #read(bytes, {signal, view, ...asked}) {
-    for (let before = -1; this.#held.bytes < bytes && this.#held.bytes > before; ) {
+    const came = () => this.#held.bytes + this.#pages.bytes;
+    for (let last = -1; this.#held.bytes < bytes && came() > last; ) {
       signal?.throwIfAborted();
-      before = this.#held.bytes;
-      const isPlanned = view && this.info?.hasIndex && !this.#source.sequential;
-      if (!isPlanned) {
+      const before = this.#held.bytes;
+      last = came();
+      if (!view || !this.info || !this.#isIndexed) {
         await this.#fetchNext(bytes - before, signal);
         continue;
       }
@@ -129,6 +137,13 @@ export class Fetcher {
     // A server that has just forgotten ranges sends all from its beginning.
     if (this.#source.sequential) await this.#fetchNext(bytes, signal);
   }
+  /** Asks for ranges [begin, end) of the file. Whether such can be asked for. */
+  async bring(ranges, signal) {
+    if (!this.#isIndexed) return false;
+    const stop = new AbortController();
+    await stoppedBy(signal, stop, () => this.#takeAll(ranges, stop));
+    return !this.#source.sequential;
+  }
   /** Takes ranges [begin, end) as they come. One that fails ends those that are still to come. */
   async #takeAll(ranges, stop) {
     const answers = ranges.map(([begin, end]) =>
@@ -145,12 +160,19 @@ export class Fetcher {
    * of what it is asked for later; nobody waits for it, because it may be at work on a frame.
    */
   #take(begin, chunk) {
-    for (const [b, e] of this.#held.gaps(begin, begin + chunk.length)) {
+    const end = this.info?.streamBytes ?? Infinity;
+    if (begin < end && begin + chunk.length > end) {
+      this.#take(begin, chunk.subarray(0, end - begin));
+      this.#take(end, chunk.subarray(end - begin));
+      return;
+    }
+    const held = begin < end ? this.#held : this.#pages;
+    for (const [b, e] of held.gaps(begin, begin + chunk.length)) {
       const piece = {place: b, chunk: chunk.slice(b - begin, e - begin)};
-      const put = askDecoder(this.#decoder, 'put', piece);
+      const put = askDecoder(this.#decoder, held === this.#held ? 'put' : 'putPage', piece);
       put.catch(() => {});  // of a decoder that failed, and says so to all
     }
-    this.#held.add(begin, begin + chunk.length);
+    held.add(begin, begin + chunk.length);
     this.#flow.take(chunk.length);
     for (const {bytes, resolve} of this.#awaited) {
       if (this.#held.bytes >= bytes) resolve();

@@ -39,12 +39,15 @@ function levelsOf(opened, info, {textureLevel, surfaceLevel, texels, samples}) {
 /** Of a mesh for each byte of heights: some 20000 are good after 18 kB. */
 const TRIANGLES_OF_BYTE = 4;
 
+/** Those that the base of an object has, which its header holds. */
+const leastOf = ({isObject, width, height}) => (isObject ? (2 * height) / width : 2);
+
 /** As many as were asked for, and no more than the bytes of a prefix feed. */
 function trianglesFor({triangles}, opened, info) {
   if (info.objectTriangles) return triangles;  // the header holds all of them
   const isComplete = opened.size >= info.streamBytes;
   return isComplete ? triangles
-    : Math.min(triangles, Math.max(2, TRIANGLES_OF_BYTE * info.geometryBytes));
+    : Math.min(triangles, Math.max(leastOf(info), TRIANGLES_OF_BYTE * info.geometryBytes));
 }
 
 /** Makes the parts of a frame that `request` asks for, one at each step; returns them all. `centre`

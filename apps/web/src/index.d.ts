@@ -137,6 +137,8 @@ export interface TerrainInfo {
   streamBytes: number;
   /** The fewest bytes that show something: the header or, with a sketch, that of the sketch. */
   leastBytes: number;
+  /** Of an index in pages, which lie behind `streamBytes`; 0: there is none. */
+  indexBytes: number;
   /** The bytes end inside the header: all else is about the sketch that the stream begins with. */
   showsSketch: boolean;
   /** How many frames the stream has, and which of them this is. */
@@ -293,7 +295,7 @@ export interface Frame {
   /** RGBA; of an object with heights an atlas: its patches in rows and columns, each with a gutter
    * of one texel that repeats its border. */
   texture?: Raster<Uint8ClampedArray>;
-  /** Of info.objectTriangles, whose stream has maps: those of which the bytes tell something. */
+  /** Of an object whose stream has maps of a material: those of which the bytes tell something. */
   maps?: Partial<Record<MapName, MaterialMap>>;
   /** In info.unit; voids are NaN. */
   surface?: Surface;
@@ -363,10 +365,11 @@ export interface Terrain {
    * All these are fetched meanwhile: each frame takes what is here by then, but at least four times
    * as many bytes as the one before it. To leave the loop ends the fetching. */
   refine(options?: RefineOptions): AsyncGenerator<Frame, void, void>;
-  /** Which bytes, [begin, end) each, a window of samples or texels takes; needs an index. */
+  /** Which bytes, [begin, end) each, a window of samples or texels takes; needs an index. Of one in
+   * pages it fetches those of the window. */
   needed(options: {
     part?: 'heights' | 'texture'; window: {x: number; y: number; width: number; height: number};
-    frame?: number; component?: ComponentChoice | null;
+    frame?: number; component?: ComponentChoice | null; signal?: AbortSignal;
   }): Promise<[number, number][]>;
   dispose(): void;
   [Symbol.dispose](): void;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Meshes of triangles as the WebAssembly module takes them that encodes objects.
 import {streamOf, withEncoder} from './encoder_call.js';
-import {oneOf, targetFields, texelFields} from './encoder_fields.js';
+import {imageFields, oneOf, targetFields, texelFields} from './encoder_fields.js';
 import {TksError} from './error.js';
+import {MAPS} from './material.js';
 
 /** By the numbers of tks_object_kind. */
 const KINDS = ['auto', 'resampled', 'triangles'];
@@ -37,14 +38,30 @@ function sketchOf(sketch = 'auto') {
   throw new TksError('usage', "sketch is a number of bytes, 'none' or 'auto'.");
 }
 
+/** The maps by MAPS; null: it is not given. */
+function mapsOf({maps, texture}) {
+  const names = Object.keys(maps ?? {}), unknown = names.find((name) => !MAPS.includes(name));
+  if (unknown !== undefined) oneOf(MAPS, unknown, 'The name of a map');
+  if (names.length > 0 && !texture) {
+    throw new TksError('usage', 'maps lie on a mesh as its texture does: give one.');
+  }
+  return MAPS.map((name) => maps?.[name] ?? null);
+}
+
+/** JSON, as it is or of an object. */
+const textOf = (material) =>
+  (typeof material === 'object' && material !== null ? JSON.stringify(material) : material);
+
 /** What web_encode_object() takes, by name. */
-function fieldsOf({positions, triangles, texture, kind, sketch, index, ...options}) {
+function fieldsOf({positions, triangles, texture, kind, sketch, index, ...options}, maps) {
+  const ofMaps = maps.map((map, i) => (map ? imageFields(map, MAPS[i]) : {}));
   return {
     vertexCount: countOf(positions, 3, 'positions'),
     triangleCount: countOf(triangles, 3, 'triangles'),
     kind: oneOf(KINDS, kind, 'kind'), sketchBytes: sketchOf(sketch),
     index: oneOf(INDEXES, index, 'index'),
-    ...(texture ? texelFields(texture) : {}), ...targetFields(options),
+    ...(texture ? texelFields(texture) : {}), ...Object.assign({}, ...ofMaps),
+    ...targetFields(options),
   };
 }
 
@@ -59,10 +76,11 @@ function reportOf(instance) {
 
 /** tks_encode_object: {stream, report}. */
 export function encodeObjectWith(module, input, progress) {
+  const maps = mapsOf(input), {unit, description, material} = input;
   const given = {
-    numbers: fieldsOf(input), texts: {unit: input.unit, description: input.description},
+    numbers: fieldsOf(input, maps), texts: {unit, description, material: textOf(material)},
     arrays: [Float64Array.from(input.positions), Uint32Array.from(input.triangles),
-      cornersOf(input), input.texture?.data],
+      cornersOf(input), input.texture?.data, ...maps.map((map) => map?.data)],
   };
   return withEncoder(module, progress, (instance) => {
     const stream = streamOf(instance, 'web_encode_object', given);

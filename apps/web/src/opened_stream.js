@@ -13,6 +13,7 @@ const FIRST = {heights: -1, texture: -1};
 
 export class OpenedStream extends Opened {
   #header;  // a copy, which the decoder reads until it gets more bytes
+  #pages = 0;  // of the index, which the decoder has
   /** first: gives so many of the first bytes, as far as they are here; chain: the address of what
    * the stream goes on from; component: as choiceOf() takes it. */
   constructor(instance, first, chain, component) {
@@ -82,8 +83,18 @@ export class OpenedStream extends Opened {
       return instance.view(Uint32Array, out, 1)[0] || first.length;  // below 2^21
     });
   }
+  /** Of pages {place, bytes} of the index those that were not taken before. */
+  putPages(pages) {
+    for (; this.#pages < pages.length; ++this.#pages) {
+      const {place, bytes} = pages[this.#pages];
+      this.#put(place, [bytes]);
+    }
+  }
   /** More bytes, in parts one behind the other, from this place of the stream on. */
   put(place, parts) {
+    this.size += this.#put(place, parts);
+  }
+  #put(place, parts) {
     const {instance} = this, size = parts.reduce((sum, {length}) => sum + length, 0);
     instance.with(size, (address) => {
       const all = instance.view(Uint8Array, address, size);
@@ -94,7 +105,7 @@ export class OpenedStream extends Opened {
       }
       this.check(instance.calls.web_put(this.decoder, place, address, size));
     });
-    this.size += size;
+    return size;
   }
   close() {
     this.instance.calls.tks_close(this.decoder);

@@ -40,6 +40,7 @@ export class Decoder {
   #opened = new Map();  // by the components that are asked for
   #chunks = [];  // in the order in which they came
   #length = 0;
+  #pages = [];  // {place, bytes} of an index behind the stream, which count for nothing
   #chain;  // that the stream goes on from
   #centre = null;  // that positions of an object count from, in all frames
 
@@ -53,6 +54,10 @@ export class Decoder {
     this.#chunks.push({place, bytes: chunk, before: this.#length});
     this.#length += chunk.length;
   }
+  /** The same of pages of an index, which lie behind the stream. */
+  putPage({place, chunk}) {
+    this.#pages.push({place, bytes: chunk});
+  }
   /** The same, of bytes that come in the order of the stream. */
   append(bytes) {
     this.put({place: this.#length, chunk: bytes});
@@ -63,7 +68,7 @@ export class Decoder {
   forget(behind) {
     this.#close();
     this.#chain.follow(behind);
-    [this.#chunks, this.#length, this.#centre] = [[], 0, null];
+    [this.#chunks, this.#length, this.#pages, this.#centre] = [[], 0, [], null];
   }
 
   #first(size) {
@@ -91,6 +96,7 @@ export class Decoder {
     const opened = this.#opened.get(key) ?? this.#open(size, key, component);
     // The decoder looks through its index each time that it gets bytes.
     for (const {place, parts} of runsOf(this.#behind(opened.size, size))) opened.put(place, parts);
+    opened.putPages(this.#pages);
     opened.setLevels(0, 0);
     return opened;
   }

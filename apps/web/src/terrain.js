@@ -164,16 +164,23 @@ export class Terrain {
     }
   }
 
-  /** Which bytes a window of the heights or of the texture takes, as [begin, end). */
-  async needed({part = 'heights', window, component} = {}) {
+  /** Which bytes a window of the heights or of the texture takes, as [begin, end). Of an index in
+   * pages it fetches those that tell of the window. */
+  async needed({part = 'heights', window, component, signal} = {}) {
     const {x, y, width, height} = window ?? {};
     if (!(part in PARTS) || ![x, y, width, height].every((number) => number >= 0)) {
       throw new TksError('usage', 'needed() takes `part`, "heights" or "texture", and `window`: ' +
         '{x, y, width, height}.');
     }
     const asked = {part: PARTS[part], window, component: askedOf(component)};
-    const ranges = await askDecoder(this.#decoder, 'needed', asked);
-    return ranges.map(({begin, end}) => [begin, end]);
+    const {headerBytes, streamBytes} = this.info;
+    for (;;) {
+      const planned = await askDecoder(this.#decoder, 'needed', asked);
+      const ranges = planned.map(({begin, end}) => [begin, end]);
+      if (!ranges.some(([begin]) => begin >= streamBytes)) return ranges;
+      // Without its index the stream is read as a whole.
+      if (!(await this.#fetcher.bring(ranges, signal))) return [[headerBytes, streamBytes]];
+    }
   }
 
   /** Reads the header, which may be longer than the first request: the second brings a picture. */

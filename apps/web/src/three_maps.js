@@ -23,9 +23,15 @@ export class MaterialMaps {
     this.#factors = factorsOf(info.material);
     const coming = mapsOf(info);
     if ('roughness' in material) Object.assign(material, {roughness: 1, metalness: 0});
+    this.#colour();
     for (const name of Object.keys(SLOTS)) if (!coming.has(name)) this.#scale(name);
   }
 
+  #colour() {
+    const {colour, opacity} = this.#factors;
+    this.material.color?.setRGB(...colour);
+    if (opacity < 1) Object.assign(this.material, {opacity, transparent: true});
+  }
   /** Rasters by their names; those that are not there stay as they are. */
   show(rasters) {
     for (const [name, raster] of Object.entries(rasters)) {

@@ -95,6 +95,35 @@ test('a signal ends it', async () => {
     {signal: stop.signal, progress}), /enough/);
 });
 
+test('maps and factors come along, of either kind', async () => {
+  const grey = {width: 32, height: 16,
+    data: Uint8Array.from({length: 512}, (_, i) => 8 * (i % 32))};
+  const lights = {...texture, data: texture.data.map((value) => 255 - value)};
+  const material = {pbrMetallicRoughness: {metallicFactor: 0.25}, emissiveFactor: [1, 1, 1]};
+  for (const kind of ['resampled', 'triangles']) {
+    const maps = {normal: texture, occlusion: grey, emissive: lights};
+    const {stream} =
+      await encodeObject({...ball, texture, maps, material, kind, bytes: 30000});
+    assert.ok(stream.length <= 30000);
+    const decoded = await open(stream);
+    assert.deepEqual(JSON.parse(decoded.info.material), material);
+    const frame = await decoded.decode({triangles: 2000});
+    const names = kind === 'triangles' ? ['emissive', 'normal', 'occlusion']
+      : ['emissive', 'occlusion'];  // normals count from texcoords, which patches have others of
+    assert.deepEqual(Object.keys(frame.maps).sort(), names);
+    const {emissive, occlusion} = frame.maps, {data, width, height} = frame.texture;
+    assert.deepEqual([emissive.width, emissive.height], [width, height]);
+    if (kind === 'triangles') continue;
+    assert.deepEqual([occlusion.width, occlusion.height], [width, height]);
+    let off = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      off += Math.abs(data[i] - (255 - emissive.data[i]));
+      off += Math.abs(data[i] - 2 * (occlusion.data[i] / 2));
+    }
+    assert.ok(off / (data.length / 2) < 24, `${off / data.length}`);
+  }
+});
+
 test('what makes no sense is refused by code and sentence', async () => {
   const refused = (mesh, pattern) => assert.rejects(encodeObject(mesh), (error) => {
     assert.ok(error instanceof TksError);
@@ -118,6 +147,9 @@ test('what makes no sense is refused by code and sentence', async () => {
   await refused({...bare, bytes, positions: [NaN, ...ball.positions.slice(1)]}, /finite place/);
   await refused({...bare, bytes, texture}, /texcoords, two numbers for each/);
   await refused({...ball, bytes}, /A texture and texcoords/);
+  await refused({...bare, bytes, maps: {normal: texture}}, /give one/);
+  await refused({...ball, bytes, texture, maps: {gloss: texture}}, /name of a map is one of/);
+  await refused({...ball, bytes, texture, maps: {normal: {...texture, width: 9}}}, /normal: 9 x/);
   await refused({...ball, texture, psnr: 40}, /takes a number of bytes as its target/);
   await refused({...ball, bytes, texture: {...texture, crs: 'x'}}, /texture .* cannot have crs/);
   await refused({...ball, bytes, texture: {...texture, width: 63}}, /63 x 32 samples/);

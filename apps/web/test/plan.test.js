@@ -12,6 +12,7 @@ import {open} from '../src/index.js';
 import {Held, requestsFor} from '../src/ranges.js';
 import {TksTerrain} from '../src/three.js';
 import {serve} from './server.js';
+import {settle} from './settle.js';
 import {terrainOf} from './terrain.js';
 
 const SIDE = 193;
@@ -215,15 +216,9 @@ test('a view that is none is refused', async () => {
   }
 });
 
-/** Shows a camera to a terrain of three.js until nothing more comes. */
-async function settle(object, camera) {
-  for (let quiet = 0; quiet < 8; ) {
-    const before = object.terrain.loaded.bytes;
-    object.update(camera, 400);
-    await new Promise((resolve) => setTimeout(resolve, 80));
-    quiet = object.terrain.loaded.bytes > before ? 0 : quiet + 1;
-  }
-}
+/** Until nothing more comes. */
+const fed = (object, camera) => settle(object, camera,
+  {height: 400, told: ({terrain}) => terrain.loaded.bytes, times: 8, wait: 80});
 
 test('a terrain of three.js goes on to what its camera needs, though it stays still', async () => {
   const terrain = await open(bytes, {requestBytes: 2 ** 14});
@@ -231,7 +226,7 @@ test('a terrain of three.js goes on to what its camera needs, though it stays st
   const camera = new PerspectiveCamera(40, 1.6, 1, 1e6);
   camera.position.set(0, 4000, 4000);
   camera.lookAt(0, 0, 0);
-  await settle(object, camera);
+  await fed(object, camera);
   const {bytes: settled} = terrain.loaded, view = object.viewOf(camera, 400);
   assert.ok(settled > 0.5 * bytes.length, `${settled} of ${bytes.length}`);
   assert.equal(await terrain.load(Infinity, {view, triangles: 2000}), settled);
@@ -250,7 +245,7 @@ test('a terrain of three.js asks a dozen times for a view, some more as it moves
     const look = async (x, z) => {
       camera.position.set(x, 1600, z);
       camera.lookAt(1.4 * x, 0, 1.4 * z);
-      await settle(object, camera);
+      await fed(object, camera);
       assert.ok(terrain.loaded.bytes < large.length);
       return server.requests.length;
     };
@@ -273,7 +268,7 @@ test('a terrain of three.js shows all of a file that is cut short', async () => 
     const object = new TksTerrain(terrain, {triangles: 2000});
     object.addEventListener('frame', ({frame}) => errors.push(frame.info.heightsRmse));
     await object.begin();
-    await settle(object, camera);
+    await fed(object, camera);
     assert.ok(terrain.truncated);
     const {bytes: settled} = terrain.loaded, view = object.viewOf(camera, 400);
     if (!index) assert.equal(settled, size);
@@ -322,7 +317,7 @@ test('a terrain of three.js fetches for its camera, and on when that moves', asy
   const look = async (x, z) => {
     camera.position.set(x, 1500, z);
     camera.lookAt(1.5 * x, 0, 1.5 * z);
-    await settle(object, camera);
+    await fed(object, camera);
     return object.terrain.loaded.bytes;
   };
   const first = await look(-2000, -2000);

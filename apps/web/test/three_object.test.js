@@ -14,6 +14,7 @@ import {TksLoader, TksObject} from '../src/three.js';
 import {launch} from './chromium.js';
 import {psnr} from './pictures.js';
 import {serve} from './server.js';
+import {settle} from './settle.js';
 
 const CLI = process.env.TETRAKIS_CLI ??
   new URL('../../../build/tetrakis', import.meta.url).pathname;
@@ -53,14 +54,8 @@ after(async () => {
 });
 
 /** Lets the object do what it does while nothing moves. */
-async function settle(object, camera) {
-  for (let quiet = 0; quiet < 3; ) {
-    const {frame} = object;
-    object.update(camera, 800);
-    await new Promise((resolve) => setTimeout(resolve, 60));
-    quiet = object.frame === frame ? quiet + 1 : 0;
-  }
-}
+const settled = (object, camera) =>
+  settle(object, camera, {height: 800, told: ({frame}) => frame, times: 3, wait: 60});
 
 test('a loader gives an object, with its normals, and with the texture that it has', async () => {
   for (const name of ['object_joint_9x54_17x102.tks', 'object_open_17x68.tks']) {
@@ -84,7 +79,7 @@ test('an object refines as far as the camera sees; its texture grows and shrinks
   const camera = new PerspectiveCamera(50, 1, 1, 1e9), middle = object.fit(camera);
   const seen = async (times) => {
     camera.position.sub(middle).multiplyScalar(times).add(middle);
-    await settle(object, camera);
+    await settled(object, camera);
     return object.material.map.image.width;
   };
   const near = await seen(1), far = await seen(1e3), again = await seen(1e-3);
@@ -105,7 +100,7 @@ test('a sketch gives way to the mesh', {skip, ...TIMEOUT}, async () => {
   const sketched = object.geometry.index.count, camera = new PerspectiveCamera(50, 1, 1e-3, 100);
   object.bytes = Infinity;
   object.fit(camera);
-  await settle(object, camera);
+  await settled(object, camera);
   const {info, complete} = object.frame;
   assert.ok(complete && !info.showsSketch);
   assert.equal(object.geometry.index.count, 3 * info.objectTriangles);
@@ -187,7 +182,7 @@ test('of triangles as they are the texture alone refines, and repeats', {skip, .
     assert.equal(geometry.index.count, 3 * info.objectTriangles);
     for (const times of [1e3, 1e-3, 1, 1e-3]) {
       camera.position.sub(middle).multiplyScalar(times).add(middle);
-      await settle(object, camera);
+      await settled(object, camera);
       widths.push(object.material.map.image.width);
       assert.equal(object.geometry, geometry);
     }

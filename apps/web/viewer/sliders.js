@@ -13,25 +13,21 @@ const toSlider = (value, least, most) => (1000 * Math.log(value / least)) / Math
 
 /** Of the header alone there is a surface too, and of a sketch. */
 const leastBytes = (info) => Math.min(info.leastBytes, info.streamBytes - 1);
-/** Of an object no fewer than two for each patch. */
-const leastTriangles = ({isObject, hasHeights, width, height}) =>
-  Math.max(LEAST_TRIANGLES, isObject && hasHeights ? (2 * height) / width : 0);
-const mostTriangles = (info) =>
-  Math.max(2 * leastTriangles(info), Math.min(MOST_TRIANGLES, 2 * info.width * info.height));
+const mostTriangles = ({width, height}) =>
+  Math.max(2 * LEAST_TRIANGLES, Math.min(MOST_TRIANGLES, 2 * width * height));
 
 /** Puts both where they begin for a stream. */
 export function setSliders(info) {
   $('bytes').value =
     toSlider(Math.min(info.streamBytes, FREE_BYTES), leastBytes(info), info.streamBytes);
-  const least = leastTriangles(info), most = mostTriangles(info);
-  $('triangles').value = toSlider(Math.min(USUAL_TRIANGLES, most), least, most);
+  const most = mostTriangles(info);
+  $('triangles').value = toSlider(Math.min(USUAL_TRIANGLES, most), LEAST_TRIANGLES, most);
 }
 
 /** {bytes, triangles}, which the page then says. */
 export function readSliders(info) {
   const bytes = Math.round(fromSlider($('bytes'), leastBytes(info), info.streamBytes));
-  const triangles =
-    Math.round(fromSlider($('triangles'), leastTriangles(info), mostTriangles(info)));
+  const triangles = Math.round(fromSlider($('triangles'), LEAST_TRIANGLES, mostTriangles(info)));
   say('bytes', formatBytes(bytes));
   say('triangles', formatCount(triangles));
   return {bytes, triangles};

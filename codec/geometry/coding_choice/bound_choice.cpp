@@ -17,8 +17,9 @@ namespace tetrakis::inline coding_choice {
 
 namespace {
 
-/// For planes of more samples typical parts choose one way to keep the bound; smaller planes are
-/// coded both ways. A larger number takes twenty times as long as coding does, for better choices.
+/// For planes of more samples, of which those that patches share count once, typical parts choose
+/// one way to keep the bound; smaller planes are coded both ways. A larger number takes twenty
+/// times as long as coding does, for better choices.
 constexpr uint64_t kSearchedSamples = 1025 * 1025;
 /// Samples along a side of the parts. Larger parts choose better, and take time.
 constexpr uint32_t kPartSide = 448;
@@ -103,12 +104,18 @@ BestCut bestCut(std::deque<PartTrial>& trials, int32_t largest) {
   return best;
 }
 
+/// At least so many places have a sample.
+uint64_t placesOf(const HeightSteps& steps, Extent plane) {
+  if (steps.patch_rows == 0) return plane.samples();
+  return uint64_t{plane.width - 1} * (plane.height / steps.patch_rows) * (steps.patch_rows - 1);
+}
+
 }  // namespace
 
 BoundWays boundWays(const HeightSteps& steps, Extent plane, const WaveletHeader& wavelet,
                     int32_t largest) {
   if (largest == 0) return {.correct = false};
-  if (plane.samples() <= kSearchedSamples) return {};
+  if (placesOf(steps, plane) <= kSearchedSamples) return {};
   return boundWaysByParts(steps, plane, wavelet, largest);
 }
 

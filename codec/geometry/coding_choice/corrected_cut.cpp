@@ -38,7 +38,7 @@ constexpr size_t kSparse = 32;
 /// A part of the plane: its steps, and the heights decoded from its cut.
 struct DecodedPart {
   WindowValues<int32_t> steps, heights;
-  WindowValues<uint8_t> valid;
+  WindowValues<uint8_t> valid, owned;
   Extent extent;
   int fraction_bits;
 
@@ -47,6 +47,7 @@ struct DecodedPart {
       : steps(whole.steps, plane, part),
         heights(decoded.heights.heights, decoded.window.extent(), inside(decoded, part)),
         valid(decoded.heights.valid, decoded.window.extent(), inside(decoded, part)),
+        owned(whole.owned, plane, part),
         extent(part.extent()),
         fraction_bits(decoded.heights.fraction_bits) {}
 
@@ -60,8 +61,9 @@ struct DecodedPart {
 
 /// Corrections of a part within a bound, and their hints.
 struct HintedCorrections {
-  std::vector<int32_t>
-      numbers;  ///< in multiples of 2 * largest + 1 steps; 0 where samples are void
+  /// In multiples of 2 * largest + 1 steps; 0 where samples are void, or become what their owners
+  /// are.
+  std::vector<int32_t> numbers;
   std::vector<uint8_t> hints;
   Extent extent;
   Mask valid;
@@ -72,8 +74,9 @@ struct HintedCorrections {
         hints(activityHints(significant, part.extent)),
         extent(part.extent),
         valid(part.valid.values()) {
+    const Mask owned(part.owned.values());
     for (size_t i = 0; i < numbers.size(); ++i)
-      numbers[i] = valid[i] ? nearestMultiple(part.error(i), largest) : 0;
+      numbers[i] = valid[i] && owned[i] ? nearestMultiple(part.error(i), largest) : 0;
   }
 
   size_t zeros() const {

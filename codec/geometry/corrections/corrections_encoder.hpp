@@ -34,7 +34,7 @@ inline uint64_t bytesOf(const PartCodewords& codewords) {
 /// threads.
 template <class Code>
 PartCodewords encodeParts(const GeometryHeader& header, uint32_t threads, const Code& code) {
-  const std::vector<Window> parts = correctionParts(header.extent(), header.regions.side_log2);
+  const std::vector<Window> parts = correctionParts(header);
   PartCodewords codewords(parts.size());
   parallelFor(threads, parts.size(), [&](size_t i) { codewords[i] = code(parts[i]); });
   return codewords;

@@ -60,7 +60,8 @@ struct HeightSteps {
   ValueTable table;    ///< not empty: steps count its values, which `base` and `step` approximate
   bool exact = false;  ///< every valid sample comes back bit for bit
   int range_bits = 0;  ///< the steps span less than 2^range_bits
-  uint32_t patch_rows = 0;  ///< as of PlaneView
+  uint32_t patch_rows = 0;          ///< as of PlaneView
+  std::vector<uint8_t> owned = {};  ///< of a forest: 1 where no other sample owns one; empty: all
 
   size_t validCount() const;
   size_t liftedCount() const;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // ViewSynthesis takes the coefficients that a view needs and returns the samples of the view. It
-// does so as PlaneSynthesis for a whole plane or one of its levels, and as WindowSynthesis for a
-// window, whose cost follows its size.
+// does so as PlaneSynthesis for a whole plane or one of its levels, and for a window, whose cost
+// follows its size, as WindowSynthesis or ForestWindowSynthesis.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include "base/view.hpp"
 #include "codec/wavelet/band_plan.hpp"
 #include "codec/wavelet/level_transform.hpp"
+#include "codec/wavelet/synthesis/forest_window_synthesis.hpp"
 #include "codec/wavelet/wavelet.hpp"
 
 namespace tetrakis::inline synthesis {
@@ -246,9 +247,10 @@ class ViewSynthesis {
   }
 
  private:
-  using Kernel = std::variant<PlaneSynthesis, WindowSynthesis>;
+  using Kernel = std::variant<PlaneSynthesis, WindowSynthesis, ForestWindowSynthesis>;
 
   static Kernel kernelOf(const WaveletSpec& spec, const Pyramid& pyramid, const View& view) {
+    if (view.window && spec.forest != nullptr) return ForestWindowSynthesis(spec, pyramid, view);
     if (view.window) return WindowSynthesis(spec, pyramid, view);
     return PlaneSynthesis(spec, pyramid, view.level);
   }

@@ -56,6 +56,7 @@ Candidate<CodedHeights> codeRounded(const Bound& bound, HeightSteps steps) {
   const tks_heights& samples = *quantised.samples;
   const uint8_t bridge = quantised.steps.bridge;
   steps.patch_rows = quantised.steps.patch_rows;
+  steps.owned = quantised.steps.owned;
   QuantisedHeights rounded{.samples = &samples,
                            .steps = withBridges(std::move(steps), extentOf(samples), bridge),
                            .layers = quantised.layers,

@@ -197,8 +197,7 @@ Window around(const std::vector<Window>& parts) {
 CodedHeights withCorrections(CodedHeights cut, int32_t largest, uint32_t threads) {
   const Codewords codewords = codewordsOf(cut.tracks);
   Corrected all;
-  for (const std::vector<Window>& parts :
-       windowsOf(correctionParts(cut.header.extent(), cut.header.regions.side_log2))) {
+  for (const std::vector<Window>& parts : windowsOf(correctionParts(cut.header))) {
     const View view = {0, around(parts)};
     const DecodedHeights decoded =
         decodeHeights(cut.header, cut.layers, codewords, view, {threads, nullptr});

@@ -17,6 +17,7 @@ from conftest import (
     terrain,
     warnings_of,
 )
+from test_open_options import Server, served
 
 SMALL = ("TILES=64", "BLOCKSIZE=32")
 PLACE = dict(transform=(400000, 10, 0, 3800000, 0, -10), crs="EPSG:32611+5773")
@@ -176,17 +177,42 @@ def test_doubles_that_no_float_holds(tmp_path):
     assert np.abs(back.ReadAsArray() - heights).max() <= 1
 
 
+@pytest.mark.parametrize("index", ["YES", "WINDOWS"])
+def test_windows_read_their_pages_of_the_index(tmp_path, index):
+    heights = terrain(1100, 1300, "i2")
+    name = tmp_path / "a.tks"
+    copy(memory(heights), name, "TILES=256", "BLOCKSIZE=16", "INDEX=" + index)
+    with served(name) as url:
+        dataset = gdal.Open(url)
+        assert dataset.GetMetadataItem("INDEX", "TKS") == "PAGES"
+        Server.ranges.clear()
+        window = dataset.ReadAsArray(700, 500, 60, 50)
+        np.testing.assert_array_equal(window, heights[500:550, 700:760])
+        size = sum(last - first for first, last in Server.ranges)
+        assert size < len(Server.data) / 3 and len(Server.ranges) < 64
+    small = copy(memory(heights), tmp_path / "b.tks", *SMALL, "BYTES=50000", "INDEX=" + index)
+    assert (tmp_path / "b.tks").stat().st_size <= 50000 and small is not None
+
+
+@pytest.mark.parametrize("missing", [1, 20000])
+def test_a_file_without_its_pages_is_read_from_its_beginning(tmp_path, missing):
+    heights = terrain(1100, 1000, "i2")
+    name = tmp_path / "a.tks"
+    copy(memory(heights), name, "TILES=256", "BLOCKSIZE=16", "INDEX=WINDOWS")
+    (tmp_path / "b.tks").write_bytes(name.read_bytes()[:-missing])
+    dataset = gdal.Open(str(tmp_path / "b.tks"))
+    np.testing.assert_array_equal(dataset.ReadAsArray(700, 500, 60, 50), heights[500:550, 700:760])
+
+
 def test_what_is_not_coded_in_tiles(tmp_path, ground, texture):
     source = gdal.Open(str(ground[0]))
     wrong = {
         "TEXTURE=" + texture: "Textures",
         "DOMAIN=CYLINDER": "plane",
-        "INDEX=YES": "index",
         "BLOCKSIZE=NONE": "BLOCKSIZE=NONE",
     }
     for option, word in wrong.items():
         refused(lambda o=option: copy(source, tmp_path / "a.tks", "TILES=64", o), "TILES", word)
-    refused(lambda: mosaic(source, tmp_path / "a.tks", "INDEX=WINDOWS", "BYTES=9000"), "BYTES")
     refused(lambda: mosaic(source, "/vsistdout/"), "renamed")
     globe = memory(terrain(90, 180), transform=(-180, 2, 0, 90, 0, -2), crs="EPSG:4326")
     refused(lambda: mosaic(globe, tmp_path / "a.tks"), "round the Earth", "DOMAIN=PLANE")

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 from conftest import photograph
+from range_server import Server
 
 import tetrakis
 
@@ -143,6 +144,18 @@ def test_prefixes_and_files_of_a_cube(tmp_path, cube):
     assert errors[0] > errors[1] > errors[2]
 
 
+def test_windows_take_the_regions_of_a_cube_that_reach_them():
+    rough = world() + np.random.default_rng(3).normal(0, 50, (ROWS, COLUMNS)).astype("f4")
+    stream = on_cube(heights=rough, depth=7, regions=16, index=True)
+    with tetrakis.open(stream) as opened:
+        whole = opened.heights()
+    with Server(stream) as server, tetrakis.open(server.url) as opened:
+        for x, y, columns, rows in ((40, 30, 6, 5), (177, 44, 3, 2), (90, 0, 4, 1)):
+            part = opened.heights(window=(x, y, columns, rows))
+            np.testing.assert_array_equal(part, whole[y : y + rows, x : x + columns])
+        np.testing.assert_array_equal(opened.heights(), whole)
+
+
 def test_rasters_go_to_a_cube_and_come_back(tmp_path, cube):
     rasterio = pytest.importorskip("rasterio")
     tetrakis.to_geotiff(cube, tmp_path / "a.tif")
@@ -187,7 +200,6 @@ def test_what_is_no_globe_is_refused(cube):
         dict(psnr=None),
         dict(psnr=None, lossless=True),
         dict(psnr=None, max_error=1),
-        dict(regions=64),
         dict(heights=holes),
         dict(heights=np.where(np.isnan(holes), -9999, holes).astype("i2"), nodata=-9999),
         dict(depth=15),

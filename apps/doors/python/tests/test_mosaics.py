@@ -222,12 +222,27 @@ def test_missing_parts_are_named(tmp_path, ground):
 
 
 def test_windows_have_an_index(tmp_path, ground):
-    stream = tetrakis.open(streamed(tmp_path, ground, index="windows"))
+    stream = tetrakis.open(streamed(tmp_path, ground, layout="windows"))
     assert stream.info.index == "windows"
     window = np.s_[9:70, 200:333]
     np.testing.assert_array_equal(stream.heights(window=window), ground[window])
-    with pytest.raises(tetrakis.TksUsageError, match="windows"):
-        streamed(tmp_path, ground, bytes=9000, index="windows")
+    small = streamed(tmp_path, ground, "small.tks", bytes=9000, layout="windows")
+    assert len(small) <= 9000 and tetrakis.open(small).info.index == "windows"
+    plain = tetrakis.open(streamed(tmp_path, ground, "plain.tks", layout="progressive"))
+    assert plain.info.index is False
+
+
+def test_windows_take_their_pages_of_the_index(tmp_path):
+    large = terrain(1500, 1400, "i2")
+    data = streamed(tmp_path, large, regions=16, tile=256)
+    whole = tetrakis.open(tmp_path / "a.tks")
+    assert whole.info.index == "pages"
+    window = np.s_[700:790, 300:411]
+    np.testing.assert_array_equal(whole.heights(window=window), large[window])
+    for end in (whole.info.stream_bytes, len(data) - 1):  # the index is cut off
+        (tmp_path / "cut.tks").write_bytes(data[:end])
+        cut = tetrakis.open(tmp_path / "cut.tks")
+        np.testing.assert_array_equal(cut.heights(window=window), large[window])
 
 
 def test_progress_and_what_it_raises(tmp_path, ground):
@@ -264,7 +279,8 @@ def test_what_makes_no_sense(tmp_path, ground):
         dict(workers=-1),
         dict(workers=2, client=object()),
         dict(client=object()),
-        dict(index=True),
+        dict(layout="windowed"),
+        dict(layout="windows", preview=100),
         dict(nodata="auto"),
     ]
     for options in wrong:

@@ -126,8 +126,11 @@ class Access:
             return
         with self._taken() as decoder:
             decoder.set_levels(*levels)
-            for part, window in needs:
-                self._fetch(decoder, part, window)
+            if all(self._fetch(decoder, part, window) for part, window in needs):
+                yield decoder
+                return
+        self._read_all()  # the file ends before its index does
+        with self.part(levels, needs) as decoder:
             yield decoder
 
     def _bytes(self) -> builtins.bytes:
@@ -177,12 +180,20 @@ class Access:
             if not self._sound:
                 decoder.verify()
 
-    def _fetch(self, decoder: Decoder, part: int, window: Optional[c.Window]) -> None:
+    def _fetch(self, decoder: Decoder, part: int, window: Optional[c.Window]) -> bool:
+        """Whether the index, of which pages may lie behind the stream, is there."""
         source = self._source
         if source is None:
             raise TksUsageError("The stream is closed.")
-        wanted = _joined(decoder.missing(part, window))
-        decoder.put([(offset, source.read(offset, count)) for offset, count in wanted])
+        while True:
+            wanted = _joined(decoder.missing(part, window))
+            pieces = [(offset, source.read(offset, count)) for offset, count in wanted]
+            decoder.put(pieces)
+            ends = [offset + count for offset, count in wanted]
+            if not ends or ends[-1] <= self._header.stream_bytes:
+                return True
+            if sum(pieces[-1][:1]) + len(pieces[-1][1]) < ends[-1]:
+                return False
 
     def _made(self) -> Decoder:
         return Decoder(self._bytes(), self._limits, self._threads, self._chosen)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, Dict, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,15 +16,13 @@ from ._errors import Status, TksUsageError, error
 _QUARTER_MERIDIAN = 10_002_000
 
 
-def check_options(target: dict, regions: Optional[int], geotransform: Any) -> None:
+def check_options(target: dict, geotransform: Any) -> None:
     """Refuses what does not go with other samples than those given."""
     if target["bytes"] is None and target["psnr"] is None:
         raise TksUsageError(
             'domain "cube" resamples heights, so that nothing is lossless or within a largest '
             "error: give bytes or psnr."
         )
-    if (regions or 0) > 1:
-        raise TksUsageError('domain "cube" resamples heights, so that regions do not go with it.')
     if geotransform is None:
         raise TksUsageError('domain "cube" takes a geotransform, in degrees.')
 
@@ -52,7 +50,7 @@ def on_cube(
     heights, cube = _heights_of(grid, samples), np.empty((c.CUBE_PATCHES * side, side), np.float32)
     message = ctypes.create_string_buffer(1024)
     status = c.lib.tks_cube_from_grid(
-        _placed(grid.width, grid.height, grid.geotransform),
+        placed(grid.width, grid.height, grid.geotransform),
         heights.ctypes.data,
         depth,
         threads,
@@ -84,21 +82,29 @@ def depth_of(raw: c.StreamInfo) -> Optional[int]:
     return int(forest.depth) if same else None
 
 
+def windows_of(
+    depth: int, shape: Tuple[int, int], geotransform: Sequence[float], window: c.Window
+) -> List[c.Window]:
+    """The windows of the raster of a cube that a window of its grid needs."""
+    windows = (c.Window * c.CUBE_PATCHES)()
+    message = ctypes.create_string_buffer(1024)
+    grid = placed(shape[1], shape[0], geotransform)
+    status = c.lib.tks_cube_windows(depth, grid, window, windows, message, len(message))
+    _check(status, message)
+    return [each for each in windows if each.width > 0]
+
+
 def grid_of(
-    cube: NDArray[Any],
-    shape: Tuple[int, int],
-    geotransform: Sequence[float],
-    window: Optional[c.Window],
+    cube: NDArray[Any], shape: Tuple[int, int], geotransform: Sequence[float]
 ) -> NDArray[Any]:
-    """Heights of the grid, or of a window of it, as float32."""
-    part = c.Window(0, 0, shape[1], shape[0]) if window is None else window
-    out = np.empty((part.height, part.width), np.float32)
+    """Heights of the grid, as float32."""
+    out = np.empty(shape, np.float32)
     message = ctypes.create_string_buffer(1024)
     status = c.lib.tks_grid_from_cube(
         cube.ctypes.data,
         (cube.shape[1] - 1).bit_length() - 1,
-        _placed(shape[1], shape[0], geotransform),
-        part,
+        placed(shape[1], shape[0], geotransform),
+        None,
         1,
         out.ctypes.data,
         message,
@@ -127,7 +133,7 @@ def _heights_of(grid: c.Heights, samples: NDArray[Any]) -> NDArray[Any]:
     return heights
 
 
-def _placed(width: int, height: int, geotransform: Sequence[float]) -> c.GeographicGrid:
+def placed(width: int, height: int, geotransform: Sequence[float]) -> c.GeographicGrid:
     numbers = c.GEOTRANSFORM(*geotransform)
     return c.GeographicGrid(ctypes.sizeof(c.GeographicGrid), width, height, numbers)
 

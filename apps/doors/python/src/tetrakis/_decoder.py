@@ -133,14 +133,19 @@ class Decoder:
         return self._decode(call, window, (info.shape or (0, 0), np.dtype("f4")), out)
 
     def _grid(self, info: _info.Info, window: Optional[c.Window]) -> NDArray[Any]:
-        """The cube is decoded as a whole, whatever the window."""
         shape = info.shape or (0, 0)
         if window is not None:
             _inside(window, shape, True)
+            out = np.empty((window.height, window.width), np.float32)
+            grid = cube.placed(shape[1], shape[0], info.geotransform or ())
+            self.check(
+                c.lib.tks_decode_grid(self._handle, grid, window, out.ctypes.data, out.size)
+            )
+            return out
         side = 2 ** (info.cube_depth or 0) + 1
         whole = ((c.CUBE_PATCHES * side, side), np.dtype("f4"))
         surface = self._decode(("surface", c.PART_HEIGHTS), None, whole, None)
-        return cube.grid_of(surface, shape, info.geotransform or (), window)
+        return cube.grid_of(surface, shape, info.geotransform or ())
 
     def validity(self, info: _info.Info, window: Optional[c.Window]) -> NDArray[Any]:
         shape = info.shape or (0, 0)
@@ -159,15 +164,25 @@ class Decoder:
 
     def missing(self, part: int, window: Optional[c.Window]) -> List[Tuple[int, int]]:
         """(offset, count) of the bytes that a call still needs, of a stream with an index."""
+        info = self.info()
+        windows: List[Optional[c.Window]] = [window]
+        if window is not None and part != c.PART_TEXTURE and info.cube_depth is not None:
+            shape, place = info.shape or (0, 0), info.geotransform or ()
+            windows = [*cube.windows_of(info.cube_depth, shape, place, window)]
+        held, gaps = self._held, []
+        for each in windows:
+            found = [gap for needed in self._needed(part, each) for gap in _without(needed, held)]
+            gaps += found
+            held = sorted(held + found)
+        return gaps
+
+    def _needed(self, part: int, window: Optional[c.Window]) -> List[Tuple[int, int]]:
         raw = c.Ranges()
-        # A cube is decoded as a whole.
-        whole = part != c.PART_TEXTURE and self.info().cube_depth is not None
-        self.check(c.lib.tks_needed_ranges(self._handle, part, None if whole else window, raw))
+        self.check(c.lib.tks_needed_ranges(self._handle, part, window, raw))
         try:
-            needed = [(raw.ranges[i].offset, raw.ranges[i].size) for i in range(raw.count)]
+            return [(raw.ranges[i].offset, raw.ranges[i].size) for i in range(raw.count)]
         finally:
             c.lib.tks_free_ranges(raw)
-        return [gap for each in needed for gap in _without(each, self._held)]
 
     def put(self, pieces: List[Tuple[int, builtins.bytes]]) -> None:
         """Takes bytes from anywhere in the stream: (offset, bytes)."""

@@ -202,7 +202,7 @@ def options_struct(given: Dict[str, Any]) -> c.EncodeOptions:
         triangles=values.unsigned(given["triangles"], "triangles"),
         threads=values.unsigned(given["threads"], "threads"),
         regions=values.unsigned(given["regions"], "regions"),
-        index=values.choice(given["index"], c.INDEXES, "index"),
+        index=values.choice(given["index"], c.GIVEN_INDEXES, "index"),
         weights=values.choice(given["weights"], c.WEIGHTS, "weights"),
     )
     set_target(options, _target(given))
@@ -354,7 +354,7 @@ def encode(
     on_cube = heights is not None and chosen == "cube"
     faces = values.unsigned(depth, "depth")
     if on_cube:
-        cube.check_options(_target(given), regions, geotransform)
+        cube.check_options(_target(given), geotransform)
         if texture is not None:
             cube.place_texture(texture_place, texture, heights, geotransform)
     elif faces:

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 import builtins
 import ctypes
-from typing import Any, NamedTuple, Optional, Tuple, Union
+import json
+from typing import Any, Mapping, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -198,6 +199,28 @@ def _mesh_struct(given: _Given, texts: dict) -> Tuple[c.TriangleMesh, Tuple[Any,
     return struct, (points, triangles, texcoords)
 
 
+def _map_structs(maps: Mapping[str, Any]) -> Tuple[Any, Tuple[Any, ...]]:
+    """An array of structs, and what it points to, which must live as long."""
+    structs, kept = (c.ObjectMap * len(maps))(), []
+    for struct, (name, given) in zip(structs, maps.items()):
+        image, texels = image_struct(given, _PLAIN_IMAGE)
+        struct.size = ctypes.sizeof(c.ObjectMap)
+        struct.name = values.text(name, "The name of a map")
+        struct.image = ctypes.addressof(image)
+        kept.append((image, texels))
+    return structs, tuple(kept)
+
+
+def _material(given: Union[str, Mapping[str, Any], None]) -> Optional[builtins.bytes]:
+    """JSON, as it is or of a mapping."""
+    if given is not None and not isinstance(given, str):
+        try:
+            given = json.dumps(given, allow_nan=False)
+        except (TypeError, ValueError) as error:
+            raise TksUsageError(f"material is not what JSON has: {error}.") from None
+    return values.text(given, "material")
+
+
 def _trial(raw: c.ObjectTrial) -> Optional[ObjectTrial]:
     return ObjectTrial(raw.bytes, raw.psnr, raw.screen_psnr or None) if raw.bytes else None
 
@@ -228,6 +251,8 @@ def encode_object(
     *,
     texcoords: Optional[ArrayLike] = None,
     texture: Optional[ArrayLike] = None,
+    maps: Optional[Mapping[str, ArrayLike]] = None,
+    material: Union[str, Mapping[str, Any], None] = None,
     bytes: Optional[int] = None,
     psnr: Optional[float] = None,
     max_error: Optional[float] = None,
@@ -260,6 +285,11 @@ def encode_object(
             texture. (0, 0) is its upper left corner and (1, 1) its lower right one, as in glTF; it
             repeats beyond these. They become float32.
         texture: as that of `encode`. It is resampled on quads, and needs no texcoords there.
+        maps: images beside a texture, of any size, which lie on the mesh as it does and become
+            components of these names. "normal", "metallic_roughness", "occlusion" and "emissive"
+            are maps of a material as glTF has them. A resampled mesh leaves "normal" out, whose
+            normals count from texcoords.
+        material: factors of a glTF material by its names, or their JSON.
         unit: of `points`, such as "mm". description: a name.
 
     Targets: one of them
@@ -282,7 +312,7 @@ def encode_object(
     options = c.EncodeOptions(
         size=ctypes.sizeof(c.EncodeOptions),
         threads=values.unsigned(threads, "threads"),
-        index=values.choice(index, c.INDEXES, "index"),
+        index=values.choice(index, c.GIVEN_INDEXES, "index"),
     )
     set_target(options, target)
     given = _Given(points, triangles, texcoords, texture)
@@ -293,12 +323,17 @@ def encode_object(
     mesh, arrays = _mesh_struct(given, dict(unit=unit, description=description))
     mesh.kind = values.choice(kind, c.OBJECT_KINDS, "kind")
     mesh.sketch_bytes = _sketch_bytes(sketch)
+    mesh.material = _material(material)
     image, texels = None, None
     if given.texture is not None:
         image, texels = image_struct(given.texture, _PLAIN_IMAGE)
+    if maps and given.texture is None:
+        raise TksUsageError("maps lie on a mesh as its texture does: give one.")
+    structs, kept = _map_structs(maps or {})
+    mesh.maps, mesh.map_count = ctypes.addressof(structs), len(structs)
     report = c.ObjectReport(size=ctypes.sizeof(c.ObjectReport))
 
-    def call(callback: Any, _kept: Any = (arrays, texels)) -> builtins.bytes:
+    def call(callback: Any, _kept: Any = (arrays, texels, structs, kept)) -> builtins.bytes:
         options.progress = callback
         return run_encoder(c.lib.tks_encode_object, mesh, image, options, report)
 

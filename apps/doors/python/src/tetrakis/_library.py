@@ -35,7 +35,8 @@ GEOTRANSFORM = c_double * 6
 
 REGISTRATIONS = (None, "area", "point")
 WEIGHTS = ("psnr", "visual")
-INDEXES = (False, True, "windows")
+INDEXES = (False, True, "windows", "pages")
+GIVEN_INDEXES = INDEXES[:3]  # pages are those of mosaics
 OBJECT_KINDS = ("auto", "resampled", "triangles")
 NO_SKETCH = 2**64 - 1
 DOMAINS = ("plane", "cylinder", "forest")
@@ -225,6 +226,19 @@ class TriangleMesh(ctypes.Structure):
         ("sketch_bytes", c_uint64),
         ("material", c_char_p),
         ("texels", c_uint32),
+        ("maps", c_void_p),
+        ("map_count", c_uint32),
+    ]
+
+
+class ObjectMap(ctypes.Structure):
+    """tks_object_map."""
+
+    _fields_ = [
+        ("size", c_size_t),
+        ("name", c_char_p),
+        ("image", c_void_p),
+        ("weight", c_double),
     ]
 
 
@@ -372,6 +386,7 @@ class StreamInfo(ctypes.Structure):
         ("shows_sketch", c_int),
         ("least_bytes", c_uint64),
         ("material", c_char_p),
+        ("index_bytes", c_uint64),
     ]
 
 
@@ -500,6 +515,7 @@ STRUCTS = {
     "tks_encode_options": EncodeOptions,
     "tks_buffer": Buffer,
     "tks_ground": Ground,
+    "tks_object_map": ObjectMap,
     "tks_triangle_mesh": TriangleMesh,
     "tks_object_trial": ObjectTrial,
     "tks_object_report": ObjectReport,
@@ -614,6 +630,21 @@ PROTOTYPES = {
             c_char_p,
             c_size_t,
         ],
+    ),
+    "tks_cube_windows": (
+        c_int,
+        [
+            c_uint32,
+            POINTER(GeographicGrid),
+            POINTER(Window),
+            POINTER(Window),
+            c_char_p,
+            c_size_t,
+        ],
+    ),
+    "tks_decode_grid": (
+        c_int,
+        [c_void_p, POINTER(GeographicGrid), POINTER(Window), c_void_p, c_size_t],
     ),
     "tks_decode_mesh_tree": (c_int, [c_void_p, c_int, c_uint32, POINTER(c_void_p)]),
     "tks_view_mesh": (c_int, [c_void_p, POINTER(c_double), POINTER(Mesh)]),

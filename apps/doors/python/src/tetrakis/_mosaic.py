@@ -74,14 +74,20 @@ class Mosaic:
         given = self._plan, len(self._plan), m.MosaicTile(*tile), source, files.struct, count
         run_guarded(guard, c.lib.tks_mosaic_code, *given)
 
-    def merge(self, out: PathLike, *, index: Union[bool, str] = False) -> None:
+    def merge(
+        self, out: PathLike, *, layout: str = "mixed", preview: Optional[int] = None
+    ) -> None:
         """Joins the parts of all tiles into a file, which appears when it is whole.
 
-        index: "windows" lays the stream out region by region, with an index, for windows over a
-            network: of mosaics that are lossless or within a largest error.
+        layout: "progressive" makes the best prefixes, and has no index; "windows" lays the stream
+            out region by region, with an index, for windows over a network; "mixed" does the first
+            in `preview` bytes (a tenth of all), and the second behind them.
         """
-        windows = values.choice(index, (False, "windows"), "index") == 1
-        kind = c.INDEXES.index("windows" if windows else False)
+        options = m.MergeOptions(
+            size=ctypes.sizeof(m.MergeOptions),
+            layout=values.choice(layout, m.LAYOUTS, "layout"),
+            preview=values.unsigned(preview, "preview", 63),
+        )
         guard = Guard()
         files = WorkFolder(self._folder, guard)
         with appearing(Path(out)) as file:
@@ -93,7 +99,7 @@ class Mosaic:
 
                 return guard.run(at)
 
-            given = self._plan, len(self._plan), files.struct, kind, m.WRITE_AT(write), None
+            given = self._plan, len(self._plan), files.struct, options, m.WRITE_AT(write), None
             run_guarded(guard, c.lib.tks_mosaic_merge, *given)
 
     def name_of(self, tile: Tile) -> str:

@@ -71,11 +71,20 @@ class MosaicFiles(ctypes.Structure):
     ]
 
 
+class MergeOptions(ctypes.Structure):
+    """tks_merge_options."""
+
+    _fields_ = [("size", c_size_t), ("layout", c_int), ("preview", c_uint64)]
+
+
+LAYOUTS = ("progressive", "windows", "mixed")
+
 STRUCTS = {
     "tks_mosaic_source": MosaicSource,
     "tks_mosaic_options": MosaicOptions,
     "tks_tile": MosaicTile,
     "tks_mosaic_files": MosaicFiles,
+    "tks_merge_options": MergeOptions,
 }
 
 _PLAN = [c_char_p, c_size_t]
@@ -106,7 +115,7 @@ PROTOTYPES = {
     ),
     "tks_mosaic_merge": (
         c_int,
-        [*_PLAN, POINTER(MosaicFiles), c_int, WRITE_AT, c_void_p, *_MESSAGE],
+        [*_PLAN, POINTER(MosaicFiles), POINTER(MergeOptions), WRITE_AT, c_void_p, *_MESSAGE],
     ),
 }
 

@@ -106,7 +106,8 @@ def encode(
     workdir: Optional[PathLike] = None,
     client: Any = None,
     workers: Optional[int] = None,
-    index: Union[bool, str] = False,
+    layout: str = "mixed",
+    preview: Optional[int] = None,
     progress: Optional[Progress] = None,
     **place: Any,
 ) -> None:
@@ -120,7 +121,7 @@ def encode(
         again three times.
     workers: threads without a client; as many as there are cores, unless given. Each codes a tile,
         and takes its memory.
-    index: as for :meth:`Mosaic.merge`.
+    layout, preview: as for :meth:`Mosaic.merge`.
     progress: called with a number from 0 to 1, in the thread that called `encode`. What it raises
         ends the run, as Ctrl-C does, once the tiles in work are done.
 
@@ -148,7 +149,7 @@ def encode(
             engines.run_by_threads(made, missing, threads, told)
         elif missing:
             engines.run_by_dask(made.for_others(), missing, client, told)
-        made.merge(path, index=index)
+        made.merge(path, layout=layout, preview=preview)
         report(1.0)
 
 
