@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // visitDetails() visits what components say of themselves: their names, and of those behind the
 // first heights and the first texture also their metadata, places and promises, which the body
-// states of the first ones (docs/FORMAT.md, section 2, Details). A decoder that takes another
+// states of the first ones (docs/FORMAT.md, section 2, Parts). A decoder that takes another
 // component than the first of its kind reads them in the place of the body's (takeDetails()).
 #pragma once
 

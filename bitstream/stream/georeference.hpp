@@ -16,7 +16,7 @@
 
 namespace tetrakis::inline stream {
 
-// Placement says where heights and texture lie (docs/FORMAT.md, section 2, Georeference), in few
+// Placement says where heights and texture lie (docs/FORMAT.md, section 2, Places), in few
 // bytes for a north-up grid. Decoding does not depend on it.
 
 /// Column c and row r, (0, 0) the outer corner of the first sample, are at x = [0] + c [1] + r [2],

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The example of docs/FORMAT.md, section 13, is the stream that it names: its bytes, and the
-// probability and outcome of each decision.
+// The example of conformance/EXAMPLE.md is the stream that it names: its bytes, and the probability
+// and outcome of each decision.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -23,18 +23,16 @@ std::vector<std::smatch> matchesOf(const std::string& text, const std::regex& pa
   return {std::sregex_iterator(text.begin(), text.end(), pattern), std::sregex_iterator()};
 }
 
-/// The section, and its listing of the stream.
+/// The page, and its listing of the stream.
 class FormatExample : public ::testing::Test {
  protected:
   void SetUp() override {
-    const std::string text = contentOf(TETRAKIS_FORMAT);
-    section_ = text.substr(text.find("## 13 "));
-    section_ = section_.substr(0, section_.find("\n## Changes"));
-    const size_t begin = section_.find("```\n") + 4;
-    listing_ = section_.substr(begin, section_.find("```", begin) - begin);
+    page_ = contentOf(TETRAKIS_EXAMPLE);
+    const size_t begin = page_.find("```\n") + 4;
+    listing_ = page_.substr(begin, page_.find("```", begin) - begin);
   }
 
-  std::string section_, listing_;
+  std::string page_, listing_;
 };
 
 TEST_F(FormatExample, ListsTheBytesOfItsStream) {
@@ -59,9 +57,9 @@ TEST_F(FormatExample, ListsItsDecisions) {
     EXPECT_EQ(decoder.decode(static_cast<uint32_t>(std::stoul(zero))), std::stoi(bit)) << decisions;
   };
   for (const std::smatch& match :
-       matchesOf(section_, std::regex("\\| (\\d+) \\| [0-9a-f]{8} \\| [0-9a-f]{8} \\| ([01])")))
+       matchesOf(page_, std::regex("\\| (\\d+) \\| [0-9a-f]{8} \\| [0-9a-f]{8} \\| ([01])")))
     expect(match[1], match[2]);
-  for (const std::smatch& match : matchesOf(section_, std::regex("(\\d+) → ([01]) \\|")))
+  for (const std::smatch& match : matchesOf(page_, std::regex("(\\d+) → ([01]) \\|")))
     expect(match[1], match[2]);
   EXPECT_EQ(decisions, 9u + 7 * 4);
 }
