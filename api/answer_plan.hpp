@@ -40,16 +40,16 @@ class AnswerPlan {
   /// long to find changes little behind it, and it is decoded by itself.
   Result<tks_decoder*> decoderOfEntry(size_t place);
   size_t entryOf(size_t place) const;
-  /// What of a group's stream a mesh of so many triangles does not show.
+  /// The bytes of a group's stream that no mesh of the receiver's triangles shows.
   Result<ByteRanges> beyondRenderer(size_t place);
   Result<std::vector<WeightedSighting>> sightings(size_t place, Ground ground);
   /// Adds what is missing of a range of a group, as far as there are bytes left.
   void add(size_t place, ByteRange range);
-  /// Head, header and so many bytes of a stream.
+  /// Adds head and header of a group, and the first bytes of its stream.
   Status require(size_t place, uint64_t stream_bytes);
-  /// What the next group goes on from.
+  /// The bytes of a group that the next one goes on from.
   Status requireBehind(size_t place);
-  /// What helps most, of at most so many bytes.
+  /// Adds the pieces of a group that help most, of at most `most` bytes.
   Status give(size_t place, uint64_t most, Ground ground);
 
   tks_transmitter& transmitter_;

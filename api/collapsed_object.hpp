@@ -15,8 +15,9 @@
 
 namespace tetrakis::inline api {
 
-/// Meshes of less than this part of the base's triangles collapse from the base. Those of more come
-/// nearer to the surface if they collapse from twice as many, which take longer to choose.
+/// A mesh of less than this part of the base's triangles collapses from the base. A finer mesh
+/// comes nearer to the surface if it collapses from twice its triangles, which take longer to
+/// choose.
 inline constexpr uint32_t kMostFromBase = 8;
 
 /// Vertices by the samples of a raster that they are.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes one stream of the components of several. What their errors count is measured by decoding a
-// coarse level of each.
+// Makes one stream of the components of several streams. The weights of their errors are measured
+// by decoding a coarse level of each.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -25,8 +25,8 @@ Status noTexture() {
   return {TKS_USAGE, "The stream holds no texture."};
 }
 
-/// What the decoder remembers for calls that ask for this view; null: nothing. Levels share it, and
-/// so do windows: what one decodes of the tracks others do not decode again.
+/// The memory of the decoder for calls that ask for this view; null: there is none. Levels share
+/// it, and so do windows: a part of a track that one has decoded is there for the others.
 template <class Memory>
 Memory* memoryOf(const tks_decoder& decoder, Memory& levels, Memory& windows, const View& view) {
   levels.tracks.all_levels = true;
@@ -228,7 +228,7 @@ struct HeightsWriter {
   void (*unsent)(const tks_decoder& decoder, void* out, size_t count);
 };
 
-/// Writes heights of so many bytes a sample. Those of whole levels are kept for later calls.
+/// Writes heights of `sample_bytes` a sample. Heights of a whole level are kept for later calls.
 Status giveHeights(tks_decoder& decoder, const Call& call, size_t sample_bytes,
                    const HeightsWriter& write) {
   const auto& header = decoder.parsed.header.geometry;

@@ -25,7 +25,7 @@
 
 namespace tetrakis::inline api {
 
-/// What there is of the packets of a stream.
+/// The packets of a stream, as far as they are there.
 struct TakenPackets {
   Demultiplexed payload;
   BorrowedPackets borrowed;  ///< of the bytes given to tks_open(), what no call has needed yet
@@ -93,8 +93,8 @@ Result<const DecodedGeometry*> decodedGeometry(tks_decoder& decoder);
 /// How many frames the stream has.
 uint32_t framesOf(const StreamHeader& header);
 
-/// Whether nothing of the heights was sent, so that all samples are alike. Those of frames with
-/// scales may differ by roundings from level to level, and others go on from earlier frames.
+/// Whether nothing of the heights was sent, so that all samples are alike. Heights of frames with
+/// scales may differ by roundings from level to level, and other frames go on from earlier ones.
 inline bool heightsAreUnsent(const tks_decoder& decoder) {
   const FramesHeader& frames = decoder.parsed.header.geometry->frames;
   return decoder.packets.payload.nothingOf(Component::kGeometry) && frames.scales.empty() &&
@@ -134,16 +134,16 @@ Status noMesh();
 /// Of a decoder that is_lost.
 Status lost();
 
-/// What a call shows of the component that a part belongs to: the window, or, without one, all of
-/// the level that is set for the component; two views, from left to right, of a window that reaches
-/// across the seam of a cylinder. TKS_USAGE with a sentence unless the stream holds the component
-/// and the window lies inside of the level.
+/// The views that a call shows of the component that a part belongs to: the window, or, without
+/// one, all of the level that is set for the component; two views, from left to right, of a window
+/// that reaches across the seam of a cylinder. TKS_USAGE with a sentence unless the stream holds
+/// the component and the window lies inside of the level.
 Result<std::vector<View>> askedViews(const tks_decoder& decoder, tks_part part,
                                      const tks_window* window);
 
-/// What is decoded for such a view: the view, or all of its level, out of which it is then cut. The
-/// windows of coarser levels are cut out of drawings, stored samples, forests, frames and planes
-/// with repeated lines.
+/// The view that is decoded for a view of askedViews(): itself, or all of its level, out of which
+/// it is then cut. The windows of coarser levels are cut out of drawings, stored samples, forests,
+/// frames and planes with repeated lines.
 View decodedFor(const StreamHeader& header, tks_part part, const View& view);
 
 /// Whether the stream is there to its end.

@@ -50,7 +50,7 @@ struct GroupCoding {
   const GroupBefore* before = nullptr;  ///< what it may go on from itself; null: nothing
 };
 
-/// What decoders of the next group take from this one, which outlives them.
+/// The last frames that decoders of the next group take from this one, which outlives them.
 inline References referencesTo(const GroupBefore& before) {
   return {{[&before] { return before.last_heights; }, 0},
           {[&before] { return before.last_texture; }, 0}};

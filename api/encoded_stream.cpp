@@ -52,7 +52,7 @@ bool sameBits(T a, T b) {
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-/// What a decoded height may be.
+/// Checks whether decoded heights keep what was promised of them.
 class HeightPromise {
  public:
   HeightPromise(const tks_heights& heights, bool lossless, double max_error)
@@ -154,7 +154,7 @@ static_assert(static_cast<int>(Verdict::kWorseInBudget) == TKS_VERDICT_WORSE_IN_
 static_assert(static_cast<int>(Residual::Kind::kExact) == TKS_RESIDUAL_EXACT);
 static_assert(static_cast<int>(Coding::kWavelet) == TKS_BASE_WAVELET);
 
-/// What a plan says in words, which outlive the struct that refers to them.
+/// The words of a plan, which outlive the struct that refers to them.
 struct Words {
   std::string filters, layers;
 

@@ -30,7 +30,7 @@ void giveBytes(std::span<const uint8_t> bytes, tks_buffer& out);
 /// Limits that no stream meets.
 tks_limits unlimited();
 
-/// What a stream was made of.
+/// The inputs that a stream was made of.
 struct StreamSource {
   std::span<const tks_heights> heights;  ///< of each frame; empty: none
   std::span<const tks_image> images;

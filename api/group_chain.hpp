@@ -18,7 +18,7 @@ namespace tetrakis::inline api {
 
 using OwnedDecoder = std::unique_ptr<tks_decoder, void (*)(tks_decoder*)>;
 
-/// What the frames of the components of a stream go on from; none: they do not.
+/// The planes that the frames of each component go on from; none: they do not go on.
 struct References {
   ReferenceSource heights = {}, texture = {};
 };

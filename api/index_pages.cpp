@@ -11,7 +11,7 @@ std::span<const uint8_t> bytesFrom(const tks_decoder& decoder, uint64_t place) {
   return decoder.data.subspan(std::min<uint64_t>(place, decoder.data.size()));
 }
 
-/// What is there of the record of a page, as far as the record goes.
+/// The bytes of the record of a page that are there.
 std::span<const uint8_t> recordOf(const tks_decoder& decoder, uint32_t page) {
   const ByteRange record = decoder.pages->record(page);
   const std::span<const uint8_t> there = bytesFrom(decoder, record.begin);
@@ -41,7 +41,7 @@ Result<std::vector<uint32_t>> takeRecords(tks_decoder& decoder, std::span<const 
 
 namespace {
 
-/// What lies between two records costs less than another request for the second one.
+/// Between two records that are nearer to each other, the bytes cost less than another request.
 constexpr uint64_t kNear = 32 << 10;
 
 void addNear(const ByteRange& record, std::vector<ByteRange>& ranges) {

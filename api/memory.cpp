@@ -22,7 +22,7 @@ uint64_t payloadBytes(const PayloadCount& count, const TrackCounts& tracks) {
 
 namespace {
 
-/// What a view of heights, or of a texture, takes as the caller gets it; floats of heights.
+/// The bytes of a view as the caller gets it: of a texture, or of heights, at least as floats.
 uint64_t viewBytes(const StreamHeader& header, const MemoryRequest& request) {
   if (request.part != TKS_PART_TEXTURE)
     return std::max(sizeof(float),
@@ -33,7 +33,7 @@ uint64_t viewBytes(const StreamHeader& header, const MemoryRequest& request) {
          area(request.view.extentIn(texture.shown()));
 }
 
-/// What a call takes beside the codewords that it joins.
+/// The bytes that a call takes beside the codewords that it joins.
 uint64_t decodingBytes(const tks_decoder& decoder, const MemoryRequest& request) {
   if (request.part == TKS_PART_TEXTURE) {
     if (texelsAreUnsent(decoder)) return kDrawnOnceBytes;
@@ -94,7 +94,7 @@ std::string describe(const tks_decoder& decoder, const MemoryRequest& request) {
   return (mesh ? "A mesh of " : "Decoding ") + sides(*header.geometry) + " heights";
 }
 
-/// What the decoder holds already.
+/// The bytes that the decoder holds already.
 uint64_t heldBytes(const tks_decoder& decoder) {
   uint64_t bytes = decoder.packets.bytes - decoder.packets.borrowed.bytes() +
                    decoder.pieces.bytes() + decoder.heights_memory.bytes() +
@@ -112,7 +112,7 @@ uint64_t saturatingSum(uint64_t a, uint64_t b) {
                                                       : a + b;
 }
 
-/// What tks_check_memory is asked about.
+/// The views that tks_check_memory is asked about.
 Result<std::vector<View>> requestedViews(const tks_decoder& decoder, tks_part part,
                                          const tks_window* window) {
   if (part < TKS_PART_HEIGHTS || part > TKS_PART_BUDGET_MESH)
@@ -123,7 +123,8 @@ Result<std::vector<View>> requestedViews(const tks_decoder& decoder, tks_part pa
   return askedViews(decoder, part, window);
 }
 
-/// One view of a call is decoded after the other; several are copied to their places.
+/// Views of a call are decoded one after the other; if there are several, each is copied to its
+/// place.
 Status checkViews(tks_decoder& decoder, MemoryRequest each, std::span<const View> views,
                   uint64_t beside, uint64_t* bytes) {
   if (bytes != nullptr) *bytes = 0;

@@ -57,7 +57,7 @@ inline TrackNeeds trackNeeds(const tks_decoder& decoder, const auto& header, uin
           decoder.remembers};
 }
 
-/// What tracks take in a call for a view, beside what is remembered of them.
+/// The bytes that tracks take in a call for a view, beside those of the decoder's memory.
 inline uint64_t stateBytes(const tks_decoder& decoder, const auto& header, const View& view,
                            TrackNeeds needs, Component component) {
   const bool texture = component == Component::kTexture;
@@ -80,7 +80,7 @@ inline uint64_t stateBytes(const tks_decoder& decoder, const auto& header, const
   return state + (needs.ordered ? mapBytes(header) : 0);
 }
 
-/// What there is for each track all the time, and for the patches of a forest.
+/// The bytes that a decoder holds all the time for each track, and for the patches of a forest.
 inline uint64_t trackBytes(const auto& header) {
   const SharedForest& forest = header.wavelet.forest;
   return kTrackBytes * regionCount(header.width, header.height, header.regions.side_log2,
@@ -88,7 +88,7 @@ inline uint64_t trackBytes(const auto& header) {
          (forest != nullptr ? Pyramid::bytesOf(*forest) : 0);
 }
 
-/// What the planes of a view take until its samples are there.
+/// The bytes that the planes of a view take until its samples are there.
 struct PlanesBytes {
   uint64_t coefficients = 0;  ///< of one plane
   uint64_t work = 0;          ///< of the inverse transforms that run at a time
@@ -115,22 +115,22 @@ struct PlanesBytes {
   }
 };
 
-/// What frames of so many planes of a view take beside their coefficients: each plane as it is
-/// kept, the marks beside them, those of the frame that is shown, and the work of the threads.
+/// The bytes that the frames of a view take beside their coefficients: each plane as it is kept,
+/// the marks beside them, those of the frame that is shown, and the work of the threads.
 inline uint64_t framesBytes(const auto& header, const PlanesBytes& planes, uint64_t samples,
                             uint32_t colours = 1) {
   if (header.frames.none()) return 0;
   const uint64_t all = (header.frames.count + 1u) * colours;
   const uint64_t bytes = all * (samples * kValueBytes + planes.work) + 2 * samples;
   if (header.frames.reference == 0) return bytes;
-  // What the frames go on from, as whole planes: that of the last group and that of the one before
-  // it, copied with means of its voids, while the last group is decoded.
+  // The frames go on from whole planes: while the last group is decoded, its plane is there, and
+  // the one of the group before, copied with means of its voids.
   constexpr uint64_t kMeans = 16;
   const uint64_t plane = uint64_t{header.width} * header.height;
   return bytes + header.frames.before.bytes + plane * (colours * 4 * kValueBytes + kMeans + 4);
 }
 
-/// So many samples that are copied from coded lines, and the maps of lines.
+/// The bytes of `samples` that are copied from coded lines, and of the maps of lines.
 inline uint64_t copyBytes(const auto& header, uint64_t samples, uint64_t sample_bytes) {
   constexpr uint64_t kLine = 4 * sizeof(uint32_t);
   if (header.repeats.none()) return 0;
@@ -146,11 +146,11 @@ class HeightsBytes {
  public:
   HeightsBytes(const tks_decoder& decoder, const View& view);
 
-  /// What is left when a level is decoded: heights, marks, masks, corrections.
+  /// The bytes that are left when a level is decoded: heights, marks, masks, corrections.
   uint64_t kept() const;
-  /// What decoding takes.
+  /// The bytes that decoding takes.
   uint64_t decoding() const;
-  /// What decoding the mask alone takes.
+  /// The bytes that decoding the mask alone takes.
   uint64_t validity() const;
 
  private:
@@ -187,10 +187,10 @@ class HeightsBytes {
 // header and before the call allocates anything, and hold them against the limit.
 //
 // Bounds follow what the rooms below keep at the same time: planes of 32-bit values, masks, the
-// state of one track a thread (codec/wavelet/region_decoder.hpp), a window's blocks. What meshes
-// take is measured (tests/api/decode_memory_test.cpp).
+// state of one track a thread (codec/wavelet/region_decoder.hpp), a window's blocks. The
+// bytes of meshes are measured (tests/api/decode_memory_test.cpp).
 
-/// What a call is asked for.
+/// The part and the view that a call is asked for.
 struct MemoryRequest {
   tks_part part = TKS_PART_HEIGHTS;
   View view;                   ///< of askedViews(); meshes ignore it
@@ -201,12 +201,12 @@ struct MemoryRequest {
 /// holds what is asked for.
 uint64_t callBytes(const tks_decoder& decoder, const MemoryRequest& request);
 
-/// What a budget mesh of decoded heights with voids takes. callBytes() knows no more triangles than
-/// the budget; those in voids are beside it, and judged when they are known.
+/// The bytes of a budget mesh of decoded heights with voids. callBytes() knows no more triangles
+/// than the budget; triangles in voids come beside it, and are judged when they are known.
 uint64_t voidMeshBytes(const Lattice& lattice, uint64_t triangles);
 
-/// What tks_decode_screen_mesh allocates at its peak, at most, for a texture of so many texels.
-/// triangles: those in voids included.
+/// The bytes that tks_decode_screen_mesh allocates at its peak, at most. triangles: with those in
+/// voids. texels: of the texture.
 uint64_t screenMeshBytes(const tks_decoder& decoder, const Lattice& lattice, uint64_t triangles,
                          uint64_t texels);
 

@@ -247,7 +247,7 @@ Result<const DecodedHeights*> heightsForMesh(tks_decoder& decoder, const ForestM
 
 namespace {
 
-/// What samples of a patch count: on a globe the area that they cover.
+/// The weights of the samples of a patch: on a globe the area that they cover.
 std::vector<float> patchWeights(const tks_decoder& decoder, const Forest& forest) {
   const bool is_cube = std::equal(forest.sides().begin(), forest.sides().end(), kCubeSides.begin(),
                                   kCubeSides.end());

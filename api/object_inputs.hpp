@@ -129,7 +129,7 @@ struct DecoderCloser {
 /// A decoder of a stream that an encoder has made.
 using OwnDecoder = std::unique_ptr<tks_decoder, DecoderCloser>;
 
-/// The texels of a stream, interleaved. Those of 8 bits become numbers up to 255.
+/// The texels of a stream, interleaved. Texels of 8 bits become numbers up to 255.
 Result<std::vector<uint16_t>> decodedTexels(const std::vector<uint8_t>& stream);
 
 }  // namespace tetrakis::inline api

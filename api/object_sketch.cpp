@@ -22,8 +22,8 @@ constexpr uint64_t kSketchPart = 32;
 constexpr uint64_t kFewest = 1000;
 constexpr uint64_t kMost = 32768;
 
-/// What a sketch takes beside its own bytes: kind and length of its part, and more digits of the
-/// body's length.
+/// The bytes that a sketch takes beside its own: kind and length of its part, and more digits of
+/// the body's length.
 constexpr uint64_t kAround = 8;
 
 uint64_t bytesOfSketch(const GivenObject& given, const std::vector<uint8_t>& stream) {

@@ -21,8 +21,8 @@ namespace tetrakis::inline api {
 
 // takeCamera() checks a camera of a caller and copies it into the struct of this library.
 
-/// What the caller has of a camera; fields that it lacks are 0. TKS_USAGE, TKS_UNSUPPORTED with a
-/// sentence that begins with `name` or holds it.
+/// Copies the fields that the caller's struct of a camera has; fields that it lacks are 0.
+/// TKS_USAGE, TKS_UNSUPPORTED with a sentence that begins with `name` or holds it.
 Status takeCamera(const std::string& name, const tks_screen_camera& given, tks_screen_camera& out);
 
 /// TKS_UNSUPPORTED with a sentence about `what`, which knows no globe, if a camera looks at one.
@@ -70,8 +70,8 @@ Sighting sightingOf(const CoarseGround& ground, const tks_screen_camera& camera,
                     uint32_t triangles);
 Sighting sightingOf(const CoarseGlobe& globe, const tks_screen_camera& camera, uint32_t triangles);
 
-/// What that viewer sees, and what else may come into the picture: the ground around, after a turn,
-/// and all of the ground.
+/// Sightings of the ground that this viewer sees, of the ground around it, which comes into the
+/// picture after a turn, and of all ground.
 std::vector<WeightedSighting> outlookOf(const tks_decoder& decoder, const CoarseGround& ground,
                                         const tks_screen_camera& camera, uint32_t triangles);
 std::vector<WeightedSighting> outlookOf(const CoarseGlobe& globe, const tks_screen_camera& camera,

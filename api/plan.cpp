@@ -12,7 +12,8 @@
 namespace tetrakis::inline api {
 namespace {
 
-/// What the camera sees and what it might see next. Without a camera all ground counts alike.
+/// Sightings of the ground that the camera sees, and that it might see next. Without a camera all
+/// ground counts alike.
 Result<std::vector<WeightedSighting>> sightingsIn(tks_decoder& decoder,
                                                   const tks_screen_camera* given,
                                                   uint32_t triangles) {

@@ -17,7 +17,7 @@
 
 namespace tetrakis::inline api {
 
-/// What there is of a group.
+/// The bytes of a group that have come.
 struct HeldGroup {
   Pieces pieces;  ///< places count from the begin of its head
   std::optional<ParsedHead> parsed = {};

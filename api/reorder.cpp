@@ -42,13 +42,13 @@ Result<std::vector<WeightedSighting>> sightingsOf(tks_decoder& decoder,
   return sightings;
 }
 
-/// What there is of a stream behind its header.
+/// The packets of a stream, as far as they are there.
 std::span<const uint8_t> payloadOf(std::span<const uint8_t> stream, const ParsedHeader& parsed) {
   const std::span<const uint8_t> behind = stream.subspan(parsed.bytes);
   return behind.first(std::min<uint64_t>(behind.size(), parsed.header.payload_bytes));
 }
 
-/// What there is of a packet, its head included.
+/// The bytes of a packet that are there, its head included.
 struct AvailablePacket {
   std::span<const uint8_t> bytes;
   bool is_whole = false;
@@ -76,7 +76,7 @@ void keepCutLast(const std::vector<AvailablePacket>& packets, std::vector<size_t
   std::sort(cut, order.end());
 }
 
-/// What is left of a component's error while some of its packets are missing.
+/// The error of a component while some of its packets are missing.
 class ErrorLeft {
  public:
   /// entries: of the component, in the stream's order.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // sameGround() tells whether a frame lies where the frames before it do. A stream has one place,
-// one reference system and one unit for all of its frames, so another one would be lost. What a
-// frame leaves unsaid is as it is in the first one.
+// one reference system and one unit for all of its frames, so another one would be lost. A field
+// that a frame leaves empty is as it is in the first one.
 #pragma once
 
 #include "tetrakis/tetrakis.h"

@@ -79,8 +79,8 @@ Result<size_t> begin(tks_sequence& sequence, std::span<const uint8_t> bytes) {
   return taken;
 }
 
-/// What a sequence had before it was given bytes. It comes back unless they are taken, or refused:
-/// memory may end anywhere.
+/// The state of a sequence before it was given bytes. It comes back unless the bytes are taken, or
+/// refused: memory may end anywhere.
 class BeforeBytes {
  public:
   explicit BeforeBytes(tks_sequence& sequence)
@@ -167,7 +167,7 @@ size_t placeOf(const tks_sequence& sequence, const KeptGroup& group) {
   return static_cast<size_t>(at - sequence.groups.begin());
 }
 
-/// Makes the chain that of a group, whose place is given. What it has of it already stays.
+/// Makes the chain that of the group at a place. Streams of it that the chain has already stay.
 Status makeChain(tks_sequence& sequence, size_t place) {
   const GroupHead& head = sequence.groups[place].parsed.head;
   const auto depth = static_cast<size_t>(head.back.depth);

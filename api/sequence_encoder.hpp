@@ -120,7 +120,7 @@ struct tks_sequence_encoder {
 
 namespace tetrakis::inline api {
 
-/// What an encoder was before a call. It comes back unless the call is done: memory may end
+/// The state of an encoder before a call. It comes back unless the call is done: memory may end
 /// anywhere in it.
 class Before {
  public:

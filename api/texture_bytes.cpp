@@ -79,7 +79,7 @@ class TextureBytes {
            tableBytesOf(header_) + trackBytes(header_) +
            std::max({finding(), all + state, all + masks + planes.work, samples + masks + out});
   }
-  /// What there is while a mask is decoded, or bridges are found.
+  /// The bytes that are held while a mask is decoded, or bridges are found.
   uint64_t finding() const {
     return std::max(seen_ ? validityBytes(header_.extent()) : 0,
                     bridged() ? closingBytes(header_.extent()) : 0);
@@ -88,8 +88,9 @@ class TextureBytes {
   uint64_t direct(uint64_t count) const {
     return count * ((header_.drawn() ? sizeof(DrawnIndex) : 0) + texel());
   }
-  /// What the opening takes: a mask of the texels that can be seen, the colours of the overlay, a
-  /// mask of the texels that are coded and one of those that are lifted, each of a whole plane.
+  /// The bytes that the opening takes: a mask of the texels that can be seen, the colours of the
+  /// overlay, a mask of the texels that are coded and one of those that are lifted, each of a whole
+  /// plane.
   uint64_t opening() const {
     const uint64_t overlay = header_.overlay_bytes > 0 ? sizeof(DrawnIndex) : 0;
     const uint64_t masks = (seen_ ? 1u : 0u) + (masked_ ? 1u : 0u) + (bridged() ? 1u : 0u);

@@ -49,7 +49,7 @@ uint64_t budgetFor(const tks_transmitter& transmitter, const ControlMessage& mes
                     transmitter.answer_bytes);
 }
 
-/// What the receiver does not hold any more need not be known.
+/// Forgets the pieces of groups that the receiver does not hold any more.
 void forgetUnheld(const tks_transmitter& transmitter, uint64_t kept, SentPieces& sent) {
   const auto& groups = transmitter.sequence.groups;
   const auto first = std::upper_bound(

@@ -14,7 +14,7 @@
 
 namespace tetrakis::inline api {
 
-/// What plans take from a group, which takes time to find.
+/// Facts of a group that plans need and that take time to find.
 struct KnownGroup {
   ParsedHeader parsed;
   std::optional<CoarseGround> ground = {};  ///< of the last frame
@@ -22,7 +22,7 @@ struct KnownGroup {
   std::map<uint32_t, double> mesh_errors = {};
 };
 
-/// What a transmitter knows of a receiver.
+/// A receiver, as a transmitter knows it.
 struct KnownReceiver {
   SentPieces sent;
   uint64_t last_turn = 0;  ///< when it was heard

@@ -24,7 +24,7 @@ Result<CodedTriangles> decodedTriangles(const tks_decoder& decoder) {
   return decodeTriangles(header);
 }
 
-/// One corner of each vertex that receivers draw: those with other texcoords are others.
+/// One corner of each vertex that receivers draw: vertices with other texcoords are others.
 std::vector<uint32_t> cornersOfVertices(const std::vector<uint32_t>& vertices) {
   std::vector<uint32_t> corners;
   for (uint32_t corner = 0; corner < vertices.size(); ++corner)

@@ -56,7 +56,7 @@ std::span<const std::array<float, 2>> pairs(const tks_triangle_mesh& mesh) {
           3 * size_t{mesh.triangle_count}};
 }
 
-/// One number of triangles, which is tried on several grids.
+/// Tries a number of triangles on several grids.
 class TriangleTrial {
  public:
   TriangleTrial(const GivenObject& given, TriangleMesh mesh)

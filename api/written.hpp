@@ -48,9 +48,9 @@ struct SurfaceMesh {
   std::vector<float> heights;
 };
 
-/// What tks_decode_mesh promises. TKS_USAGE for an unknown kind or a stream without heights, and
-/// the errors of Lattice::make.
-/// row_weights: what squared errors count in each row, where a budget decides; empty: 1.
+/// Writes the mesh that tks_decode_mesh promises. TKS_USAGE for an unknown kind or a stream without
+/// heights, and the errors of Lattice::make. row_weights: of the squared errors of each row, where
+/// a budget decides; empty: 1.
 Result<SurfaceMesh> surfaceMesh(tks_decoder& decoder, tks_mesh_kind kind, uint32_t max_triangles,
                                 std::span<const float> row_weights = {});
 

@@ -117,8 +117,8 @@ Result<Selection> codeForTarget(const EncodeInputs& inputs) {
   return meetTarget(inputs, std::move(coded->heights), std::move(coded->texture));
 }
 
-/// What comes first: beside a texture what cameras look at, of heights alone what lies on much
-/// ground. A PSNR and a largest error count all samples alike.
+/// Samples that come first: beside a texture those that cameras look at, of heights alone those
+/// that cover much ground. A PSNR and a largest error count all samples alike.
 Priorities prioritiesOf(const EncodeInputs& inputs) {
   const bool alike = inputs.options.psnr > 0 || inputs.options.max_error > 0;
   if (alike || inputs.heights == nullptr) return {};

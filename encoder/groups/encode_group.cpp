@@ -109,7 +109,7 @@ struct Group {
   std::optional<TextureFrames> texture;
 };
 
-/// What a PSNR of the heights and of the texture needs.
+/// The bytes of each component that a PSNR of the heights and of the texture needs.
 Needs needsOfPsnr(const GroupInputs& inputs, const Group& group, const Parts& parts) {
   const double psnr = inputs.options.psnr;
   Needs needs = {0, 0};

@@ -43,7 +43,7 @@ std::optional<FrameSteps> stepsLike(const GeometryHeader& before,
                                     const tks_encode_options& options);
 
 /// The steps with values for voids: between the valid samples before and after in time, or that of
-/// the only one. What is valid in no frame stays.
+/// the only one. A sample that is valid in no frame stays.
 FrameSteps filled(FrameSteps steps);
 
 }  // namespace tetrakis::inline groups

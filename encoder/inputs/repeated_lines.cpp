@@ -35,7 +35,7 @@ tks_image CodedLines::of(const tks_image& whole) const {
 
 namespace {
 
-/// One run of this number of runs may be longer than the others, and is broken. A larger number
+/// Of so many runs as this one may be longer than the others, and is broken. A larger number
 /// lets longer runs be, so that fewer lines are coded, and samples count less alike.
 constexpr size_t kLongRunIn = 20;
 /// The longest run, in mean runs, with which lines still count as repeated. A larger number saves

@@ -19,7 +19,7 @@
 
 namespace tetrakis::inline mosaic {
 
-/// What a task works on. All of it outlives this.
+/// Plan, grid, tile, source and files of a task. All of them outlive this.
 struct TaskInputs {
   const MosaicPlan& plan;
   const MosaicGrid& grid;
@@ -35,7 +35,7 @@ struct Block {
   PartMask valid;
 };
 
-/// What the target of a plan promises of every sample.
+/// Checks whether samples keep what the target of a plan promises of each.
 class Promise {
  public:
   explicit Promise(const MosaicPlan& plan)

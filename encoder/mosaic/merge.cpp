@@ -27,7 +27,7 @@ struct TrackPlace {
   PartTable::Track stated;  ///< without points
 };
 
-/// What the merge holds of all parts.
+/// The accounts of all parts, which the merge holds.
 struct Parts {
   std::vector<EncodedTrack> tracks;  ///< without codewords; those of corrections last
   std::vector<TrackPlace> places;    ///< of each track

@@ -164,7 +164,7 @@ std::vector<uint32_t> MosaicGrid::tracks(const Tile& tile) const {
   const Group& group = groups_[static_cast<size_t>(of_plane)];
   const Range columns = regionsOf(tile.column, group.columns),
               rows = regionsOf(tile.row, group.rows);
-  // Those of corrections follow those of all coefficients.
+  // Tracks of corrections follow those of all coefficients.
   const uint32_t first = isRestoring(tile) ? static_cast<uint32_t>(regions_.size()) : group.first;
   std::vector<uint32_t> tracks;
   for (uint32_t row = rows.begin; row < rows.end; ++row)

@@ -40,7 +40,7 @@ inline constexpr uint32_t kHalo = 128;
 /// and take more memory; smaller ones keep more workers busy.
 inline constexpr int kUsualTileLog2 = 12;
 
-/// What one task codes or restores: the tile in a column and a row of a group.
+/// The tile in a column and a row of a group, which one task codes or restores.
 struct Tile {
   int group = 0;
   uint32_t column = 0, row = 0;

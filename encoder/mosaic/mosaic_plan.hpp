@@ -45,7 +45,8 @@ struct MosaicPlan {
   }
 };
 
-/// What tasks read a plan from. Two plans with the same bytes make the same stream of one source.
+/// The bytes that tasks read a plan from. Two plans with the same bytes make the same stream of one
+/// source.
 std::vector<uint8_t> writePlan(const MosaicPlan& plan);
 
 /// TKS_CORRUPT: they are no plan, or damaged. TKS_UNSUPPORTED: a plan of another version.

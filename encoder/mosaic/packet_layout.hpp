@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // layOut() chooses the packets that the target of a mosaic needs, and puts them in the order of a
-// layout. What is cut off a stream costs as little as can be, or windows take few pieces: nothing
-// has both, and the mixed layout has one in its first bytes and the other behind them.
+// layout. Either cuts of the stream cost as little as they can, or windows take few pieces; no
+// order does both. The mixed layout has the first of these in its first bytes, the second behind
+// them.
 #pragma once
 
 #include <cstdint>

@@ -92,7 +92,7 @@ struct LowPart {
   PartMask marks;
 };
 
-/// What a part says ahead of its codewords.
+/// The table of a part, which stands ahead of its codewords.
 struct PartTable {
   struct Track {
     uint64_t offset = 0, bytes = 0;  ///< of its codeword in the file

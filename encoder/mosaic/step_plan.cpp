@@ -169,7 +169,7 @@ void setExactWavelet(const Fields& fields, MosaicPlan& plan) {
   setWavelet(forWindows(fields, wavelet, 0), plan);
 }
 
-/// What a byte takes off, in squared steps, where the coefficients of all fields together leave an
+/// The squared steps that a byte takes off where the coefficients of all fields together leave an
 /// error: the marginal allocation among their tracks. Where the fields say nothing it is that of
 /// noise: an error D falls by D log 4 a bit.
 double slopeAt(const Fields& fields, const WaveletHeader& wavelet, double mean_square) {

@@ -15,7 +15,8 @@
 
 namespace tetrakis::inline mosaic {
 
-/// What the caller wants: exactly one of bytes, psnr, max_error and lossless is set.
+/// The target and the sizes that the caller wants: exactly one of bytes, psnr, max_error and
+/// lossless is set.
 struct MosaicOptions {
   uint64_t bytes = 0;    ///< of the whole stream, at most
   double psnr = 0;       ///< of the samples, by their range

@@ -31,7 +31,8 @@ class LiftedBlock {
     forwardWavelet(layout_.spec(), layout_.local().pyramid(), values_, inputs.threads);
   }
 
-  /// What the track of a region of the tile is made of, as of the whole plane.
+  /// The bands and samples that the track of a region of the tile is made of, as of the whole
+  /// plane.
   TrackSource sourceOf(const Region& region) const {
     BlockLayout::Track track = layout_.trackOf(region);
     TrackSource source{std::move(track.plan), {}};
@@ -198,8 +199,8 @@ std::optional<int32_t> constantOf(const Block& block) {
   return block.values.front();
 }
 
-/// What lifting makes of a plane of one value: that value or a multiple of it, as a small plane
-/// tells, whatever lies around it.
+/// The value that lifting makes of a plane of one value: itself or a multiple of it, as a small
+/// plane tells, whatever lies around it.
 std::optional<int32_t> constantLow(const TaskInputs& inputs, int32_t value) {
   const uint32_t side = uint32_t{8} << inputs.grid.levels(inputs.tile);
   const Window window{0, 0, side, side};

@@ -14,7 +14,8 @@ namespace tetrakis::inline mosaic {
 
 namespace {
 
-/// What the mask is worth beside what follows: a little more, since that needs it.
+/// The worth of a byte of the mask over that of the coefficients that follow: a little more, since
+/// they need it.
 constexpr double kMaskSlope = 1.01;
 /// Squared steps that a byte of a mask takes off at least.
 constexpr double kLeastWorth = 1;

@@ -19,7 +19,7 @@ namespace tetrakis::inline plans {
 // can be compared and told to people; two codings of one component with equal plans differ in
 // nothing that a plan states.
 
-/// What predicts the samples that a residual restores.
+/// The predictor of the samples that a residual restores.
 enum class Predictor : uint8_t {
   kNone,
   kDecoded,     ///< the decoded base alone
@@ -28,7 +28,7 @@ enum class Predictor : uint8_t {
   kFacets       ///< planes and lines through the samples before
 };
 
-/// What follows the base.
+/// The corrections that follow the base.
 struct Residual {
   enum class Kind : uint8_t { kNone, kWithin, kExact };
 
@@ -39,7 +39,7 @@ struct Residual {
   bool operator==(const Residual&) const = default;
 };
 
-/// What lies around the base.
+/// The layers around the base.
 enum class Layer : uint8_t {
   kMask,       ///< of voids, ahead of the base
   kLateMask,   ///< of voids, within the base
@@ -82,7 +82,7 @@ enum class Verdict : uint8_t {
   kWorseInBudget    ///< what the budget holds of it shows more errors, or has no use for its end
 };
 
-/// What a coded plan came to.
+/// The bytes and the error that a coded plan came to.
 struct CodedOutcome {
   uint64_t bytes = 0;      ///< of all tracks, whether or not the target needs all of them
   uint64_t needed = 0;     ///< of these, what the target needs; of a taken plan, what is sent
@@ -117,7 +117,7 @@ struct PlanNotes {
   ComponentNotes heights, texture;
 };
 
-/// What fewestBytes() is to do with the candidates that lose. inputs: outlive the result.
+/// Notes the candidates that lose, for fewestBytes(). inputs: outlive the result.
 template <class Inputs>
 auto notingLonger(const Inputs& inputs) {
   return [&inputs](const auto& lost) { note(inputs, *lost.coded, Verdict::kLonger, lost.need); };

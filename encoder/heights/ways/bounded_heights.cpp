@@ -154,7 +154,7 @@ std::vector<Candidate<CodedHeights>> attempts(const Bound& bound, int32_t larges
   return made;
 }
 
-/// Whether the heights keep the bound. Those that do not are noted.
+/// Whether the heights keep the bound. Heights that do not keep it are noted.
 bool keepsBound(const EncodeInputs& inputs, const CodedHeights& coded) {
   const SampleErrors errors =
       sampleErrorsOf(coded, codewordsOf(coded.tracks), inputs.options.threads);
