@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What callers give of a globe: its ellipsoid, a geographic grid, and the depth of a cube.
+// The arguments of calls that concern a globe: its ellipsoid, a geographic grid, and the depth of a
+// cube.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a decoder knows of the packets of its stream ahead of their bytes: all that a front index
-// lists, or those of the index pages whose records it has (bitstream/stream/page_index.hpp).
+// The packets of its stream that a decoder knows ahead of their bytes: all that a front index
+// lists, or the packets of the index pages whose records it has (bitstream/stream/page_index.hpp).
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A view needs only some tracks of a stream: neededTracks() lists them, and headerFor() and
 // heightTracksFor() take those that are there of a stream whose bytes have gaps. giveRanges() tells
-// callers what is missing.
+// callers which ranges of bytes are missing.
 #pragma once
 
 #include <span>

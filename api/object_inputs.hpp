@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// GivenObject is a mesh that is to be coded, with all that its two encoders share. CodedObject is
-// what one of them has made of it.
+// GivenObject is a mesh that is to be coded, with all that its two encoders share: that of
+// heights over a base mesh, and that of triangles. CodedObject is the stream that one of them made.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tks_receiver holds what came of the groups of a sequence, in pieces, notes which answers of the
+// A tks_receiver holds the pieces of the groups of a sequence that came, notes which answers of the
 // transmitter came, and opens the stream of a group once a frame of it is asked for.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // meshError() tells how far the best mesh of few triangles is from the surface, and beyondError()
-// which packets of heights improve on an error that is small beside that: a renderer of so many
-// triangles does not show what they hold (thesis 1.2.5, where it has enough).
+// which packets of heights improve on an error that is small beside that: a renderer of no more
+// triangles does not show them (thesis 1.2.5, where it has enough).
 #pragma once
 
 #include <cstdint>

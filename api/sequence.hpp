@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tks_sequence holds what there is of the groups of a sequence, and the decoder of the one whose
-// frame was asked for last.
+// A tks_sequence holds the bytes of a sequence, group by group, as far as they came, and the
+// decoder of the group whose frame was asked for last.
 #pragma once
 
 #include <cstdint>

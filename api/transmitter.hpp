@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tks_transmitter holds a sequence and what each of its receivers has of it. choosePieces() of
-// an answer is in answer_plan.hpp.
+// A tks_transmitter holds a sequence, and notes which pieces of it each receiver has. An AnswerPlan
+// (answer_plan.hpp) chooses the pieces of an answer.
 #pragma once
 
 #include <cstdint>

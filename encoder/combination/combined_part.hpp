@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A CombinedPart is a stream whose components become those of a combined one: its header, its
-// packets, and what each of them takes off the error.
+// packets, and the error that each of them takes off.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // combinedStream() joins the packets of several streams in one order, behind one header. Nothing is
-// coded anew. checkKept() compares the result with what it was made of.
+// coded anew. checkKept() compares the result with the streams that it was made of.
 #pragma once
 
 #include <cstdint>

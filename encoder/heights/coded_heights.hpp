@@ -179,7 +179,7 @@ Plan planOf(const QuantisedHeights& quantised, Coding base);
 void note(const EncodeInputs& inputs, const CodedHeights& coded, Verdict verdict,
           uint64_t need = UINT64_MAX);
 
-/// Notes a plan that is not tried, because it is expected to take so many bytes. An estimate that
+/// Notes a plan that is not tried, because it is expected to take too many bytes. An estimate that
 /// is infinite, as of heights without samples, says nothing and is not noted.
 void noteExpected(const EncodeInputs& inputs, Plan plan, double bytes);
 

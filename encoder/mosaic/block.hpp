@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// readBlock() fetches a window of the plane of a group: samples of the source in steps, or what the
-// tiles of the group before have left of their low bands. A Block is a plane of its own for the
+// readBlock() fetches a window of the plane of a group: samples of the source in steps, or the low
+// bands that the tiles of the group before have left. A Block is a plane of its own for the
 // transform.
 #pragma once
 

@@ -109,7 +109,7 @@ class MosaicGrid {
     uint32_t columns = 0, rows = 0;  ///< of regions
   };
 
-  /// How many tiles stand along a side of so many regions. A remainder of less than half a tile
+  /// The number of tiles along a side of `regions` regions. A remainder of less than half a tile
   /// joins its neighbour.
   uint32_t tilesOf(uint32_t regions) const;
   /// The regions of a column or row of tiles: the first, and the one behind the last.

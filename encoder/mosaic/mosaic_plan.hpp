@@ -32,8 +32,8 @@ struct MosaicPlan {
   StreamHeader header;
   int tile_log2 = kUsualTileLog2;
   MosaicTarget target;
-  /// Coefficients are cut where a byte takes off less than so many squared steps. It is one for all
-  /// tasks, so that none has to know of the others. 0: there is no cut.
+  /// The squared steps that a byte takes off at least; coefficients are cut where it would take off
+  /// fewer. All tasks have the same, so that none has to know of the others. 0: there is no cut.
   double cut_slope = 0;
 
   const GeometryHeader& geometry() const { return *header.geometry; }

@@ -61,7 +61,8 @@ class PageOrder {
   PageGrid grid_;
 };
 
-/// How many of the first packets take so many bytes. Corrections wait for all coefficients.
+/// The number of the first packets that take the bytes of the preview. Corrections wait for all
+/// coefficients.
 size_t previewOf(std::span<const LaidPacket> packets, const PageOrder& order,
                  std::optional<uint64_t> preview) {
   uint64_t all = 0;

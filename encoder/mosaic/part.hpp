@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Part is what the task of a tile leaves for the merge: codewords with their accounts. A LowPart
-// is what it leaves for the tasks of the next group. Both are files of a mosaic, sealed by the hash
-// of the plan that they belong to and by checksums.
+// A Part holds the codewords that the task of a tile leaves for the merge, with their accounts. A
+// LowPart holds the low band that it leaves for the tasks of the next group. Both are files of a
+// mosaic, sealed by the hash of the plan that they belong to and by checksums.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // restorePlane() and codeCorrections() are the tasks behind a cut of the coefficients. The first
 // decodes the samples of a tile as decoders of the finished stream will: from the codewords of the
-// regions around it, above the low band that the group before has restored. The second codes what
-// the samples of the source differ by, region by region, as the encoder of a whole plane does
-// (encoder/heights/ways/).
+// regions around it, above the low band that the group before has restored. The second codes the
+// differences of the samples of the source from these, region by region, as the encoder of a whole
+// plane does (encoder/heights/ways/).
 #pragma once
 
 #include <vector>

@@ -52,7 +52,7 @@ Georeference georeferenceOf(const tks_heights* heights, const tks_image* image) 
   return out;
 }
 
-/// Notes the components of a stream that holds so many bytes of the packets.
+/// Notes the components of a stream that holds the first `payload_bytes` bytes of the packets.
 void noteTaken(const EncodeInputs& inputs, const Selection& taken, uint64_t payload_bytes) {
   const auto sent = payloadWithin(taken.packets, payload_bytes);
   if (taken.heights) note(inputs, *taken.heights, Verdict::kTaken, sent[0]);

@@ -44,8 +44,8 @@ bool mayBeShort(const EncodeInputs& inputs, const HeightsCandidate& lossy, uint6
   return mayTakeNoMore(inputs, *lossy.coded->quantised, room);
 }
 
-/// Whether there are such heights, in at most so many bytes. They are noted: what has room may yet
-/// turn out worse than the lossy heights.
+/// Whether there are exact heights, in at most `most` bytes. They are noted: exact heights that
+/// have room may yet turn out worse than the lossy ones.
 bool areWithin(const EncodeInputs& inputs, const HeightsCandidate& exact, uint64_t most) {
   if (!exact.coded) return false;
   const bool within = exact.bytes() <= most;

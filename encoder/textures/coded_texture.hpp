@@ -97,7 +97,7 @@ void note(const EncodeInputs& inputs, const CodedTexture& coded, Verdict verdict
 void notePassed(const EncodeInputs& inputs, const TextureSource& source,
                 const PassedTextures& passed);
 
-/// Notes that storing the samples is expected to take so many bytes, which are too many.
+/// Notes that storing the samples is expected to take `bytes` bytes, which are too many.
 void noteStoredExpected(const EncodeInputs& inputs, uint64_t bytes);
 
 }  // namespace tetrakis::inline textures

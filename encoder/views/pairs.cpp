@@ -143,9 +143,9 @@ std::vector<double> renderedErrors(const EncodeInputs& inputs, DecodedNodes& dec
 /// Bytes behind the opening of the first prefix that is looked at. A smaller number takes time for
 /// prefixes that show little.
 constexpr double kFirstNode = 64;
-/// The bytes of one prefix that is looked at over those of the one before; with meshes and forests,
-/// which take long, and without them. Ratios of 3.5 lose 0.33 dB where 2 loses 0.12; smaller ones
-/// take time.
+/// The ratio of the bytes of two prefixes that are looked at one after the other: with meshes and
+/// forests, which take long, and without them. Ratios of 3.5 lose 0.33 dB where 2 loses 0.12;
+/// smaller ones take time.
 constexpr double kSlowRatio = 4, kRatio = 2;
 /// Prefixes are looked at up to this part of the budget. Up to a third joint encoding takes 0.8 of
 /// the time, with losses within 0.03 dB; a smaller number looks at longer prefixes.

@@ -124,7 +124,7 @@ void noteRuledOut(const Bound& bound, const BoundWays& ways, int32_t largest) {
   }
 }
 
-/// The candidate, of which so many bytes were expected.
+/// The candidate, which was expected to take `bytes` bytes.
 Candidate<CodedHeights> expecting(std::optional<double> bytes,
                                   const Candidate<CodedHeights>& candidate) {
   if (!bytes) return candidate;

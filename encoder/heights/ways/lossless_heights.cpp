@@ -65,7 +65,7 @@ Plan planOf(const QuantisedHeights& quantised, const ExactCut& cut) {
   return plan;
 }
 
-/// Why one of two exact ways loses to another one of so many bytes.
+/// The reason why an exact way loses to another one, of `bytes` bytes.
 Verdict lostTo(uint64_t bytes, const CodedHeights& lost) {
   return bytesOf(lost.tracks) < bytes ? Verdict::kWorsePrefixes : Verdict::kLonger;
 }
